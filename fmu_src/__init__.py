@@ -1,0 +1,1 @@
+"""From compiled kernel to FMU: knows FMI, knows no physics."""

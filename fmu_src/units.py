@@ -1,0 +1,51 @@
+"""Units: read from text, converted, decomposed for FMI.  All by pint."""
+
+from functools import cache
+
+import pint
+
+registry = pint.UnitRegistry()
+
+# FMI's base units and pint's names for them, in the order of the FMI schema.
+FMI_BASE = {
+    "kg": "kilogram", "m": "meter", "s": "second", "A": "ampere", "K": "kelvin",
+    "mol": "mole", "cd": "candela", "rad": "radian",
+}
+
+
+class UnitError(ValueError):
+    """A unit that cannot be read or does not fit."""
+
+
+@cache
+def parse(text: str) -> pint.Unit:
+    """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
+    try:
+        unit = registry.parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
+    except Exception as problem:
+        raise UnitError(f"unit {text!r} is not known ({problem}); write it like mm, N.m, 1/Pa, rad/s, or 1") from None
+    return unit
+
+
+@cache
+def conversion(source: str, target: str) -> tuple[float, float]:
+    """(factor, offset) with target value = factor * source value + offset."""
+    try:
+        zero = registry.Quantity(0.0, parse(source)).to(parse(target)).magnitude
+        one = registry.Quantity(1.0, parse(source)).to(parse(target)).magnitude
+    except pint.DimensionalityError:
+        raise UnitError(f"unit {source!r} does not fit: a unit of the same kind as {target!r} is needed") from None
+    return one - zero, zero
+
+
+@cache
+def fmi_base_unit(text: str) -> dict[str, float]:
+    """Exponents and factor of FMI's ``BaseUnit`` element, defaults left out."""
+    base = registry.Quantity(1.0, parse(text)).to_base_units()
+    exponents = dict(base.unit_items())
+    attributes = {
+        fmi_name: int(exponents[pint_name]) for fmi_name, pint_name in FMI_BASE.items() if pint_name in exponents
+    }
+    if base.magnitude != 1.0:
+        attributes["factor"] = float(base.magnitude)
+    return attributes

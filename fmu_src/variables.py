@@ -1,0 +1,183 @@
+"""One table of variables per unit.
+
+The table is the only place where a variable is declared.  From it come the NumPy
+record that the kernels work on, the FMI model description, the documentation
+table and the headers of result files.
+
+Every field is eight bytes wide (``f8`` or ``i8``), so a record is a row of cells
+without padding, the FMI value reference is the cell's index, and the FMU state is
+one copy of the leading cells.  Roles stand in the order of ``ROLES``; scratch,
+which holds nothing between two steps, comes last and is not part of the state.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+
+class ValueFault(ValueError):
+    """A value that a variable cannot take; says which, why and what would fit."""
+
+
+ROLES = ("input", "parameter", "output", "state", "scratch")
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A scalar or array of one unit.
+
+    ``shape`` is () for a scalar; ``start`` is in ``unit`` (an FMI unit string, "1" if
+    there is none).  ``axes`` names what each index counts.  ``choices`` makes the
+    variable an enumeration: its value is an index into it.  ``source`` says where the
+    number comes from (``author, table``, ``reducer file``, ``assumed: reason``).
+    """
+
+    name: str
+    role: str
+    unit: str
+    description: str
+    start: float | int = 0.0
+    shape: tuple[int, ...] = ()
+    axes: tuple[str, ...] = ()
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    choices: tuple[str, ...] = ()
+    integer: bool = False
+    tunable: bool = False
+    source: str = ""
+
+    def __post_init__(self):
+        if self.role not in ROLES:
+            raise ValueError(f"variable {self.name}: role {self.role!r} is none of {ROLES}")
+        if len(self.axes) != len(self.shape):
+            raise ValueError(f"variable {self.name}: {len(self.shape)} dimensions but axes {self.axes}")
+
+    @property
+    def is_integer(self) -> bool:
+        return self.integer or bool(self.choices)
+
+    @property
+    def size(self) -> int:
+        return int(np.prod(self.shape, dtype=int))
+
+    @property
+    def variability(self) -> str:
+        if self.role == "parameter":
+            return "tunable" if self.tunable else "fixed"
+        return "discrete" if self.is_integer else "continuous"
+
+    def check(self, value: float, element: str | None = None) -> None:
+        """Raise ValueFault unless ``value`` (in the variable's unit) is finite and within its bounds."""
+        name, unit = element or self.name, "" if self.unit == "1" else f" {self.unit}"
+        low, high = self.minimum, self.maximum
+        if self.choices:
+            if value not in range(len(self.choices)):
+                known = ", ".join(f"{i} ({c})" for i, c in enumerate(self.choices))
+                raise ValueFault(f"{name} = {value:g} is not one of {known}")
+        elif not np.isfinite(value):
+            raise ValueFault(f"{name} = {value}{unit} is not a finite number; give a value in {self.unit}")
+        elif low is not None and value < low or high is not None and value > high:
+            lowest = "-inf" if low is None else f"{low:g}"
+            highest = "inf" if high is None else f"{high:g}"
+            raise ValueFault(f"{name} = {value:g}{unit} is out of range: it must lie in [{lowest}, {highest}]{unit}")
+
+    def element_names(self) -> Iterator[str]:
+        """Names of the scalars, FMI 2 structured names with indices from 1: ``mesh_force[1,7]``."""
+        if not self.shape:
+            yield self.name
+            return
+        for index in product(*(range(1, n + 1) for n in self.shape)):
+            yield f"{self.name}[{','.join(map(str, index))}]"
+
+
+class Table:
+    """The variables of one unit, in record order."""
+
+    def __init__(self, name: str, description: str, variables: list[Variable]):
+        self.name = name
+        self.description = description
+        order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
+        self.variables = [variables[i] for i in order]
+        self.by_name = {v.name: v for v in self.variables}
+        if len(self.by_name) != len(variables):
+            names = [v.name for v in variables]
+            raise ValueError(f"{name}: declared twice: {sorted({n for n in names if names.count(n) > 1})}")
+        self.dtype = np.dtype(
+            [(v.name, "i8" if v.is_integer else "f8", v.shape) for v in self.variables], align=True
+        )
+        self.offset = {v.name: self.dtype.fields[v.name][1] // 8 for v in self.variables}
+
+    @cached_property
+    def cell_count(self) -> int:
+        return self.dtype.itemsize // 8
+
+    @cached_property
+    def state_cells(self) -> int:
+        """Number of leading cells that make up the state (all but scratch)."""
+        return sum(v.size for v in self.variables if v.role != "scratch")
+
+    def of_role(self, *roles: str) -> list[Variable]:
+        return [v for v in self.variables if v.role in roles]
+
+    def interface(self) -> list[Variable]:
+        """The variables that an importing tool sees."""
+        return self.of_role("input", "parameter", "output")
+
+    def new_records(self) -> np.ndarray:
+        """A one-element record array holding every start value."""
+        records = np.zeros(1, self.dtype)
+        for v in self.variables:
+            records[v.name] = v.start
+        return records
+
+    def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
+        """The same table with other start values (and their sources)."""
+        changed = [
+            replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
+            for v in self.variables
+        ]
+        return Table(self.name, self.description, changed)
+
+    def cells(self, records: np.ndarray) -> np.ndarray:
+        """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
+        return records.view("f8")
+
+    def cell_range(self, name: str) -> slice:
+        """Where the elements of a variable lie among the cells, in C order."""
+        return slice(self.offset[name], self.offset[name] + self.by_name[name].size)
+
+    def cell_index(self, element: str) -> int:
+        """Cell (= FMI value reference) of ``name`` or ``name[i,j]``; KeyError if there is none."""
+        name, _, rest = element.partition("[")
+        variable = self.by_name[name]
+        if not rest:
+            if variable.shape:
+                raise KeyError(f"{name} is an array of shape {variable.shape}: give indices, {name}[1]")
+            return self.offset[name]
+        try:
+            index = tuple(int(i) - 1 for i in rest.rstrip("]").split(","))
+            return self.offset[name] + int(np.ravel_multi_index(index, variable.shape))
+        except ValueError:
+            raise KeyError(f"{element}: indices do not fit the shape {variable.shape} of {name}") from None
+
+    def element_at(self, cell: int) -> str:
+        """Name of the scalar at a cell, for messages."""
+        for v in self.variables:
+            first = self.offset[v.name]
+            if first <= cell < first + v.size:
+                return next(name for i, name in enumerate(v.element_names()) if i == cell - first)
+        raise IndexError(f"{self.name} has no cell {cell}")
+
+    def markdown(self) -> str:
+        """The documentation table of the interface."""
+        rows = ["| variable | role | unit | start | meaning | source |", "|---|---|---|---|---|---|"]
+        for v in self.interface():
+            shape = f"[{', '.join(f'{a} 1..{n}' for a, n in zip(v.axes, v.shape))}]" if v.shape else ""
+            start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
+            text = v.description + (f" ({', '.join(v.choices)})" if v.choices else "")
+            rows.append(f"| `{v.name}`{shape} | {v.role} | {v.unit} | {start} | {text} | {v.source} |")
+        return "\n".join(rows) + "\n"

@@ -1,0 +1,157 @@
+"""Reducer files: read, checked against the units' tables, turned into start values.
+
+A file has [reducer] (name, description), [topology] (counts) and any other sections
+with ``key = { value, unit, source }``.  The keys are names of variables of the plant or
+the wear unit; sections only group them.  The units' tables say what exists, in which
+unit and within which bounds, so a new parameter needs no change here.
+"""
+
+import difflib
+import tomllib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+import rv_plant
+from fmu_src.units import UnitError, conversion
+from fmu_src.variables import Table, ValueFault
+from orchestrator.faults import InputFault
+from rv_plant.variables import Topology, plant_table
+from wear_fmu.variables import Resolution, wear_table
+
+LIBRARY = Path(rv_plant.__file__).parent / "reducers"
+
+
+class Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=False)
+
+
+class Entry(Strict):
+    """One number of a reducer file."""
+
+    value: float | str
+    unit: str
+    source: str = Field(min_length=1)
+
+
+class Head(Strict):
+    name: str = Field(min_length=1)
+    description: str = ""
+
+
+class Counts(Strict):
+    discs: int = Field(ge=1, le=3)
+    cranks: int = Field(ge=2, le=3)
+    pins: int = Field(ge=4, le=400)
+    lobes: int = Field(ge=3, le=399)
+    rollers: int = Field(ge=3, le=200)
+
+
+@dataclass(frozen=True)
+class Reducer:
+    """One reducer: its topology and the numbers of its file in SI units."""
+
+    name: str
+    description: str
+    topology: Topology
+    starts: dict[str, float]
+    sources: dict[str, str]
+    path: Path
+    resolution: Resolution = Resolution()
+
+    @cached_property
+    def plant(self) -> Table:
+        return plant_table(self.topology).with_starts(self.starts, self.sources)
+
+    @cached_property
+    def wear(self) -> Table:
+        return wear_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+
+
+def available() -> list[str]:
+    """Names of the reducers that come with the software."""
+    return sorted(p.stem for p in LIBRARY.glob("*.toml"))
+
+
+def load_reducer(name_or_path: str | Path) -> Reducer:
+    """A reducer by its name in the library or by the path of its file."""
+    path = Path(name_or_path)
+    if path.suffix != ".toml":
+        path = LIBRARY / f"{name_or_path}.toml"
+    if not path.is_file():
+        raise InputFault(
+            f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
+        )
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise InputFault(f"{path}: not a TOML file: {problem}") from None
+    head = checked(Head, content.pop("reducer", None), path, "reducer")
+    counts = checked(Counts, content.pop("topology", None), path, "topology")
+    if counts.pins != counts.lobes + 1:
+        raise InputFault(
+            f"{path}: [topology] pins = {counts.pins}, lobes = {counts.lobes}: the pins do not close the ring;"
+            f" a cycloid disc needs one pin more than it has lobes: set pins = {counts.lobes + 1}"
+            f" or lobes = {counts.pins - 1}"
+        )
+    topology = Topology(**counts.model_dump())
+    starts, sources = {}, {}
+    tables = (plant_table(topology), wear_table(topology))
+    for section, entries in content.items():
+        if not isinstance(entries, dict):
+            raise InputFault(f"{path}: {section} stands outside of a section; put it below a [section]")
+        for key, raw in entries.items():
+            entry = checked(Entry, raw, path, f"{section}.{key}")
+            if key in starts:
+                raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
+            starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
+            sources[key] = entry.source
+    return Reducer(head.name, head.description, topology, starts, sources, path)
+
+
+def checked(model: type[Strict], raw, path: Path, place: str):
+    """Validate one piece of the file; the error names file, key, value and remedy."""
+    if raw is None:
+        raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
+    if not isinstance(raw, dict):
+        raise InputFault(
+            f"{path}: {place} = {raw!r} has no unit: write {place.split('.')[-1]} ="
+            ' { value = ..., unit = "...", source = "..." }'
+        )
+    try:
+        return model(**raw)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        key = ".".join(map(str, (place, *first["loc"])))
+        fields = ", ".join(model.model_fields)
+        given = "" if first["type"] == "missing" else f" = {first['input']!r}"
+        raise InputFault(f"{path}: {key}{given}: {first['msg']}; {place} takes {fields}") from None
+
+
+def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> float:
+    """The entry in the variable's unit, checked against the tables that have it."""
+    owners = [t for t in tables if key in t.by_name and t.by_name[key].role in ("parameter", "input")]
+    if not owners:
+        names = [v.name for t in tables for v in t.of_role("parameter", "input")]
+        close = difflib.get_close_matches(key, names, 1)
+        hint = f"did you mean {close[0]}?" if close else "see docs/variables.md for the names"
+        raise InputFault(f"{place} is not a parameter of plant or wear unit; {hint}")
+    variable = owners[0].by_name[key]
+    if variable.choices:
+        if entry.value not in variable.choices:
+            raise InputFault(f"{place} = {entry.value!r}: choose one of {', '.join(variable.choices)}")
+        return variable.choices.index(entry.value)
+    if isinstance(entry.value, str):
+        raise InputFault(f"{place} = {entry.value!r} is not a number; give it in {variable.unit}")
+    try:
+        factor, offset = conversion(entry.unit, variable.unit)
+        value = factor * entry.value + offset
+        for owner in owners:
+            owner.by_name[key].check(value)
+    except UnitError as problem:
+        raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
+    except ValueFault as problem:
+        raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
+    return value

@@ -1,0 +1,1 @@
+"""The reducer: geometry, contacts, equilibrium."""

@@ -1,0 +1,146 @@
+"""Static equilibrium at one input angle: a globalised Newton iteration.
+
+The potential of frictionless contacts is convex up to the small turning of the
+contact normals, so along a Newton direction its slope grows.  A step is taken when the
+slope has not become clearly positive; otherwise it is shortened by the secant rule.
+Where a bearing floats in its clearance the tangent is singular; a shift of the
+diagonal then leads to the next contact.
+"""
+
+from fmu_src.kernel import kernel
+
+from rv_plant.assembly import assemble
+from rv_plant.linear import cholesky_solve
+
+# No component may move a contact further than this in one iteration [m].
+LONGEST_STEP = 3e-5
+# Stiffness that stands for "a typical diagonal" [N/m].
+TYPICAL_STIFFNESS = 1e8
+
+
+@kernel
+def list_free_coordinates(r):
+    """Discs and carrier turning are free, supports if they are compliant."""
+    discs = r.mesh_force.shape[0]
+    n = 0
+    for i in range(r.z.shape[0]):
+        r.is_free[i] = 1 if i <= 3 * discs or r.compliance[i] > 0.0 else 0
+        if r.is_free[i]:
+            r.free[n] = i
+            n += 1
+    r.free_count = n
+
+
+@kernel
+def is_turning(r, i):
+    """Whether coordinate i is an angle (it is weighed with the pin circle radius)."""
+    discs = r.mesh_force.shape[0]
+    if i < 3 * discs:
+        return i % 3 == 2
+    if i == 3 * discs or i == r.z.shape[0] - 1:
+        return True
+    return i >= 3 * discs + 3 and (i - 3 * discs - 3) % 3 == 2
+
+
+@kernel
+def relative_residual(r, load_torque):
+    """Largest out-of-balance force or moment over the load (at least 1 N of force)."""
+    lever = r.pin_circle_radius
+    worst = 0.0
+    for a in range(r.free_count):
+        i = r.free[a]
+        force = abs(r.residual_vector[i])
+        if is_turning(r, i):
+            force /= lever
+        # A NaN must not look like a small residual.
+        if not force <= worst:
+            worst = force
+    return worst / max(1.0, abs(load_torque) / lever)
+
+
+@kernel
+def newton_direction(r):
+    """Fill r.direction with -tangent^-1 residual, limited in length; False if impossible."""
+    n = r.free_count
+    lever = r.pin_circle_radius
+    shift = 0.0
+    for attempt in range(12):
+        for a in range(n):
+            i = r.free[a]
+            r.direction[a] = -r.residual_vector[i]
+            r.factor_scale[a] = TYPICAL_STIFFNESS * (lever * lever if is_turning(r, i) else 1.0)
+            for b in range(a, n):
+                r.factor[a, b] = r.tangent[i, r.free[b]]
+        if cholesky_solve(r.factor, r.direction, r.factor_scale, n, shift):
+            break
+        shift = 1e-9 if attempt == 0 else shift * 10.0
+    else:
+        return False
+    longest = 0.0
+    for a in range(n):
+        move = abs(r.direction[a]) * (lever if is_turning(r, r.free[a]) else 1.0)
+        if not move <= longest:
+            longest = move
+    if longest > LONGEST_STEP:
+        for a in range(n):
+            r.direction[a] *= LONGEST_STEP / longest
+    return longest < 1e30
+
+
+@kernel
+def slope_along(r):
+    s = 0.0
+    for a in range(r.free_count):
+        s += r.direction[a] * r.residual_vector[r.free[a]]
+    return s
+
+
+@kernel
+def newton(r, ideal_output, cage_angle, load_torque):
+    """Iterate r.z to equilibrium from where it stands; True if the residual is met."""
+    assemble(r, ideal_output, cage_angle, load_torque)
+    r.residual = relative_residual(r, load_torque)
+    for _ in range(r.max_iterations):
+        if r.residual <= r.tolerance:
+            return True
+        if not newton_direction(r):
+            return False
+        slope = slope_along(r)
+        taken = 0.0
+        step = 1.0
+        for _ in range(12):
+            for a in range(r.free_count):
+                r.z[r.free[a]] += (step - taken) * r.direction[a]
+            taken = step
+            assemble(r, ideal_output, cage_angle, load_torque)
+            r.iterations += 1
+            new_slope = slope_along(r)
+            if new_slope <= 0.5 * abs(slope):
+                break
+            step *= abs(slope) / (abs(slope) + new_slope)
+        r.residual = relative_residual(r, load_torque)
+    return r.residual <= r.tolerance
+
+
+@kernel
+def equilibrium(r, ideal_output, cage_angle, load_torque):
+    """Equilibrium at an input angle, given as the output angle [rad] of ideal kinematics.
+
+    Starts at r.z (the last solution, or its extrapolation).  If that fails, starts anew
+    from no load in growing steps.  Fills z, contact forces, ``residual`` and
+    ``iterations``; False if no equilibrium was found.
+    """
+    r.iterations = 0
+    if newton(r, ideal_output, cage_angle, load_torque):
+        return True
+    for steps in (4, 16, 64):
+        for i in range(r.z.shape[0]):
+            r.z[i] = 0.0
+        reached = True
+        for s in range(steps):
+            if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps):
+                reached = False
+                break
+        if reached:
+            return True
+    return False

@@ -1,0 +1,55 @@
+"""First stage: the sun drives one planet on each crank.
+
+With the ratio i1 = z2/z1 and the planets fixed to the cranks, rolling without play gives
+
+    theta_crank = theta_carrier (1 + 1/i1) - theta_sun / i1
+
+and, against the fixed pin ring, theta_sun = (1 + i1 z_p) theta_carrier: the whole
+reducer's ratio (121 for i1 = 3, z_p = 40).  The tooth force f_t on a planet, at the
+planet's pitch radius r2 = a0 i1/(1 + i1), holds the crank against its rollers' moment
+M: f_t = M/r2.  It also pushes the planet's centre, forwards and outwards: that is why
+the pins carry T (1 - 1/i) and not T (40/39), as they would if pure couples turned the cranks.
+
+A reducer without this stage has i1 = 0: its cranks are turned directly.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+
+@kernel
+def total_ratio(first_stage_ratio, pins, lobes):
+    """Input turns per output turn: sun, or crank if there is no first stage."""
+    if first_stage_ratio == 0.0:
+        return -float(lobes)
+    return 1.0 + first_stage_ratio * pins
+
+
+@kernel
+def crank_turn_per_carrier_turn(first_stage_ratio):
+    """d theta_crank / d theta_carrier with the input held."""
+    if first_stage_ratio == 0.0:
+        return 0.0
+    return 1.0 + 1.0 / first_stage_ratio
+
+
+@kernel
+def planet_radius(crank_circle_radius, first_stage_ratio):
+    """Pitch radius of the planet r2 [m]."""
+    return crank_circle_radius * first_stage_ratio / (1.0 + first_stage_ratio)
+
+
+@kernel
+def crank_turn_per_shift(direction, crank_circle_radius, first_stage_ratio, pressure_angle, side):
+    """d theta_crank / d (x, y) of the crank's centre [1/m], tooth flanks staying in touch.
+
+    ``direction`` is the angle of the crank's centre seen from the sun, ``side`` +1 or
+    -1 for the flank in contact.  The same vector times r2 is the tooth force per f_t.
+    """
+    if first_stage_ratio == 0.0:
+        return 0.0, 0.0
+    radius = planet_radius(crank_circle_radius, first_stage_ratio)
+    c, s = math.cos(direction), math.sin(direction)
+    outward = side * math.tan(pressure_angle)
+    return (-s + outward * c) / radius, (c + outward * s) / radius

@@ -1,0 +1,219 @@
+"""The plant as a unit: initialise it, step it through time.
+
+Quasi-static: the input turns, and at each angle every part is in equilibrium.  All
+entry points take a one-element record array of ``plant_table`` and return a status
+code, 0 or a key of ``FAULTS``.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+from rv_plant.contact import hertz_peak_pressure, law_constants
+from rv_plant.equilibrium import equilibrium, list_free_coordinates
+from rv_plant.gear_stage import crank_turn_per_carrier_turn, planet_radius, total_ratio
+from rv_plant.geometry import centre_curve_curvature
+from rv_plant.needle_bearing import cage_rate
+
+NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
+FAULTS = {
+    NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
+    " {residual:.3g} of the load after {iterations} iterations."
+    " Lower the load, or check clearances and profile errors (they are in m, not um)",
+    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
+    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m plus equidistant_modification exceeds the"
+    " smallest convex radius of the centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
+    PINS_OVERLAP: "neighbouring pins overlap: pin_radius {pin_radius:.6g} m is too large for"
+    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce pin_radius or the number of pins",
+    ROLLERS_OVERLAP: "neighbouring rollers overlap: roller_radius {roller_radius:.6g} m is too large for the number of"
+    " rollers between the races. Reduce roller_radius or the number of rollers",
+    RING_OPEN: "the pins do not close the ring: a cycloid disc needs one pin more than it has lobes."
+    " Correct pins or lobes in [topology]",
+    RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
+    " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
+    " the clearance is bearing_clearance",
+}
+
+
+@kernel
+def geometry_fault(r):
+    """0, or the fault that makes this geometry impossible."""
+    pins, lobes, rollers = r.pin_x.shape[0], r.root_cos.shape[0], r.roller_force.shape[2]
+    if pins != lobes + 1:
+        return RING_OPEN
+    if not r.pin_radius < r.pin_circle_radius * math.sin(math.pi / pins):
+        return PINS_OVERLAP
+    fit = r.outer_race_radius - r.inner_race_radius - 2.0 * r.roller_radius
+    if not abs(fit) < 1e-4:
+        return RACES_DO_NOT_FIT
+    if not r.roller_radius < (r.inner_race_radius + r.roller_radius) * math.sin(math.pi / rollers):
+        return ROLLERS_OVERLAP
+    circle = r.pin_circle_radius + r.shift_modification
+    k1 = r.eccentricity * pins / circle
+    if not k1 < 1.0:
+        return PRIMED
+    radius = r.pin_radius + r.equidistant_modification
+    for i in range(721):
+        if not radius * centre_curve_curvature(math.pi * i / 720.0, lobes, circle, k1) < 1.0:
+            return UNDERCUT
+    return 0
+
+
+@kernel
+def prepare(r):
+    """Everything that follows from the parameters alone."""
+    discs, cranks = r.roller_force.shape[:2]
+    for j in range(r.pin_x.shape[0]):
+        angle = 2.0 * math.pi * j / r.pin_x.shape[0]
+        radial = r.pin_circle_radius + r.pin_position_error_radial[j]
+        tangential = r.pin_position_error_tangential[j]
+        r.pin_angle[j] = angle
+        r.pin_x[j] = radial * math.cos(angle) - tangential * math.sin(angle)
+        r.pin_y[j] = radial * math.sin(angle) + tangential * math.cos(angle)
+    for root in range(r.root_cos.shape[0]):
+        angle = 2.0 * math.pi * root / r.root_cos.shape[0]
+        r.root_cos[root] = math.cos(angle)
+        r.root_sin[root] = math.sin(angle)
+    r.mesh_constant, r.mesh_exponent = law_constants(
+        r.contact_law, r.stiffness_reading, r.mesh_stiffness, r.mesh_stiffness_lankarani,
+        r.exponent_lankarani, r.mesh_width,
+    )
+    r.roller_constant, r.roller_exponent = law_constants(
+        r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
+        r.exponent_lankarani, r.roller_length,
+    )
+    carrier = 3 * discs
+    r.compliance[carrier + 1] = r.compliance[carrier + 2] = r.main_bearing_compliance
+    for c in range(cranks):
+        crank = carrier + 3 + 3 * c
+        r.compliance[crank] = r.compliance[crank + 1] = r.crank_support_compliance
+        # A tooth contact of compliance c along its normal turns the crank by c M/(r2 cos alpha)^2.
+        lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * math.cos(r.pressure_angle)
+        r.compliance[crank + 2] = r.first_stage_compliance / (lever * lever) if lever > 0.0 else 0.0
+    r.compliance[r.z.shape[0] - 1] = r.housing_compliance
+    list_free_coordinates(r)
+
+
+@kernel
+def publish(r, output_speed):
+    """Outputs that follow from the present equilibrium; ``output_speed`` is the ideal one."""
+    discs, cranks = r.roller_force.shape[:2]
+    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    ratio = total_ratio(r.first_stage_ratio, pins, lobes)
+    carrier = 3 * discs
+    turning = r.z[carrier]
+    crank_turning = crank_turn_per_carrier_turn(r.first_stage_ratio) * turning
+    moment = 0.0
+    for c in range(cranks):
+        crank_turning += r.z[carrier + 3 + 3 * c + 2] / cranks
+        moment += r.crank_moment[c]
+        lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio)
+        r.tooth_force[c] = r.crank_moment[c] / lever if lever > 0.0 else 0.0
+    r.input_angle = ratio * r.ideal_output
+    r.crank_angle = -lobes * r.ideal_output + crank_turning
+    r.crank_speed = -lobes * output_speed
+    r.cage_angle = r.cage
+    twist = r.carrier_compliance * r.load_torque
+    r.output_angle = r.ideal_output + turning - twist
+    r.output_speed = output_speed
+    r.transmission_error = turning - twist
+    r.lag = -crank_turning / lobes - turning + twist
+    r.input_torque = moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment
+    r.reaction_torque = r.load_torque - r.input_torque
+    r.reducer_temperature = r.temperature
+
+    circle = r.pin_circle_radius + r.shift_modification
+    radius = r.pin_radius + r.equidistant_modification
+    modulus = 0.5 * r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
+    worst = 0.0
+    for d in range(discs):
+        for j in range(pins):
+            force = r.mesh_force_now[d, j]
+            if force > 0.0:
+                centre = r.centre_curvature[d, j]
+                curvature = 1.0 / r.pin_radius + centre / (1.0 - radius * centre)
+                worst = max(worst, hertz_peak_pressure(force / r.mesh_width, curvature, modulus))
+    r.contact_pressure = worst
+
+
+@kernel
+def extrapolate(r, advance):
+    """Start of the next equilibrium: z continued along a straight line through the last two."""
+    share = 0.0
+    # Only across similar steps; a straight line through far points leads astray.
+    if r.advance_before != 0.0 and 0.2 < advance / r.advance_before < 5.0:
+        share = advance / r.advance_before
+    for i in range(r.z.shape[0]):
+        now = r.z[i]
+        r.z[i] = now + share * (now - r.z_before[i])
+        r.z_before[i] = now
+    r.advance_before = advance
+
+
+@kernel
+def solve(r):
+    """Equilibrium at the present input angle.
+
+    Everything repeats with the output's turn, so the angle is taken within one turn:
+    rounding of a large angle would move parts against each other.
+    """
+    turn = 2.0 * math.pi
+    angle = r.ideal_output - turn * math.floor(r.ideal_output / turn + 0.5)
+    return equilibrium(r, angle, r.cage - turn * math.floor(r.cage / turn), r.load_torque)
+
+
+@kernel
+def initialise(records):
+    """Check the parameters, find the first equilibrium, publish the outputs."""
+    r = records[0]
+    fault = geometry_fault(r)
+    if fault != 0:
+        return fault
+    prepare(r)
+    if not solve(r):
+        return NO_EQUILIBRIUM
+    copy_means(r, 0.0, 1.0)
+    ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.root_cos.shape[0])
+    publish(r, r.input_speed / ratio)
+    return 0
+
+
+@kernel
+def copy_means(r, keep, weight):
+    """mean = keep mean + weight now, for all contact forces."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            r.mesh_force[d, j] = keep * r.mesh_force[d, j] + weight * r.mesh_force_now[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_force[d, c, k] = keep * r.roller_force[d, c, k] + weight * r.roller_force_now[d, c, k]
+
+
+@kernel
+def step(records, time, duration):
+    """Turn the input by input_speed times duration [s] through one or more equilibria.
+
+    The contact forces' means over the step are trapezoidal: second order in the angle.
+    """
+    r = records[0]
+    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
+    cage_speed = cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
+    crank_advance = abs(lobes * output_speed * duration)
+    n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
+    output_before, cage_before = r.ideal_output, r.cage
+    copy_means(r, 0.0, 0.5 / n)
+    for i in range(n):
+        share = (i + 1.0) / n
+        r.ideal_output = output_before + share * output_speed * duration
+        r.cage = cage_before + share * cage_speed * duration
+        extrapolate(r, output_speed * duration / n)
+        if not solve(r):
+            r.input_angle = total_ratio(r.first_stage_ratio, pins, lobes) * r.ideal_output
+            return NO_EQUILIBRIUM
+        copy_means(r, 1.0, 1.0 / n if i < n - 1 else 0.5 / n)
+    r.substeps = n
+    publish(r, output_speed)
+    return 0

@@ -1,0 +1,195 @@
+"""Every variable of the plant, declared once."""
+
+import math
+from dataclasses import dataclass
+
+from fmu_src.variables import Table, Variable
+
+from rv_plant.assembly import coordinate_count
+from rv_plant.contact import LAWS, READINGS
+
+FILE = "reducer file"
+
+
+@dataclass(frozen=True)
+class Topology:
+    """The counts that fix the sizes of a unit's arrays."""
+
+    discs: int
+    cranks: int
+    pins: int
+    lobes: int
+    rollers: int
+
+
+def plant_table(topology: Topology) -> Table:
+    """The plant's variables for one topology; numbers of a real reducer come from its file."""
+    t = topology
+    mesh, bearing = (t.discs, t.pins), (t.discs, t.cranks)
+    roller = (*bearing, t.rollers)
+    mesh_axes, bearing_axes, roller_axes = ("disc", "pin"), ("disc", "crank"), ("disc", "crank", "roller")
+    z = coordinate_count.py_func(t.discs, t.cranks) if hasattr(coordinate_count, "py_func") else coordinate_count(
+        t.discs, t.cranks)
+
+    inputs = [
+        Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
+                 1.0, source=FILE),
+        Variable("load_torque", "input", "N.m", "torque on the carrier, positive against positive rotation",
+                 0.0, nominal=100.0, source=FILE),
+        Variable("temperature", "input", "K", "temperature of the reducer's surroundings", 293.15,
+                 minimum=200.0, maximum=500.0, nominal=300.0, source="assumed: room temperature"),
+        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their present contact",
+                 shape=mesh, axes=mesh_axes, nominal=1e-6),
+        Variable("roller_profile_error", "input", "m", "what both raceways lack at a roller",
+                 shape=roller, axes=roller_axes, nominal=1e-6),
+    ]
+
+    def length(name, text, minimum=None, start=0.0, **more):
+        return Variable(name, "parameter", "m", text, start, minimum=minimum, nominal=1e-3,
+                        source=more.pop("source", FILE), **more)
+
+    def deviation(name, text, shape, axes, source="ideal part"):
+        return Variable(name, "parameter", "m", text, 0.0, shape, axes, minimum=-1e-3, maximum=1e-3,
+                        nominal=1e-6, source=source)
+
+    def compliance(name, unit, text):
+        return Variable(name, "parameter", unit, text + " (0 is rigid)", 0.0, minimum=0.0,
+                        source="assumed: rigid, as in both sources")
+
+    parameters = [
+        length("pin_radius", "radius of the pins", 1e-5, 2e-3),
+        length("pin_circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
+        length("eccentricity", "throw of the cranks", 1e-6, 0.9e-3),
+        length("mesh_width", "width of one disc", 1e-5, 8.82e-3),
+        length("equidistant_modification", "added to the pin radius when the disc is generated (positive: gap)",
+               -1e-3, maximum=1e-3),
+        length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
+               -1e-3, maximum=1e-3),
+        Variable("angle_modification", "parameter", "rad", "turning of both flanks into the tooth (positive: gap)",
+                 0.0, minimum=-1e-2, maximum=1e-2, source=FILE),
+        length("crank_circle_radius", "radius of the circle of the cranks' centres", 1e-4, 28e-3),
+        length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
+        length("outer_race_radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
+        length("roller_radius", "radius of the needle rollers", 1e-5, 1.5e-3),
+        length("roller_length", "length of the needle rollers", 1e-5, 8e-3),
+        length("bearing_clearance", "radial clearance of the needle bearings (half the diametral one)", -1e-4,
+               maximum=1e-3),
+        Variable("first_stage_ratio", "parameter", "1", "teeth of planet over teeth of sun (0: no first stage)",
+                 3.0, minimum=0.0, maximum=100.0, source=FILE),
+        Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
+                 minimum=0.0, maximum=0.7, source="assumed: standard gearing"),
+        Variable("elastic_modulus", "parameter", "Pa", "Young's modulus of all parts", 207e9, minimum=1e6,
+                 nominal=1e11, source=FILE),
+        Variable("poisson_ratio", "parameter", "1", "Poisson's ratio of all parts", 0.3, minimum=0.0, maximum=0.5,
+                 source=FILE),
+        Variable("contact_law", "parameter", "1", "law of force against penetration", 0, choices=LAWS,
+                 source="both sources"),
+        Variable("stiffness_reading", "parameter", "1",
+                 "force at 1 mm, or the same digits in N/m as force at 1 m per thousand", 0, choices=READINGS,
+                 source="assumed: Palmgren's constant for the printed length gives the SI reading"),
+        Variable("mesh_stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
+                 3.2e5, minimum=1.0, nominal=1e5, source=FILE),
+        Variable("roller_stiffness", "parameter", "N",
+                 "force of a roller between both races at 1 mm of approach, exponent 10/9", 5.1e5, minimum=1.0,
+                 nominal=1e5, source=FILE),
+        Variable("mesh_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 3.2e6,
+                 minimum=1.0, nominal=1e6, source=FILE),
+        Variable("roller_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 5.1e6,
+                 minimum=1.0, nominal=1e6, source=FILE),
+        Variable("exponent_lankarani", "parameter", "1", "exponent of the Lankarani-Nikravesh law", 1.5, minimum=1.0,
+                 maximum=2.0, source="BX-40E document"),
+        deviation("pin_position_error_radial", "pin centre outwards", (t.pins,), ("pin",)),
+        deviation("pin_position_error_tangential", "pin centre along the circle", (t.pins,), ("pin",)),
+        deviation("pin_radius_error", "pin radius above nominal", (t.pins,), ("pin",)),
+        deviation("lobe_profile_error", "material missing on a lobe", (t.discs, t.lobes), ("disc", "lobe")),
+        deviation("lobe_pitch_error", "lobe displaced along the pitch", (t.discs, t.lobes), ("disc", "lobe")),
+        deviation("crank_eccentricity_error", "throw of a crank's lobe above nominal", bearing, bearing_axes),
+        Variable("crank_phase_error", "parameter", "rad", "turning of a crank's lobe against nominal", 0.0, bearing,
+                 bearing_axes, minimum=-0.1, maximum=0.1, source="ideal part"),
+        deviation("disc_hole_error_radial", "hole in the disc outwards", bearing, bearing_axes),
+        deviation("disc_hole_error_tangential", "hole in the disc along its circle", bearing, bearing_axes),
+        deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", (t.cranks,), ("crank",)),
+        deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", (t.cranks,),
+                  ("crank",)),
+        compliance("crank_support_compliance", "m/N", "bearings of one crank in the carrier"),
+        compliance("main_bearing_compliance", "m/N", "bearings of the carrier in the housing"),
+        compliance("first_stage_compliance", "m/N", "one tooth contact of sun and planet, along its normal"),
+        compliance("housing_compliance", "rad/(N.m)", "turning of the pin ring under its torque"),
+        compliance("carrier_compliance", "rad/(N.m)", "twist between crank seats and output flange"),
+        Variable("largest_crank_step", "parameter", "rad", "a communication step is divided so that no crank"
+                 " turns further between two equilibria", math.radians(5.0), minimum=1e-6, maximum=1.0,
+                 source="assumed: 72 positions a turn"),
+        Variable("tolerance", "parameter", "1", "out-of-balance force over load", 1e-9, minimum=1e-12,
+                 maximum=1e-3, source="assumed: far below every other error"),
+        Variable("max_iterations", "parameter", "1", "Newton iterations before an angle counts as failed", 60,
+                 integer=True, minimum=1, maximum=1000, source="assumed"),
+    ]
+
+    def output(name, unit, text, shape=(), axes=(), **more):
+        return Variable(name, "output", unit, text, 0.0, shape, axes, **more)
+
+    outputs = [
+        output("input_angle", "rad", "angle of the sun"),
+        output("crank_angle", "rad", "angle of the cranks in the housing (mean of all cranks)"),
+        output("crank_speed", "rad/s", "speed of the cranks in the housing"),
+        output("cage_angle", "rad", "angle of the roller cages against the discs"),
+        output("output_angle", "rad", "angle of the output flange"),
+        output("output_speed", "rad/s", "speed of the output flange"),
+        output("input_torque", "N.m", "torque that holds the input"),
+        output("reaction_torque", "N.m", "torque of the pin ring on the housing"),
+        output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4),
+        output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
+               nominal=1e-4),
+        output("loaded_teeth", "1", "pins that a disc touches", (t.discs,), ("disc",), nominal=10.0),
+        output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9),
+        output("mesh_force", "N", "force between disc and pin, mean over the communication step", mesh, mesh_axes,
+               nominal=100.0),
+        output("roller_force", "N", "force on a roller, mean over the communication step", roller, roller_axes,
+               nominal=100.0),
+        output("tooth_force", "N", "tangential force of the sun on a planet", (t.cranks,), ("crank",),
+               nominal=100.0),
+        output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
+        output("residual", "1", "out-of-balance force over load at the last equilibrium"),
+        output("iterations", "1", "equilibrium iterations of the last angle", integer=True),
+        output("substeps", "1", "equilibria in the last communication step", integer=True),
+    ]
+
+    def state(name, unit, text, shape=(), axes=(), **more):
+        return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
+
+    states = [
+        state("ideal_output", "rad", "output angle of ideal kinematics"),
+        state("cage", "rad", "angle of the cages"),
+        state("z", "1", "departures from ideal kinematics, see assembly", (z,), ("coordinate",)),
+        state("z_before", "1", "z one equilibrium earlier", (z,), ("coordinate",)),
+        state("advance_before", "rad", "turning of the ideal output between z_before and z"),
+        state("phase_shift", "rad", "contact phase less the ideal one", mesh, mesh_axes),
+        state("mesh_force_now", "N", "force of the last equilibrium", mesh, mesh_axes),
+        state("roller_force_now", "N", "force of the last equilibrium", roller, roller_axes),
+        state("compliance", "1", "compliance of each coordinate of z", (z,), ("coordinate",)),
+        state("is_free", "1", "whether the coordinate is an unknown", (z,), ("coordinate",), integer=True),
+        state("free", "1", "the unknown coordinates", (z,), ("unknown",), integer=True),
+        state("free_count", "1", "number of unknowns", integer=True),
+        state("mesh_constant", "1", "K of disc and pin in N/m^n"),
+        state("mesh_exponent", "1", "n of disc and pin"),
+        state("roller_constant", "1", "K of a roller in N/m^n"),
+        state("roller_exponent", "1", "n of a roller"),
+        state("pin_angle", "rad", "nominal direction of a pin", (t.pins,), ("pin",)),
+        state("pin_x", "m", "centre of a pin", (t.pins,), ("pin",)),
+        state("pin_y", "m", "centre of a pin", (t.pins,), ("pin",)),
+        state("root_cos", "1", "direction of a root", (t.lobes,), ("lobe",)),
+        state("root_sin", "1", "direction of a root", (t.lobes,), ("lobe",)),
+    ]
+
+    def scratch(name, shape=(), **more):
+        return Variable(name, "scratch", "1", "", 0.0, shape, ("",) * len(shape), **more)
+
+    work = [
+        scratch("residual_vector", (z,)), scratch("tangent", (z, z)), scratch("factor", (z, z)),
+        scratch("factor_scale", (z,)), scratch("direction", (z,)),
+        scratch("mesh_phase", mesh), scratch("centre_curvature", mesh),
+        scratch("crank_force", (t.cranks, 2)), scratch("crank_moment", (t.cranks,)),
+        scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 3)),
+    ]
+    return Table("RvPlant", "RV reducer: quasi-static equilibrium of discs, pins, needle bearings and cranks",
+                 inputs + parameters + outputs + states + work)

@@ -1,0 +1,1 @@
+"""The wear accumulator: laws, surfaces, and the unit that drives them."""

@@ -1,0 +1,264 @@
+"""The wear unit: initialise it, step it through time.
+
+In a step each contact moves from its old to its new place under its mean force and
+takes off material between them.  All entry points take a one-element record array of
+``wear_table`` and return a status code, 0 or a key of ``FAULTS``.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+from wear_fmu.kinematics import (
+    PRINTED,
+    equivalent_curvature,
+    flank_arc_per_phase,
+    pin_contact_angle,
+    printed_sliding_per_crank_angle,
+    sliding_per_crank_angle,
+)
+from wear_fmu.surfaces import (
+    add_flank_pass,
+    add_footprint,
+    add_pass,
+    interpolate_closed,
+    interpolate_open,
+)
+from wear_fmu.wear_laws import run_in_factor, wear_coefficient
+
+TURN, STAND = 0, 1
+
+PRIMED, UNDERCUT, LONG_STEP = range(1, 4)
+FAULTS = {
+    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
+    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
+    " centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
+    LONG_STEP: "the cranks moved from {crank_angle_before:.6g} to {crank_angle:.6g} rad in one communication step,"
+    " more than half a turn: the wear cannot be placed. Use a shorter communication step",
+}
+
+
+@kernel
+def shortening(r):
+    return r.eccentricity * r.mesh_force.shape[1] / r.pin_circle_radius
+
+
+@kernel
+def prepare(r):
+    """Tables of one lobe: sliding length and arc of each bin, by Simpson's rule."""
+    bins, lobes = r.arc.shape[0], r.mesh_force.shape[1] - 1
+    k1 = shortening(r)
+    width = 2.0 * math.pi / bins
+    total = 0.0
+    for i in range(bins):
+        r.slide[i] = r.arc[i] = 0.0
+        for part in range(3):
+            phi = (i + 0.5 * part) * width
+            weight = width * (4.0 if part == 1 else 1.0) / 6.0
+            if r.sliding_form == PRINTED:
+                slide = printed_sliding_per_crank_angle(phi, lobes, r.eccentricity, k1)
+            else:
+                slide = sliding_per_crank_angle(phi, lobes, r.pin_circle_radius, r.pin_radius, k1)
+            r.slide[i] += weight * slide
+            r.arc[i] += weight * flank_arc_per_phase(phi, lobes, r.pin_circle_radius, r.pin_radius, k1)
+        r.slide_before[i] = total
+        total += r.slide[i]
+
+
+@kernel
+def geometry_fault(r):
+    """0, or the fault that makes this geometry impossible."""
+    lobes, k1 = r.mesh_force.shape[1] - 1, shortening(r)
+    if not k1 < 1.0:
+        return PRIMED
+    for i in range(721):
+        if not equivalent_curvature(math.pi * i / 720.0, lobes, r.pin_circle_radius, r.pin_radius, k1) > 0.0:
+            return UNDERCUT
+    return 0
+
+
+@kernel
+def initialise(records):
+    """Check the parameters; new surfaces."""
+    r = records[0]
+    fault = geometry_fault(r)
+    if fault != 0:
+        return fault
+    prepare(r)
+    r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
+    return 0
+
+
+@kernel
+def flank_position(r, d, j, crank_angle):
+    """Place of pin j on the circumference of disc d, in bins; whole lobes apart it is the phase.
+
+    The phase is that of the disc's eccentric direction against the pin: 0 at the root.
+    """
+    pins = r.mesh_force.shape[1]
+    lobes = pins - 1
+    eccentric = crank_angle + 2.0 * math.pi * d / r.mesh_force.shape[0]
+    return (lobes * j / pins + eccentric / (2.0 * math.pi)) * r.arc.shape[0]
+
+
+@kernel
+def pin_position(r, phase_position):
+    """Place of a contact on a standing pin, in bins, from its place on the flank."""
+    bins, k1 = r.pin_wear.shape[2], shortening(r)
+    angle = pin_contact_angle(2.0 * math.pi * phase_position / r.arc.shape[0], k1)
+    return (angle / math.pi + 0.5) * bins
+
+
+@kernel
+def first_roller(r, d, c, crank_angle, output_angle, cage_angle):
+    """Angles of roller 1 on the inner and on the outer raceway [rad]."""
+    discs, cranks = r.inner_race_depth.shape
+    position = 2.0 * math.pi * c / cranks
+    eccentric = crank_angle + 2.0 * math.pi * d / discs
+    return output_angle + position + cage_angle - eccentric, cage_angle
+
+
+@kernel
+def wear_meshes(r, modulus, viscosity, run_in):
+    """Flanks and pins."""
+    discs, pins = r.mesh_force.shape
+    lobes = pins - 1
+    bins = r.arc.shape[0]
+    k1 = shortening(r)
+    contact_modulus = 0.5 * modulus
+    for d in range(discs):
+        for j in range(pins):
+            force = r.mesh_force[d, j]
+            if force <= 0.0:
+                continue
+            start, end = flank_position(r, d, j, r.crank_angle_before), flank_position(r, d, j, r.crank_angle)
+            line_load = force / r.mesh_width
+            curvature = equivalent_curvature(
+                math.pi * (start + end) / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
+            )
+            k = wear_coefficient(
+                r.mesh_wear_law, r.mesh_wear_coefficient, r.hardness, run_in, r.load_exponent,
+                r.reference_line_load, r.roughness, viscosity, modulus, line_load, 1.0 / curvature,
+            )
+            amount = r.acceleration * k * line_load
+            deepest, place, worn = add_flank_pass(
+                r.disc_wear[d], start, end, amount, r.slide, r.slide_before, r.arc
+            )
+            r.flank_volume += worn * r.mesh_width
+            if deepest > r.flank_depth[d]:
+                r.flank_depth[d] = deepest
+                r.flank_lobe[d] = place // bins + 1
+                r.flank_phase[d] = 2.0 * math.pi * (place % bins + 0.5) / bins
+            # The pin loses the same area, all round or where it is touched.
+            r.pin_volume += worn * r.mesh_width
+            if r.pins == TURN:
+                r.pin_even_wear[d, j] += worn / (2.0 * math.pi * r.pin_radius)
+                r.pin_depth[d, j] = r.pin_even_wear[d, j]
+            else:
+                pin_bins = r.pin_wear.shape[2]
+                bin_arc = math.pi * r.pin_radius / pin_bins
+                half_width = math.sqrt(4.0 * line_load / (math.pi * curvature * contact_modulus))
+                deepest, place = add_footprint(
+                    r.pin_wear[d, j], pin_position(r, start), pin_position(r, end), half_width / bin_arc,
+                    worn / bin_arc,
+                )
+                r.pin_depth[d, j] = max(r.pin_depth[d, j], deepest)
+
+
+@kernel
+def wear_raceways(r, modulus, viscosity, run_in):
+    """Cranks' lobes and holes of the discs: depth k q xi per pass of a roller."""
+    discs, cranks, rollers = r.roller_force.shape
+    bins = r.inner_race_wear.shape[2]
+    bin_angle = 2.0 * math.pi / bins
+    inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
+    outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)
+    for d in range(discs):
+        for c in range(cranks):
+            inner_start, outer_start = first_roller(
+                r, d, c, r.crank_angle_before, r.output_angle_before, r.cage_angle_before
+            )
+            inner_end, outer_end = first_roller(r, d, c, r.crank_angle, r.output_angle, r.cage_angle)
+            for i in range(rollers):
+                force = r.roller_force[d, c, i]
+                if force <= 0.0:
+                    continue
+                line_load = force / r.roller_length
+                ahead = 2.0 * math.pi * i / rollers
+                k_inner = wear_coefficient(
+                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
+                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, inner_radius,
+                )
+                k_outer = wear_coefficient(
+                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
+                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, outer_radius,
+                )
+                amount = r.acceleration * k_inner * line_load * r.slip_ratio_inner
+                deepest, place = add_pass(
+                    r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle, (inner_end + ahead) / bin_angle, amount
+                )
+                if deepest > r.inner_race_depth[d, c]:
+                    r.inner_race_depth[d, c] = deepest
+                    r.inner_race_angle[d, c] = (place + 0.5) * bin_angle
+                swept = abs(inner_end - inner_start) * r.inner_race_radius
+                r.inner_race_volume += amount * swept * r.roller_length
+                amount = r.acceleration * k_outer * line_load * r.slip_ratio_outer
+                deepest, place = add_pass(
+                    r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle, (outer_end + ahead) / bin_angle, amount
+                )
+                if deepest > r.outer_race_depth[d, c]:
+                    r.outer_race_depth[d, c] = deepest
+                    r.outer_race_angle[d, c] = (place + 0.5) * bin_angle
+                swept = abs(outer_end - outer_start) * r.outer_race_radius
+                r.outer_race_volume += amount * swept * r.roller_length
+
+
+@kernel
+def publish_profile_errors(r, lead_time):
+    """What the surfaces lack where the contacts will be after ``lead_time`` [s] at the present speed."""
+    discs, cranks, rollers = r.roller_force.shape
+    pins = r.mesh_force.shape[1]
+    bins = r.inner_race_wear.shape[2]
+    # Ideal kinematics: the carrier turns by -1/z_c of the crank, the cage rolls along.
+    crank_ahead = r.crank_speed * lead_time
+    output_ahead = -crank_ahead / (pins - 1.0)
+    cage_ahead = (crank_ahead - output_ahead) * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
+    crank_angle = r.crank_angle + crank_ahead
+    for d in range(discs):
+        for j in range(pins):
+            place = flank_position(r, d, j, crank_angle)
+            error = interpolate_closed(r.disc_wear[d], place) + r.pin_even_wear[d, j]
+            if r.pins == STAND:
+                error += interpolate_open(r.pin_wear[d, j], pin_position(r, place))
+            r.mesh_profile_error[d, j] = error
+        for c in range(cranks):
+            inner, outer = first_roller(
+                r, d, c, crank_angle, r.output_angle + output_ahead, r.cage_angle + cage_ahead
+            )
+            for i in range(rollers):
+                ahead = 2.0 * math.pi * i / rollers
+                r.roller_profile_error[d, c, i] = interpolate_closed(
+                    r.inner_race_wear[d, c], (inner + ahead) * bins / (2.0 * math.pi)
+                ) + interpolate_closed(r.outer_race_wear[d, c], (outer + ahead) * bins / (2.0 * math.pi))
+
+
+@kernel
+def step(records, time, duration):
+    """Wear of one communication step: contacts moved to the present input angles."""
+    r = records[0]
+    moved = abs(r.crank_angle - r.crank_angle_before)
+    if not moved <= math.pi:
+        return LONG_STEP
+    modulus = r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
+    warmer = r.temperature - r.reference_temperature
+    viscosity = r.pressure_viscosity * math.exp(-r.pressure_viscosity_slope * warmer)
+    run_in = run_in_factor(r.run_in_ratio, r.crank_travel, r.run_in_time * r.run_in_crank_speed)
+    if r.acceleration > 0.0 and moved > 0.0:
+        wear_meshes(r, modulus, viscosity, run_in)
+        wear_raceways(r, modulus, viscosity, run_in)
+    r.operating_time += r.acceleration * duration
+    r.crank_travel += r.acceleration * moved
+    r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
+    publish_profile_errors(r, r.contact_lead * duration)
+    return 0

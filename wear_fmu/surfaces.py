@@ -1,0 +1,131 @@
+"""Worn surfaces as rows of bins: add the wear of a swept arc, read the depth at a place.
+
+A surface is a closed or open row of bins; positions are counted in bins, bin i covers
+[i, i+1).  What is added to the bins always sums to what was given.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+
+@kernel
+def interpolate_closed(depth, position):
+    """Depth at a position of a closed row, linear between the bins' middles."""
+    n = depth.shape[0]
+    x = position - 0.5
+    i = int(math.floor(x))
+    part = x - i
+    return (1.0 - part) * depth[i % n] + part * depth[(i + 1) % n]
+
+
+@kernel
+def interpolate_open(depth, position):
+    """The same for an open row; beyond its ends the last bin's depth."""
+    n = depth.shape[0]
+    x = min(max(position - 0.5, 0.0), n - 1.0)
+    i = min(int(x), n - 2)
+    part = x - i
+    return (1.0 - part) * depth[i] + part * depth[i + 1]
+
+
+@kernel
+def swept_semi_ellipse(x, start, end, half_width):
+    """Share of wear left of x, when a Hertz pressure moves evenly from start to end."""
+    if end - start < 1e-9 * half_width:
+        u = (x - 0.5 * (start + end)) / half_width
+        if u <= -1.0:
+            return 0.0
+        if u >= 1.0:
+            return 1.0
+        return 0.5 + (u * math.sqrt(1.0 - u * u) + math.asin(u)) / math.pi
+    before = semi_ellipse_integral((x - start) / half_width)
+    after = semi_ellipse_integral((x - end) / half_width)
+    return half_width / (end - start) * (before - after)
+
+
+@kernel
+def semi_ellipse_integral(u):
+    """Integral up to u of the distribution function of a semi-ellipse on [-1, 1]."""
+    if u <= -1.0:
+        return 0.0
+    if u >= 1.0:
+        return u
+    w = math.sqrt(1.0 - u * u)
+    return 0.5 * u + (w - w * w * w / 3.0 + u * math.asin(u)) / math.pi
+
+
+@kernel
+def add_footprint(depth, start, end, half_width, amount):
+    """Add ``amount`` (depth times bins) along the sweep of a Hertz pressure over an open row.
+
+    What would fall beyond the ends goes into the last bins.  Returns (deepest depth
+    touched, its bin).
+    """
+    n = depth.shape[0]
+    low, high = min(start, end), max(start, end)
+    first = min(max(int(math.floor(low - half_width)), 0), n - 1)
+    last = min(max(int(math.floor(high + half_width)), 0), n - 1)
+    deepest, place = 0.0, first
+    left = 0.0
+    for i in range(first, last + 1):
+        right = 1.0 if i == last else swept_semi_ellipse(i + 1.0, low, high, half_width)
+        depth[i] += amount * (right - left)
+        left = right
+        if depth[i] > deepest:
+            deepest, place = depth[i], i
+    return deepest, place
+
+
+@kernel
+def add_pass(depth, start, end, amount):
+    """Add ``amount`` per bin fully swept from start to end over a closed row.
+
+    Returns (deepest depth touched, its bin).
+    """
+    n = depth.shape[0]
+    low, high = min(start, end), max(start, end)
+    deepest, place = 0.0, 0
+    for i in range(int(math.floor(low)), int(math.floor(high)) + 1):
+        swept = min(high, i + 1.0) - max(low, float(i))
+        if swept <= 0.0:
+            continue
+        cell = i % n
+        depth[cell] += amount * swept
+        if depth[cell] > deepest:
+            deepest, place = depth[cell], cell
+    return deepest, place
+
+
+@kernel
+def add_flank_pass(depth, start, end, amount, slide, slide_before, arc):
+    """Wear of one contact that sweeps a disc's circumference (closed row of lobes).
+
+    ``amount`` is the area worn per slid length (k q, [m]); ``slide`` [bin of a lobe] is
+    the sliding length within each bin, ``slide_before`` its sum up to the bin's start,
+    ``arc`` the flank length of a bin.  Returns (deepest depth touched, its bin, worn
+    area from the sliding length of the whole sweep, an account apart from the bins).
+    """
+    n, bins = depth.shape[0], arc.shape[0]
+    low, high = min(start, end), max(start, end)
+    deepest, place = 0.0, 0
+    for i in range(int(math.floor(low)), int(math.floor(high)) + 1):
+        swept = min(high, i + 1.0) - max(low, float(i))
+        if swept <= 0.0:
+            continue
+        cell = i % n
+        depth[cell] += amount * swept * slide[cell % bins] / arc[cell % bins]
+        if depth[cell] > deepest:
+            deepest, place = depth[cell], cell
+    worn = amount * (slide_to(high, slide, slide_before) - slide_to(low, slide, slide_before))
+    return deepest, place, worn
+
+
+@kernel
+def slide_to(position, slide, slide_before):
+    """Sliding length from position 0 [m]; the lobes repeat."""
+    bins = slide.shape[0]
+    whole = math.floor(position / bins)
+    x = position - whole * bins
+    i = min(int(x), bins - 1)
+    return whole * (slide_before[bins - 1] + slide[bins - 1]) + slide_before[i] + (x - i) * slide[i]
