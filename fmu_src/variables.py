@@ -95,11 +95,16 @@ class Variable:
 
 
 class Table:
-    """The variables of one unit, in record order."""
+    """The variables of one unit, in record order.
 
-    def __init__(self, name: str, description: str, variables: list[Variable]):
+    ``starts_from_nothing`` says that the initial outputs depend on no input and no
+    parameter (the wear unit's new surfaces), which FMI wants to be declared.
+    """
+
+    def __init__(self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False):
         self.name = name
         self.description = description
+        self.starts_from_nothing = starts_from_nothing
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
@@ -119,6 +124,24 @@ class Table:
     def state_cells(self) -> int:
         """Number of leading cells that make up the state (all but scratch)."""
         return sum(v.size for v in self.variables if v.role != "scratch")
+
+    @cached_property
+    def interface_cells(self) -> int:
+        """Number of leading cells that an importing tool sees."""
+        return sum(v.size for v in self.interface())
+
+    @cached_property
+    def bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        """(lowest, highest) value of each interface cell that may be set; NaN where none may."""
+        lowest, highest = np.full((2, self.interface_cells), np.nan)
+        for v in self.of_role("input", "parameter"):
+            cells = self.cell_range(v.name)
+            largest = np.finfo(float).max
+            lowest[cells] = -largest if v.minimum is None else v.minimum
+            highest[cells] = largest if v.maximum is None else v.maximum
+            if v.choices:
+                lowest[cells], highest[cells] = 0, len(v.choices) - 1
+        return lowest, highest
 
     def of_role(self, *roles: str) -> list[Variable]:
         return [v for v in self.variables if v.role in roles]
@@ -140,7 +163,7 @@ class Table:
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed)
+        return Table(self.name, self.description, changed, self.starts_from_nothing)
 
     def cells(self, records: np.ndarray) -> np.ndarray:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
@@ -164,13 +187,23 @@ class Table:
         except ValueError:
             raise KeyError(f"{element}: indices do not fit the shape {variable.shape} of {name}") from None
 
-    def element_at(self, cell: int) -> str:
-        """Name of the scalar at a cell, for messages."""
+    def element_at(self, cell: int) -> tuple[Variable, str]:
+        """The variable that a cell belongs to and the name of its scalar."""
         for v in self.variables:
             first = self.offset[v.name]
             if first <= cell < first + v.size:
-                return next(name for i, name in enumerate(v.element_names()) if i == cell - first)
+                return v, next(name for i, name in enumerate(v.element_names()) if i == cell - first)
         raise IndexError(f"{self.name} has no cell {cell}")
+
+    def check_values(self, cells: list[int], values) -> None:
+        """Raise ValueFault for the first value that its variable cannot take."""
+        for cell, value in zip(cells, values):
+            if not 0 <= cell < self.interface_cells:
+                raise ValueFault(f"{self.name} has no variable with value reference {cell}")
+            variable, element = self.element_at(cell)
+            if variable.role not in ("input", "parameter"):
+                raise ValueFault(f"{element} is an output of {self.name}; it cannot be set")
+            variable.check(float(value), element)
 
     def markdown(self) -> str:
         """The documentation table of the interface."""

@@ -131,6 +131,6 @@ def wear_table(topology, resolution: Resolution = Resolution()) -> Table:
         state("arc", "m", "flank length of a bin", (bins.flank,), ("bin",)),
     ]
     return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways",
-                 inputs + parameters + outputs + states)
+                 inputs + parameters + outputs + states, starts_from_nothing=True)
 
 

@@ -1,0 +1,136 @@
+"""FMI 2.0 model description from a table of variables."""
+
+import hashlib
+import json
+from xml.etree.ElementTree import Element, SubElement
+
+import numpy as np
+
+from fmu_src.units import fmi_base_unit
+from fmu_src.variables import Table, Variable
+
+CAUSALITY = {"input": "input", "parameter": "parameter", "output": "output"}
+
+
+def guid(specification: dict, code_hash: str) -> str:
+    """Identity of a unit: the same code, sizes and start values give the same one."""
+    text = code_hash + json.dumps(specification, sort_keys=True)
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
+
+
+def model_description(table: Table, identity: str, code_hash: str, step_size: float, tool: str) -> Element:
+    """The ``fmiModelDescription`` element of a co-simulation unit.
+
+    All outputs are states of the unit: within a communication point no output depends
+    on an input, so the ModelStructure declares empty dependencies.  Their initial values
+    are computed from inputs and parameters alike, unless ``starts_from_nothing``.
+    """
+    root = Element(
+        "fmiModelDescription", fmiVersion="2.0", modelName=table.name, guid=identity,
+        description=table.description, version=code_hash[:16], generationTool=tool,
+        variableNamingConvention="structured", numberOfEventIndicators="0",
+    )
+    SubElement(
+        root, "CoSimulation", modelIdentifier=table.name, needsExecutionTool="false",
+        canHandleVariableCommunicationStepSize="true", canInterpolateInputs="false",
+        canBeInstantiatedOnlyOncePerProcess="false", canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true", canSerializeFMUstate="true",
+    )
+    variables = table.interface()
+    add_units(root, variables)
+    add_types(root, variables)
+    categories = SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=text)
+    SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(72 * step_size), stepSize=repr(step_size))
+    add_variables(root, table, variables)
+    return root
+
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "values that were accepted but are doubtful",
+    "logStatusDiscard": "steps that could not be done",
+    "logStatusError": "errors: which unit, when, and the remedy",
+    "logStatusFatal": "errors that end the unit",
+    "logAll": "all messages",
+}
+
+
+def add_units(root: Element, variables: list[Variable]) -> None:
+    definitions = SubElement(root, "UnitDefinitions")
+    for unit in sorted({v.unit for v in variables if v.unit != "1" and not v.is_integer}):
+        attributes = {k: f"{v:g}" if k != "factor" else repr(v) for k, v in fmi_base_unit(unit).items()}
+        SubElement(SubElement(definitions, "Unit", name=unit), "BaseUnit", attributes)
+
+
+def add_types(root: Element, variables: list[Variable]) -> None:
+    chosen = [v for v in variables if v.choices]
+    if not chosen:
+        return
+    definitions = SubElement(root, "TypeDefinitions")
+    for v in chosen:
+        items = SubElement(SubElement(definitions, "SimpleType", name=type_name(v)), "Enumeration")
+        for value, name in enumerate(v.choices):
+            SubElement(items, "Item", name=name, value=str(value))
+
+
+def type_name(variable: Variable) -> str:
+    return f"{variable.name}_choice"
+
+
+def add_variables(root: Element, table: Table, variables: list[Variable]) -> None:
+    """ModelVariables and ModelStructure; the value reference is the cell of the record."""
+    model_variables = SubElement(root, "ModelVariables")
+    unknowns = []
+    position = 0
+    for v in variables:
+        starts = np.broadcast_to(v.start, v.shape).ravel()
+        for i, name in enumerate(v.element_names()):
+            position += 1
+            attributes = {
+                "name": name, "valueReference": str(table.offset[v.name] + i), "description": v.description,
+                "causality": CAUSALITY[v.role], "variability": v.variability,
+            }
+            if v.role == "output":
+                attributes["initial"] = "calculated"
+                unknowns.append(position)
+            elif v.role == "parameter":
+                attributes["initial"] = "exact"
+            scalar = SubElement(model_variables, "ScalarVariable", attributes)
+            add_type(scalar, v, starts[i])
+    structure = SubElement(root, "ModelStructure")
+    outputs = SubElement(structure, "Outputs")
+    initial = SubElement(structure, "InitialUnknowns")
+    for position in unknowns:
+        SubElement(outputs, "Unknown", index=str(position), dependencies="")
+        SubElement(initial, "Unknown", index=str(position), **initial_dependencies(table))
+
+
+def initial_dependencies(table: Table) -> dict[str, str]:
+    """None declared means "depends on all"; new surfaces depend on nothing."""
+    return {"dependencies": ""} if table.starts_from_nothing else {}
+
+
+def add_type(scalar: Element, v: Variable, start: float) -> None:
+    attributes = {}
+    if v.choices:
+        kind = "Enumeration"
+        attributes["declaredType"] = type_name(v)
+    elif v.is_integer:
+        kind = "Integer"
+    else:
+        kind = "Real"
+        if v.unit != "1":
+            attributes["unit"] = v.unit
+    write = (lambda x: str(int(x))) if v.is_integer else (lambda x: repr(float(x)))
+    if not v.choices:
+        if v.minimum is not None:
+            attributes["min"] = write(v.minimum)
+        if v.maximum is not None:
+            attributes["max"] = write(v.maximum)
+        if v.nominal is not None and not v.is_integer:
+            attributes["nominal"] = write(v.nominal)
+    if v.role != "output":
+        attributes["start"] = write(start)
+    SubElement(scalar, kind, attributes)

@@ -1,0 +1,161 @@
+"""A pythonfmu slave around a unit's record: what RvPlant and RvWear have in common.
+
+Get and set move whole vectors between the importer and the record.  The FMU state is
+the record's leading cells, hidden state included.  A step runs the object code that
+the FMU carries; where that is missing, is for another machine, or the sources beside it
+were edited, the kernels are compiled on the spot.
+"""
+
+import ctypes
+import json
+from pathlib import Path
+
+import numpy as np
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+import fmu_src
+from fmu_src.description import LOG_CATEGORIES, model_description
+from fmu_src.source_hash import source_hash
+from fmu_src.unit import UnitFault, make_unit
+from fmu_src.variables import ValueFault
+
+STAMP = "unit.json"
+OBJECT_CODE = "unit.o"
+# Leads every serialised state: a foreign or truncated one is refused.
+STATE_MARK = np.array([0x52565753], "u8")
+
+KEPT_ALIVE: list = []
+
+
+class KernelSlave(Fmi2Slave):
+    """Base of the leaf classes; reads what it is from ``unit.json`` in the resources."""
+
+    log_categories = LOG_CATEGORIES
+
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+        folder = Path(self.resources)
+        self.stamp = json.loads((folder / STAMP).read_text(encoding="utf-8"))
+        self.check_sources(folder)
+        self.unit = make_unit(self.stamp["specification"])
+        self.table = self.unit.table
+        self.modelName = self.table.name
+        self.records = self.table.new_records()
+        self.cells = self.table.cells(self.records)
+        self.integers = self.cells.view("i8")
+        self.lowest, self.highest = self.table.bounds
+        self.lists: dict[tuple[int, int], tuple[list[int], np.ndarray]] = {}
+        self.initialise, self.step = self.entry_points(folder)
+
+    def check_sources(self, folder: Path) -> None:
+        """Two FMUs in one process share imported modules: they must be of one source."""
+        imported = Path(fmu_src.__file__).resolve().parents[1]
+        if imported != folder.resolve() and source_hash(root=imported) != self.stamp["source_hash"]:
+            raise UnitFault(
+                f"this process already runs another version of fmu_src, from {imported}."
+                " Use FMUs of one build in one process, or start a fresh process"
+            )
+
+    def entry_points(self, folder: Path):
+        """Carried object code if it fits machine and sources, else compiled in this process."""
+        from fmu_src.native import host_triple, load_object
+
+        code = folder / OBJECT_CODE
+        fits = code.exists() and self.stamp["triple"] == host_triple()
+        if not fits or source_hash(root=folder) != self.stamp["source_hash"]:
+            return (
+                lambda: self.unit.initialise(self.records),
+                lambda time, duration: self.unit.step(self.records, time, duration),
+            )
+        functions = load_object(code.read_bytes())
+        pointer = ctypes.c_void_p(self.records.ctypes.data)
+        return (
+            lambda: functions["initialise"](pointer),
+            lambda time, duration: functions["step"](pointer, time, duration),
+        )
+
+    def to_xml(self, model_options=None):
+        return model_description(
+            self.table, self.stamp["guid"], self.stamp["source_hash"], self.stamp["step_size"], self.stamp["tool"]
+        )
+
+    def fail(self, text: str) -> None:
+        """Log and raise: pythonfmu turns an exception into an FMI error status.
+
+        It also drops its references to instance, class and log on every exception, and
+        again when the importer frees the instance; one more of each prevents a crash.
+        """
+        KEPT_ALIVE.extend((self, type(self), self.log_queue))
+        self.log(text, Fmi2Status.error)
+        raise UnitFault(text)
+
+    # FMI life cycle
+
+    def exit_initialization_mode(self):
+        self.require_success(self.initialise(), 0.0)
+
+    def do_step(self, current_time, step_size):
+        if not 0.0 <= step_size < np.inf:
+            self.fail(f"{self.table.name}: communication step of {step_size} s: give a finite one that is not negative")
+        self.require_success(self.step(current_time, step_size), current_time)
+        return True
+
+    def require_success(self, code: int, time: float) -> None:
+        if code != 0:
+            self.fail(self.unit.fault_text(code, self.records, time))
+
+    # values
+
+    def index(self, vrs: list[int]) -> np.ndarray:
+        """The cells of value references; an importer asks for the same few lists all the time."""
+        known = self.lists.get((vrs[0], len(vrs)))
+        if known is None or known[0] != vrs:
+            if not all(0 <= vr < self.table.interface_cells for vr in vrs):
+                self.fail(f"{self.table.name}: not all of the value references {vrs[:5]}... are its own")
+            known = self.lists[vrs[0], len(vrs)] = (vrs, np.array(vrs))
+        return known[1]
+
+    def get_real(self, vrs):
+        return self.cells[self.index(vrs)].tolist() if vrs else []
+
+    def get_integer(self, vrs):
+        return self.integers[self.index(vrs)].tolist() if vrs else []
+
+    def set_real(self, vrs, values):
+        self.set_cells(self.cells, vrs, values)
+
+    def set_integer(self, vrs, values):
+        self.set_cells(self.integers, vrs, values)
+
+    def set_cells(self, cells, vrs, values):
+        if not vrs:
+            return
+        index, given = self.index(vrs), np.array(values, cells.dtype)
+        # A NaN fails both comparisons, as does a cell that may not be set.
+        if not ((given >= self.lowest[index]) & (given <= self.highest[index])).all():
+            try:
+                self.table.check_values(vrs, values)
+            except ValueFault as fault:
+                self.fail(f"{self.table.name}: {fault}")
+        cells[index] = given
+
+    # state
+
+    def _get_fmu_state(self):
+        return self.cells[: self.table.state_cells].copy()
+
+    def _set_fmu_state(self, state):
+        if state.shape != (self.table.state_cells,):
+            self.fail(f"{self.table.name}: this state has {state.size} cells, {self.table.state_cells} are needed")
+        self.cells[: self.table.state_cells] = state
+
+    @staticmethod
+    def _fmu_state_to_bytes(state):
+        return STATE_MARK.tobytes() + state.tobytes()
+
+    @staticmethod
+    def _fmu_state_from_bytes(data):
+        if data[:8] != STATE_MARK.tobytes() or len(data) % 8:
+            raise UnitFault("this is not a serialised state of RvPlant or RvWear, or it was cut off")
+        return np.frombuffer(data[8:], "f8").copy()

@@ -1,0 +1,38 @@
+"""A unit: its table and its compiled entry points, made from a specification.
+
+The specification is a plain dictionary, so that it travels inside an FMU as JSON:
+``unit`` names the package that makes it (``rv_plant``, ``wear_fmu``), ``sizes`` its
+array sizes, ``starts`` and ``sources`` the start values that differ from the table's.
+"""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fmu_src.variables import Table
+
+
+class UnitFault(RuntimeError):
+    """A unit that refused to initialise or to step; the text says what, where and the remedy."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """``initialise(records)`` and ``step(records, time, duration)`` return 0 or a key of ``faults``."""
+
+    table: Table
+    initialise: Callable[[np.ndarray], int]
+    step: Callable[[np.ndarray, float, float], int]
+    faults: dict[int, str]
+
+    def fault_text(self, code: int, records: np.ndarray, time: float) -> str:
+        """What a status code means for this record, in words."""
+        scalars = {v.name: records[v.name][0] for v in self.table.variables if not v.shape}
+        return f"{self.table.name} at time {time:.9g} s: {self.faults[code].format(**scalars)}"
+
+
+def make_unit(specification: dict) -> Unit:
+    """The unit of a specification."""
+    return importlib.import_module(f"{specification['unit']}.unit").make_unit(specification)

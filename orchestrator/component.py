@@ -1,0 +1,166 @@
+"""What the master steps: a unit in this process, or an FMU.
+
+Both show the same face.  Values move as vectors: ``reader`` and ``writer`` prepare a
+transfer once and return a function that fills a buffer, or empties it, without
+allocating.
+"""
+
+import difflib
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fmu_src.unit import Unit, make_unit
+from fmu_src.variables import Table, ValueFault, Variable
+from orchestrator.faults import InputFault, RunFault
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One variable, scalar or array, as the master sees it.
+
+    ``references`` are FMI value references; ``shape`` is () for a scalar.
+    """
+
+    name: str
+    causality: str
+    unit: str
+    references: tuple[int, ...]
+    shape: tuple[int, ...]
+    is_integer: bool = False
+    is_tunable: bool = False
+
+
+class Component(ABC):
+    """A unit that can be initialised, stepped, saved and restored."""
+
+    name: str
+    signals: dict[str, Signal]
+
+    def signal(self, name: str) -> Signal:
+        """The signal of a name, an array's element included; InputFault if there is none."""
+        if name in self.signals:
+            return self.signals[name]
+        base, _, index = name.partition("[")
+        array = self.signals.get(base)
+        if array is not None and array.shape and index.endswith("]"):
+            try:
+                place = np.ravel_multi_index(tuple(int(i) - 1 for i in index[:-1].split(",")), array.shape)
+            except ValueError:
+                raise InputFault(f"{self.name}.{name}: {base} has the shape {array.shape}, counted from 1") from None
+            return Signal(name, array.causality, array.unit, (array.references[place],), (), array.is_integer,
+                          array.is_tunable)
+        close = difflib.get_close_matches(base, self.signals, 3)
+        hint = f"; did you mean {', '.join(close)}?" if close else ""
+        raise InputFault(f"{self.name} has no variable {name!r}{hint}")
+
+    def get(self, name: str) -> np.ndarray | float | int:
+        """Present value of a signal, an array in its shape."""
+        signal = self.signal(name)
+        buffer = np.zeros(len(signal.references), "i8" if signal.is_integer else "f8")
+        self.reader(signal.references, buffer)()
+        return buffer.reshape(signal.shape) if signal.shape else buffer[0].item()
+
+    def set(self, name: str, value) -> None:
+        """Set a parameter or input; a scalar given for an array fills it."""
+        signal = self.signal(name)
+        buffer = np.empty(len(signal.references), "i8" if signal.is_integer else "f8")
+        buffer[:] = np.broadcast_to(value, signal.shape).ravel() if signal.shape else value
+        self.writer(signal.references, buffer)()
+
+    @abstractmethod
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
+        """A function that fills ``buffer`` (f8, or i8 for integers) with present values."""
+
+    @abstractmethod
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
+        """A function that sets variables to what ``buffer`` holds."""
+
+    @abstractmethod
+    def enter_initialisation(self, start_time: float) -> None: ...
+
+    @abstractmethod
+    def exit_initialisation(self) -> None: ...
+
+    @abstractmethod
+    def step(self, time: float, duration: float) -> None:
+        """Advance from ``time`` by ``duration`` [s]; RunFault if that fails."""
+
+    @abstractmethod
+    def save(self) -> bytes:
+        """The complete state, hidden parts included."""
+
+    @abstractmethod
+    def restore(self, state: bytes) -> None: ...
+
+    @abstractmethod
+    def record(self) -> np.ndarray:
+        """The unit's record (one element, dtype of its table), hidden surfaces included."""
+
+    def close(self) -> None:
+        """Free what the component holds."""
+
+
+class InProcess(Component):
+    """A unit whose compiled kernels run in this process."""
+
+    def __init__(self, name: str, specification: dict):
+        self.name = name
+        self.unit: Unit = make_unit(specification)
+        self.table: Table = self.unit.table
+        self.signals = {v.name: signal_of(v, self.table) for v in self.table.interface()}
+        self.records = self.table.new_records()
+        self.cells = self.table.cells(self.records)
+        self.integers = self.cells.view("i8")
+
+    def reader(self, references, buffer):
+        cells = self.integers if buffer.dtype == np.int64 else self.cells
+        index = np.array(references)
+        return lambda: np.take(cells, index, out=buffer, mode="clip")
+
+    def writer(self, references, buffer):
+        cells = self.integers if buffer.dtype == np.int64 else self.cells
+        index = np.array(references)
+        lowest, highest = (bound[index] for bound in self.table.bounds)
+
+        def write():
+            # A NaN fails both comparisons, as does a cell that may not be set.
+            if not ((buffer >= lowest) & (buffer <= highest)).all():
+                try:
+                    self.table.check_values(references, buffer)
+                except ValueFault as fault:
+                    raise InputFault(f"{self.name}: {fault}") from None
+            cells[index] = buffer
+
+        return write
+
+    def enter_initialisation(self, start_time):
+        pass
+
+    def exit_initialisation(self):
+        self.require_success(self.unit.initialise(self.records), 0.0)
+
+    def step(self, time, duration):
+        code = self.unit.step(self.records, time, duration)
+        if code != 0:
+            self.require_success(code, time)
+
+    def require_success(self, code: int, time: float) -> None:
+        if code != 0:
+            raise RunFault(f"{self.name}: {self.unit.fault_text(code, self.records, time)}")
+
+    def save(self):
+        return self.cells[: self.table.state_cells].tobytes()
+
+    def restore(self, state):
+        self.cells[: self.table.state_cells] = np.frombuffer(state, "f8")
+
+    def record(self):
+        return self.records.copy()
+
+
+def signal_of(v: Variable, table: Table) -> Signal:
+    first = table.offset[v.name]
+    return Signal(v.name, v.role, v.unit, tuple(range(first, first + v.size)), v.shape, v.is_integer, v.tunable)

@@ -1,0 +1,15 @@
+"""The wear accumulator as a unit."""
+
+from types import SimpleNamespace
+
+from fmu_src.unit import Unit
+
+from wear_fmu.accumulator import FAULTS, initialise, step
+from wear_fmu.variables import Resolution, wear_table
+
+
+def make_unit(specification: dict) -> Unit:
+    """The wear unit of a specification, see fmu_src.unit."""
+    sizes = specification["sizes"]
+    table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))
+    return Unit(table.with_starts(specification["starts"], specification["sources"]), initialise, step, FAULTS)
