@@ -8,7 +8,7 @@ allocating.
 import difflib
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,7 @@ class Signal:
     shape: tuple[int, ...]
     is_integer: bool = False
     is_tunable: bool = False
+    choices: tuple[str, ...] = ()
 
 
 class Component(ABC):
@@ -50,8 +51,7 @@ class Component(ABC):
                 place = np.ravel_multi_index(tuple(int(i) - 1 for i in index[:-1].split(",")), array.shape)
             except ValueError:
                 raise InputFault(f"{self.name}.{name}: {base} has the shape {array.shape}, counted from 1") from None
-            return Signal(name, array.causality, array.unit, (array.references[place],), (), array.is_integer,
-                          array.is_tunable)
+            return replace(array, name=name, references=(array.references[place],), shape=())
         close = difflib.get_close_matches(base, self.signals, 3)
         hint = f"; did you mean {', '.join(close)}?" if close else ""
         raise InputFault(f"{self.name} has no variable {name!r}{hint}")
@@ -163,4 +163,5 @@ class InProcess(Component):
 
 def signal_of(v: Variable, table: Table) -> Signal:
     first = table.offset[v.name]
-    return Signal(v.name, v.role, v.unit, tuple(range(first, first + v.size)), v.shape, v.is_integer, v.tunable)
+    references = tuple(range(first, first + v.size))
+    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices)

@@ -127,11 +127,15 @@ class Fmu(Component):
         finally:
             self.slave.freeFMUstate(handle)
 
-    def record(self):
+    def specification(self) -> dict:
+        """What this project's FMU was built from, see fmu_src.unit."""
         stamp = self.folder / "resources" / STAMP
         if not stamp.exists():
-            raise InputFault(f"{self.path} is not one of this project's FMUs: its state cannot be read")
-        table = make_unit(json.loads(stamp.read_text(encoding="utf-8"))["specification"]).table
+            raise InputFault(f"{self.path} is not one of this project's FMUs; build them with: rvwear build")
+        return json.loads(stamp.read_text(encoding="utf-8"))["specification"]
+
+    def record(self):
+        table = make_unit(self.specification()).table
         records = table.new_records()
         mark = STATE_MARK.nbytes
         table.cells(records)[: table.state_cells] = np.frombuffer(self.save()[mark:], "f8")
@@ -160,5 +164,6 @@ def signals_of(description) -> dict[str, Signal]:
         signals[base] = Signal(
             base, first.causality, first.unit or "1", tuple(v.valueReference for v in members), shape,
             first.type != "Real", first.variability == "tunable",
+            tuple(item.name for item in first.declaredType.items) if first.type == "Enumeration" else (),
         )
     return signals

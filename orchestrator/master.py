@@ -172,12 +172,18 @@ class Master:
             if each_step is not None:
                 each_step()
 
+    def rebase(self, step: float) -> None:
+        """Go on from the present time with another base step."""
+        self.start_time, self.steps_done, self.step_size = self.time, 0, step
+
     def save(self) -> dict:
         """Complete state of all components and of the clock."""
-        return {"steps_done": self.steps_done, "states": {n: c.save() for n, c in self.components.items()}}
+        clock = {"start_time": self.start_time, "steps_done": self.steps_done, "step_size": self.step_size}
+        return {"clock": clock, "states": {name: c.save() for name, c in self.components.items()}}
 
     def restore(self, saved: dict) -> None:
-        self.steps_done = saved["steps_done"]
+        for key, value in saved["clock"].items():
+            setattr(self, key, value)
         for name, state in saved["states"].items():
             self.components[name].restore(state)
 

@@ -8,7 +8,7 @@ unit and within which bounds, so a new parameter needs no change here.
 
 import difflib
 import tomllib
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -61,12 +61,25 @@ class Reducer:
     path: Path
     resolution: Resolution = Resolution()
 
+    def specification(self, unit: str) -> dict:
+        """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant or wear_fmu."""
+        names = {"rv_plant": self.plant, "wear_fmu": self.wear}[unit].by_name
+        return {
+            "unit": unit,
+            "reducer": self.name,
+            "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
+            "starts": {k: v for k, v in self.starts.items() if k in names},
+            "sources": {k: v for k, v in self.sources.items() if k in names},
+        }
+
     @cached_property
     def plant(self) -> Table:
+        """The plant's table with this reducer's numbers."""
         return plant_table(self.topology).with_starts(self.starts, self.sources)
 
     @cached_property
     def wear(self) -> Table:
+        """The wear unit's table with this reducer's numbers."""
         return wear_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
 
 

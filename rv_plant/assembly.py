@@ -25,8 +25,8 @@ from rv_plant.geometry import closest_distance
 from rv_plant.needle_bearing import roller_contacts
 
 
-@kernel
-def coordinate_count(discs, cranks):
+def coordinate_count(discs: int, cranks: int) -> int:
+    """Length of z."""
     return 3 * discs + 3 + 3 * cranks + 1
 
 

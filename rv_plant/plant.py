@@ -127,9 +127,14 @@ def publish(r, output_speed):
     radius = r.pin_radius + r.equidistant_modification
     modulus = 0.5 * r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
     worst = 0.0
+    r.largest_pin_force = r.largest_roller_force = 0.0
     for d in range(discs):
+        for c in range(cranks):
+            for k in range(r.roller_force.shape[2]):
+                r.largest_roller_force = max(r.largest_roller_force, r.roller_force_now[d, c, k])
         for j in range(pins):
             force = r.mesh_force_now[d, j]
+            r.largest_pin_force = max(r.largest_pin_force, force)
             if force > 0.0:
                 centre = r.centre_curvature[d, j]
                 curvature = 1.0 / r.pin_radius + centre / (1.0 - radius * centre)

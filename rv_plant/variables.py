@@ -28,8 +28,7 @@ def plant_table(topology: Topology) -> Table:
     mesh, bearing = (t.discs, t.pins), (t.discs, t.cranks)
     roller = (*bearing, t.rollers)
     mesh_axes, bearing_axes, roller_axes = ("disc", "pin"), ("disc", "crank"), ("disc", "crank", "roller")
-    z = coordinate_count.py_func(t.discs, t.cranks) if hasattr(coordinate_count, "py_func") else coordinate_count(
-        t.discs, t.cranks)
+    z = coordinate_count(t.discs, t.cranks)
 
     inputs = [
         Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
@@ -142,6 +141,8 @@ def plant_table(topology: Topology) -> Table:
                nominal=1e-4),
         output("loaded_teeth", "1", "pins that a disc touches", (t.discs,), ("disc",), nominal=10.0),
         output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9),
+        output("largest_pin_force", "N", "largest force between a disc and a pin at the present angle", nominal=100.0),
+        output("largest_roller_force", "N", "largest force on a roller at the present angle", nominal=100.0),
         output("mesh_force", "N", "force between disc and pin, mean over the communication step", mesh, mesh_axes,
                nominal=100.0),
         output("roller_force", "N", "force on a roller, mean over the communication step", roller, roller_axes,

@@ -6,31 +6,22 @@ The law of ``wear_laws`` for a contact sliding under a constant load, and the ma
     Q(s) = rho F/H kss (F/F0)^m [s + (r - 1) s0 (1 - exp(-s/s0))]            [kg]
 
 K (kappa) is dimensionless, s = 2 pi R n t the distance slid, H hardness, rho density.
-The BX-40E document gives such tests (GCr15, 20 to 80 N, track radius 25 mm, 30 rpm)
-and the formula Q H/(rho F s); it prints no losses.
-
-Weighings, the one before the start included, have independent errors of standard
-uncertainty u.  A loss between two weighings has sqrt(2) u, and neighbours share a
-weighing: their covariance is tridiagonal, u^2 (-1, 2, -1).  The fit whitens these
-increments by its Cholesky factor.  u is the balance's, not the scatter of specimens.
+Tests of the BX-40E document: GCr15, 20 to 80 N, track radius 25 mm, 30 rpm; no losses
+are printed.  Weighings, the one before the start too, have independent errors of standard
+uncertainty u: a loss between two has sqrt(2) u, and as neighbours share a weighing their
+covariance is tridiagonal, u^2 (-1, 2, -1).  Its Cholesky factor whitens the increments.
 """
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import block_diag, cholesky, solve_triangular
-from scipy.optimize import least_squares
-from scipy.special import ellipe
-from scipy.stats import chi2
+from scipy import linalg, optimize, stats
 
 from fmu_src.variables import ValueFault
 
-PARAMETERS = ("wear_coefficient", "run_in_ratio", "run_in_distance", "load_exponent")  # kss, r, s0, m
-NEAR_BOUND = 0.01  # of ln(parameter), or of the load exponent
-VAGUE = 1.0  # standard error of ln(parameter), or of the load exponent, that tells nothing
+NEAR_BOUND, VAGUE = 0.01, 1.0  # distance to a bound, error that tells nothing: in ln(kss, r, s0) or in m
 VISIBLE = 2.0  # standard errors that make a loss visible (95 %)
-
 LIMITS = {  # name: unit, lowest, highest, remedy; those of the law lie within the wear unit's bounds
     "normal_force": ("N", 1e-3, 1e5, "give the load on the pin in newtons"),
     "track_radius": ("m", 1e-4, 1.0, "give the radius of the wear track in metres, 25 mm = 0.025"),
@@ -39,16 +30,17 @@ LIMITS = {  # name: unit, lowest, highest, remedy; those of the law lie within t
     "density": ("kg/m^3", 100.0, 3e4, "give kilograms per cubic metre, steel 7850"),
     "times": ("s", 1e-3, 1e10, "give seconds since the start; leave out time 0, its loss is 0 by definition"),
     "mass_losses": ("kg", -1e-2, 1e-2, "give the mass lost since the start in kilograms, 1 mg = 1e-6"),
-    "contact_length": ("m", 1e-5, 1.0, "give metres, or None if unknown"),
+    "contact_length": ("m", 1e-5, 1.0, "give metres"),
     "balance_uncertainty": ("kg", 1e-13, 1e-3, "give the standard uncertainty of one weighing, 0.1 mg = 1e-7"),
-    "reference_load": ("N", 1e-3, 1e5, "give newtons, or None for the mean of the tests"),
+    "reference_load": ("N", 1e-3, 1e5, "give newtons"),
     "wear_coefficient": ("1", 1e-13, 1.0, "give the dimensionless K, not k = K/H"),
     "run_in_ratio": ("1", 1e-2, 1e3, "give K when new over K run in, 1 for no running-in"),
     "run_in_distance": ("m", 1e-6, 1e12, "give metres slid"),
     "load_exponent": ("1", -1.0, 5.0, "give 0 for no dependence on load"),
     "run_in_crank_speed": ("rad/s", 1e-6, 1e5, "give radians per second, 585 rpm = 61.3"),
-    "sliding_per_crank_radian": ("m/rad", 1e-9, 1.0, "see mean_sliding_per_crank_radian"),
+    "sliding_per_crank_radian": ("m/rad", 1e-9, 1.0, "give metres slid per radian of the crank, about 1e-3"),
 }
+PARAMETERS = ("wear_coefficient", "run_in_ratio", "run_in_distance", "load_exponent")  # kss, r, s0, m
 
 
 def checked(name: str, value, where: str = "") -> float:
@@ -79,22 +71,17 @@ class PinOnDiscTest:
     name: str = "test"
 
     def __post_init__(self):
-        for field in ("normal_force", "track_radius", "rotational_speed", "hardness", "density",
-                      "contact_length", "balance_uncertainty"):
+        for field in LIMITS.keys() & self.__dataclass_fields__.keys():
             value = getattr(self, field)
-            if value is not None or field not in ("contact_length", "balance_uncertainty"):
-                object.__setattr__(self, field, checked(field, value, f"{self.name}: "))
-        for field in ("times", "mass_losses"):
-            row = np.ravel(np.asarray(getattr(self, field), dtype=object))
-            row = tuple(checked(field, value, f"{self.name}, reading {i}: ") for i, value in enumerate(row, 1))
-            object.__setattr__(self, field, row)
-        if len(self.times) != len(self.mass_losses) or not self.times:
-            raise ValueFault(f"{self.name}: {len(self.times)} times [s], but {len(self.mass_losses)} mass_losses [kg];"
-                             " give one loss per time, at least one")
-        for i, (before, after) in enumerate(zip(self.times, self.times[1:]), 2):
-            if after <= before:
-                raise ValueFault(f"{self.name}, reading {i}: times = {after:g} s does not follow {before:g} s;"
-                                 " sort the readings, merge those of one time")
+            if field in ("times", "mass_losses"):
+                readings = enumerate(np.ravel(np.asarray(value, dtype=object)), 1)
+                value = tuple(checked(field, v, f"{self.name}, reading {i}: ") for i, v in readings)
+            elif value is not None or field not in ("contact_length", "balance_uncertainty"):
+                value = checked(field, value, f"{self.name}: ")
+            object.__setattr__(self, field, value)
+        if len(self.times) != len(self.mass_losses) or not self.times or min(np.diff(self.times), default=1.0) <= 0.0:
+            raise ValueFault(f"{self.name}: times = {self.times} s and {len(self.mass_losses)} mass_losses [kg]:"
+                             " give at least one reading, one loss per time, each time once and in order")
 
     @property
     def distances(self) -> np.ndarray:
@@ -114,8 +101,7 @@ def secant_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
     the instantaneous coefficient from 0 to s, so it lags: with running-in it lies above
     it, and still falls like 1/s when that has settled.  dh = kappa p ds needs the other.
     """
-    s = test.distances
-    return s, np.array(test.mass_losses) / (test.mass_per_distance * s)
+    return test.distances, np.array(test.mass_losses) / (test.mass_per_distance * test.distances)
 
 
 def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
@@ -131,40 +117,33 @@ def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarr
 def smallest_visible_coefficient(test: PinOnDiscTest, balance_uncertainty: float | None = None) -> float:
     """Smallest mean kappa [1] whose loss over the whole test is twice the standard error of a loss.
 
-    2 sqrt(2) u H/(rho F s), u [kg] from the argument or the test; losses are not looked
-    at (zeros do for planning).  kappa = 1e-6 at 80 N for 1 h of the document's test
-    (283 m) removes 25 ug; u = 0.1 mg shows 1.1e-5.
+    2 sqrt(2) u H/(rho F s), u [kg] from the argument or the test; the losses are not
+    looked at (zeros do for planning).  kappa = 1e-6 at 80 N for 1 h of the document's test
+    (283 m) removes 25 ug; a balance of u = 0.1 mg sees 1.1e-5.
     """
-    u = checked("balance_uncertainty", balance_uncertainty or test.balance_uncertainty, f"{test.name}: ")
+    u = test.balance_uncertainty if balance_uncertainty is None else balance_uncertainty
+    u = checked("balance_uncertainty", u, f"{test.name}: ")
     return VISIBLE * math.sqrt(2.0) * u / (test.mass_per_distance * test.distances[-1])
-
-
-def mean_sliding_per_crank_radian(lobes: int, pin_circle_radius: float, pin_radius: float, eccentricity: float) -> float:
-    """Mean over a crank turn of the contact's sliding (R sqrt(S) - r)/z_c of ``kinematics`` [m/rad]; lengths [m]."""
-    k1 = eccentricity * (lobes + 1) / pin_circle_radius
-    mean_distance = 2.0 / math.pi * (1.0 + k1) * ellipe(4.0 * k1 / (1.0 + k1) ** 2)  # of sqrt(S)
-    return (pin_circle_radius * mean_distance - pin_radius) / lobes
 
 
 @dataclass(frozen=True, eq=False)
 class PinOnDiscFit:
     """What the tests say of the law; dictionaries by, and the covariance in the order of, ``PARAMETERS``.
 
-    Do not use a parameter that ``flags`` names, with the reason: on a bound (errors of
-    the others then hold for that value) or not determined.  Errors are linearised in ln
-    of kss, r, s0: read them as relative.  Held: 0; without an error: NaN.
+    Do not use a parameter that is in ``flags``: it is on a bound or not determined.  Errors
+    are linearised in ln of kss, r, s0 (read them as relative) as if there were no bounds.
     """
 
-    estimates: dict[str, float]  # 1, 1, m, 1; kss at reference_load
-    standard_errors: dict[str, float]  # 1, 1, m, 1
+    estimates: dict[str, float]  # 1, 1, m, 1; kss at reference_load; NaN where any value fits
+    standard_errors: dict[str, float]  # 1, 1, m, 1; 0 if held
     covariance: np.ndarray  # in the same units
     reduced_chi_square: float  # NaN without degrees of freedom or balance_uncertainty
     degrees_of_freedom: int
-    balance_uncertainty: float  # kg, given (rms of the tests) or else estimated from the residuals
+    balance_uncertainty: float  # kg, given (rms of the tests) or estimated from the residuals
     reference_load: float  # N
     contact_length: float | None  # m
-    flags: dict[str, str]
-    warnings: tuple[str, ...]  # losses that the balance cannot see, chi square too high
+    flags: dict[str, str]  # parameter: reason and remedy
+    warnings: tuple[str, ...]  # losses too small to see, chi square too high
 
     def wear_unit_parameters(self, run_in_crank_speed: float, sliding_per_crank_radian: float) -> dict[str, float]:
         """The wear unit's parameters (SI) for ``mesh_wear_law`` "run-in and load".
@@ -172,11 +151,11 @@ class PinOnDiscFit:
         The test counts running-in by distance, exp(-s/s0), the unit by crank travel theta
         [rad], exp(-theta/(run_in_time run_in_crank_speed)).  With the mean sliding length
         per crank radian l, s = l theta and run_in_time = s0/(l run_in_crank_speed) [s].
-        ``mean_sliding_per_crank_radian`` is l of the contact, which fits a surface always
-        in contact, like the test's pin (assumed).  A point of a flank slides 2 a_H v_s/v_c
-        per pass of a contact of half width a_H, z_p/z_c passes per crank turn:
-        l = a_H z_p/(pi z_c) v_s/v_c is tens of times less, run_in_time as much longer.
-        Only K/H is measured: the unit's ``hardness`` must be the tests'.
+        For the contact, l is the mean of ``kinematics.sliding_per_crank_angle`` over a lobe;
+        that fits a surface always in contact, like the test's pin (assumed).  A point of a
+        flank slides 2 a_H v_s/v_c per pass of a contact of half width a_H, z_p/z_c passes
+        per crank turn: l = a_H z_p/(pi z_c) v_s/v_c, tens of times less, and run_in_time as
+        much longer.  Only K/H is measured: give the unit the tests' hardness.
         """
         for name, reason in self.flags.items():
             raise ValueFault(f"{name} = {self.estimates[name]:g} {LIMITS[name][0]} must not be used: {reason};"
@@ -185,25 +164,25 @@ class PinOnDiscFit:
             raise ValueFault("contact_length = None m: reference_line_load [N/m] needs it; give it in the tests")
         speed = checked("run_in_crank_speed", run_in_crank_speed)
         slide = checked("sliding_per_crank_radian", sliding_per_crank_radian)
-        k, r, s0, m = self.estimates.values()
+        k, r, s0, m = (self.estimates[name] for name in PARAMETERS)
         return {"mesh_wear_coefficient": k, "run_in_ratio": r, "run_in_time": s0 / (slide * speed),
                 "run_in_crank_speed": speed, "load_exponent": m,
                 "reference_line_load": self.reference_load / self.contact_length}
 
 
 def whitened_differences(test: PinOnDiscTest, uncertainty: float) -> np.ndarray:
-    """Matrix that turns losses [kg] into increments with independent unit errors."""
+    """Matrix that turns losses [kg] into increments with independent unit errors; u [kg]."""
     n = len(test.times)
     of_weighings = np.eye(n, n + 1, 1) - np.eye(n, n + 1)
-    root = uncertainty * cholesky(of_weighings @ of_weighings.T, lower=True)
-    return solve_triangular(root, of_weighings[:, 1:], lower=True)
+    root = uncertainty * linalg.cholesky(of_weighings @ of_weighings.T, lower=True)
+    return linalg.solve_triangular(root, of_weighings[:, 1:], lower=True)
 
 
-def worn_mass(x, s, mass_per_distance, log_load):
+def worn_mass(x, s, per_distance, log_load):
     """Q [kg] at distances s [m], and its slopes in x = (ln kss, ln r, ln s0, m); rho F/H [kg/m], ln(F/F0)."""
     r, s0 = np.exp(x[1:3])
     gone = -np.expm1(-s / s0)
-    scale = mass_per_distance * np.exp(x[0] + x[3] * log_load)
+    scale = per_distance * np.exp(x[0] + x[3] * log_load)
     q = scale * (s + (r - 1.0) * s0 * gone)
     slopes = [q, scale * r * s0 * gone, scale * (r - 1.0) * (s0 * gone - s * (1.0 - gone)), q * log_load]
     return q, np.column_stack(slopes)
@@ -214,24 +193,75 @@ def fit(tests, reference_load: float | None = None, held: dict[str, float] | Non
 
     ``reference_load`` F0 [N] None: geometric mean of the loads, where kss and m are least
     correlated.  ``held`` gives parameters that are not fitted (no running-in: ratio 1 and
-    any distance).  kss, r, s0 are fitted as logarithms, s0 within 1/30 of the first and
-    30 times the last reading.
+    any distance).  s0 is sought within 1/30 of the first and 30 times the last reading.
     """
-    tests, held = tuple(tests), {name: checked(name, value, "held: ") for name, value in (held or {}).items()}
-    u, length = shared(tests, "balance_uncertainty"), shared(tests, "contact_length")
-    s, a, measured, force = (np.concatenate(rows) for rows in zip(*(
-        (t.distances, np.full(len(t.times), t.mass_per_distance), t.mass_losses,
-         np.full(len(t.times), t.normal_force)) for t in tests)))
-    loads = [t.normal_force for t in tests]
-    f0 = checked("reference_load", np.exp(np.mean(np.log(loads))) if reference_load is None else reference_load)
-    if not max(t.mass_losses[-1] for t in tests) > 0.0:
-        raise ValueFault(f"mass_losses = {measured.max():g} kg at most: nothing is worn; slide further or load more")
-    unit = u or measured.max()
-    whiten = block_diag(*(whitened_differences(t, unit) for t in tests))
+    tests, held = tuple(tests), dict(held or {})
+    weighed, lengths = {t.balance_uncertainty is not None for t in tests}, {t.contact_length for t in tests}
+    if len(weighed) != 1 or len(lengths) != 1:
+        raise ValueFault(f"tests: {len(tests)}, of contact_length {sorted(map(str, lengths))} m; give one or more tests"
+                         " of one contact_length, all with balance_uncertainty [kg] or all without")
+    if not set(held) < set(PARAMETERS):
+        raise ValueFault(f"held = {held}: hold some, but not all, of {', '.join(PARAMETERS)}")
+    (known,), (length,), counts = weighed, lengths, [len(t.times) for t in tests]
+    s, measured = (np.concatenate(rows) for rows in zip(*((t.distances, t.mass_losses) for t in tests)))
+    if not measured.max() > 0.0:
+        raise ValueFault(f"mass_losses: at most {measured.max():g} kg, nothing is worn; slide further or load more")
+    log_loads = np.log([t.normal_force for t in tests])
+    f0 = math.exp(log_loads.mean()) if reference_load is None else checked("reference_load", reference_load)
+    conditions = s, np.repeat([t.mass_per_distance for t in tests], counts), np.repeat(log_loads - math.log(f0), counts)
+    u = np.array([t.balance_uncertainty if known else measured.max() for t in tests])
+    whiten = linalg.block_diag(*map(whitened_differences, tests, u))
+    x = np.array([checked(name, held[name], "held: ") if name in held else np.nan for name in PARAMETERS])
+    low, high = np.array([LIMITS[name][1:3] for name in PARAMETERS]).T
+    low[2], high[2] = s.min() / 30.0, 30.0 * s.max()
+    for row in (low, high, x):
+        row[:3] = np.log(row[:3])
+    free = np.isnan(x)
 
-    def residuals(x):
-        return whiten @ (worn_mass(x, s, a, np.log(force / f0))[0] - measured)
+    def evaluate(part):
+        x[free] = part
+        q, slopes = worn_mass(x, *conditions)
+        return whiten @ (q - measured), (whiten @ slopes)[:, free]
 
-    def jacobian(x):
-        return whiten @ worn_mass(x, s, a, np.log(force / f0))[1]
+    def solve(distance):
+        start = np.clip((math.log(1e-5), 1.0, math.log(distance), 0.3), low, high)[free]
+        return optimize.least_squares(lambda part: evaluate(part)[0], start, lambda part: evaluate(part)[1],
+                                      (low[free], high[free]), ftol=1e-12, xtol=1e-12, gtol=1e-12, max_nfev=300)
 
+    found = min(map(solve, np.geomspace(s.min(), s.max(), 3)), key=lambda solution: solution.cost)
+    slopes = evaluate(found.x)[1]  # x is now the solution
+    _, singular, v = np.linalg.svd(np.vstack((slopes, np.zeros((4, free.sum())))), full_matrices=False)
+    lost = singular <= 1e-9 * singular.max()  # directions of x that no reading depends on
+    blind = np.isin(range(4), np.flatnonzero(free)[(np.abs(v[lost]) > 1e-3).any(axis=0)])
+    freedom = len(s) - int(np.sum(~lost))
+    spread = 2.0 * float(found.cost) / freedom if freedom else math.nan
+    covariance = np.zeros((4, 4))  # of x
+    covariance[np.ix_(free, free)] = (1.0 if known else spread) * (v.T / np.where(lost, np.inf, singular) ** 2) @ v
+    covariance[blind] = covariance[:, blind] = np.nan
+    errors, flags, warnings = np.sqrt(np.diag(covariance)), {}, []
+    reach = (f"readings at {s.min():.3g} to {s.max():.3g} m, s0 about {math.exp(x[2]):.3g} m: weigh several times within"
+             " s0 and beyond 3 s0, load more or weigh finer; without running-in hold ratio 1 and any distance")
+    remedies = "slide further, load more or weigh finer", reach, reach, "test at two or more loads further apart"
+    edge = np.minimum(x - low, high - x) < NEAR_BOUND
+    for i in np.flatnonzero(free & (edge | ~(errors <= VAGUE))):
+        size = f"standard error {errors[i]:.2g}{'' if i == 3 else ' of its logarithm'}"
+        reason = "any value fits" if blind[i] else f"on its bound, {size}" if edge[i] else f"not determined, {size}"
+        flags[PARAMETERS[i]] = f"{reason}; {remedies[i]}"
+    if found.status <= 0:
+        warnings.append("the fit has not converged in 300 steps: hold a parameter")
+    if known and freedom and stats.chi2.sf(spread * freedom, freedom) < 1e-3:
+        warnings.append(f"reduced chi square {spread:.3g} with {freedom} degrees of freedom: more scatter than the balance"
+                        " has, or another law; the standard errors are too small by its root or more")
+    u = u if known else u * math.sqrt(spread)
+    for test, least in zip(tests, VISIBLE * math.sqrt(2.0) * u):
+        if test.mass_losses[-1] < least:
+            kappa = least / (test.mass_per_distance * test.distances[-1])
+            warnings.append(
+                f"{test.name}, {test.normal_force:g} N: mass_losses ends at {test.mass_losses[-1]:.2g} kg, the balance tells"
+                f" {least:.2g} kg or more, a mean kappa of {kappa:.2g} in {test.distances[-1]:.3g} m; {remedies[0]}")
+    values = np.where(blind, np.nan, np.append(np.exp(x[:3]), x[3]))
+    units = np.append(values[:3], 1.0)  # from ln to the parameter
+    return PinOnDiscFit(
+        dict(zip(PARAMETERS, values.tolist())), dict(zip(PARAMETERS, (errors * units).tolist())),
+        covariance * np.outer(units, units), spread if known else math.nan, freedom,
+        float(np.sqrt(np.mean(u**2))), f0, length, flags, tuple(warnings))

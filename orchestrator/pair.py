@@ -1,0 +1,88 @@
+"""Plant and wear unit of one reducer, connected."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from orchestrator.component import Component, InProcess
+from orchestrator.faults import InputFault
+from orchestrator.fmu import Fmu
+from orchestrator.master import Master
+from orchestrator.reducer import Reducer
+from orchestrator.settings import Setting, apply
+from rv_plant.gear_stage import total_ratio
+
+# Everything that the two units exchange.
+CONNECTIONS = [
+    *((f"plant.{name}", f"wear.{name}") for name in (
+        "crank_angle", "crank_speed", "output_angle", "cage_angle", "mesh_force", "roller_force")),
+    ("plant.reducer_temperature", "wear.temperature"),
+    *((f"wear.{name}", f"plant.{name}") for name in ("mesh_profile_error", "roller_profile_error")),
+]  # fmt: skip
+
+POSITIONS_PER_TURN = 72
+
+
+@dataclass
+class Pair:
+    """The coupled units and how they are stepped through crank turns."""
+
+    reducer: Reducer
+    master: Master
+    plant: Component
+    wear: Component
+    positions: int
+
+    @property
+    def turn_time(self) -> float:
+        """Duration of one crank turn in the housing [s] at the set input speed."""
+        return crank_turn_time(self.reducer, self.plant)
+
+    def set_positions(self, positions: int) -> None:
+        """Equilibria per crank turn from now on."""
+        self.positions = positions
+        self.master.rebase(self.turn_time / positions)
+
+
+def crank_turn_time(reducer: Reducer, plant: Component) -> float:
+    """Duration of one crank turn in the housing [s] at the plant's input speed."""
+    speed = plant.get("input_speed")
+    if speed == 0.0:
+        raise InputFault("input_speed = 0 rad/s: the cranks must turn; set input_speed, for instance 2000rpm")
+    ratio = total_ratio(plant.get("first_stage_ratio"), reducer.topology.pins, reducer.topology.lobes)
+    return 2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes)
+
+
+def require_built_from(reducer: Reducer, fmu: Fmu, unit: str) -> None:
+    """An FMU has its sizes and start values from one reducer file: it must be this one."""
+    if fmu.specification() != reducer.specification(unit):
+        raise InputFault(
+            f"{fmu.path} was built from another reducer file than {reducer.name} ({reducer.path.name});"
+            f" build it anew: rvwear build --reducer {reducer.name} --output {fmu.path.parent}"
+        )
+
+
+def make_pair(
+    reducer: Reducer,
+    settings: list[Setting] = (),
+    fmus: Path | None = None,
+    scheme: str = "gauss-seidel",
+    positions: int = POSITIONS_PER_TURN,
+) -> Pair:
+    """Initialised pair of a reducer: in this process, or as FMUs from the folder ``fmus``."""
+    if fmus is None:
+        plant = InProcess("plant", reducer.specification("rv_plant"))
+        wear = InProcess("wear", reducer.specification("wear_fmu"))
+    else:
+        plant, wear = Fmu("plant", fmus / "RvPlant.fmu"), Fmu("wear", fmus / "RvWear.fmu")
+        require_built_from(reducer, plant, "rv_plant")
+        require_built_from(reducer, wear, "wear_fmu")
+    components = {"plant": plant, "wear": wear}
+    apply(list(settings), components)
+    step = crank_turn_time(reducer, plant) / positions
+    master = Master(components, CONNECTIONS, step, scheme=scheme)
+    if scheme == "jacobi":
+        # Each unit then sees the other one step later than with Gauss-Seidel.
+        wear.set("contact_lead", 2.0)
+    master.initialise()
+    return Pair(reducer, master, plant, wear, positions)

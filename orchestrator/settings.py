@@ -1,0 +1,81 @@
+"""Settings ``name=value`` that a user gives for a run, with or without a unit.
+
+``load_torque=200``, ``bearing_clearance=10um``, ``pin_radius_error[3]=2um``,
+``contact_law=palmgren``: any parameter or input of plant or wear unit.
+"""
+
+import difflib
+import re
+from dataclasses import dataclass
+
+from fmu_src.units import UnitError, conversion
+from fmu_src.variables import Table, ValueFault
+from orchestrator.component import Component
+from orchestrator.faults import InputFault
+
+NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One checked setting; ``value`` is in the variable's own unit."""
+
+    name: str
+    value: float | int
+
+
+def parse_setting(text: str, tables: list[Table]) -> Setting:
+    """Read ``name=value``; InputFault names what is wrong."""
+    name, equals, value = text.partition("=")
+    name = name.strip()
+    if not equals:
+        raise InputFault(f"setting {text!r}: write name=value, for instance load_torque=200")
+    owners = [t for t in tables if name.partition("[")[0] in t.by_name]
+    owners = [t for t in owners if t.by_name[name.partition("[")[0]].role in ("parameter", "input")]
+    if not owners:
+        names = [v.name for t in tables for v in t.of_role("parameter", "input")]
+        close = difflib.get_close_matches(name, names, 3)
+        hint = f"; did you mean {', '.join(close)}?" if close else ""
+        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{hint}")
+    for owner in owners:
+        variable = owner.by_name[name.partition("[")[0]]
+        if "[" in name:
+            try:
+                owner.cell_index(name)
+            except KeyError as problem:
+                raise InputFault(f"setting {text!r}: {problem.args[0]}") from None
+        try:
+            number = parse_value(value.strip(), variable)
+            variable.check(number, name)
+        except (UnitError, ValueFault, InputFault) as problem:
+            raise InputFault(f"setting {text!r}: {problem}") from None
+    return Setting(name, number)
+
+
+def parse_value(text: str, variable) -> float | int:
+    """A number with an optional unit, or a choice's name, in the variable's unit."""
+    if variable.choices:
+        if text not in variable.choices:
+            raise InputFault(f"{variable.name} takes one of: {', '.join(variable.choices)}")
+        return variable.choices.index(text)
+    match = NUMBER.match(text)
+    if not match:
+        raise InputFault(f"{text!r} is not a number with a unit; {variable.name} is in {variable.unit}")
+    number, unit = float(match[1]), match[2]
+    if unit:
+        factor, offset = conversion(unit, variable.unit)
+        number = factor * number + offset
+    if variable.is_integer:
+        if number != int(number):
+            raise InputFault(f"{variable.name} = {text} must be a whole number")
+        return int(number)
+    return number
+
+
+def apply(settings: list[Setting], components: dict[str, Component]) -> None:
+    """Set each on every component that has it."""
+    for setting in settings:
+        base = setting.name.partition("[")[0]
+        for component in components.values():
+            if base in component.signals and component.signals[base].causality != "output":
+                component.set(setting.name, setting.value)
