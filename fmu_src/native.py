@@ -29,7 +29,7 @@ ENTRY_POINTS = {"initialise": (), "step": ("double", "double")}
 LIBM = {
     "acos", "asin", "atan", "atan2", "ceil", "cos", "exp", "expm1", "fabs", "floor", "fmod", "hypot", "ldexp",
     "log", "log10", "log1p", "pow", "round", "sin", "sinh", "cosh", "sqrt", "tan", "tanh", "trunc",
-    "memcpy", "memmove", "memset",
+    "sincos", "memcpy", "memmove", "memset",
 }  # fmt: skip
 # Reference counting of records that own nothing: calls are dropped.
 DROPPED = ("NRT_incref", "NRT_decref")

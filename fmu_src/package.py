@@ -2,12 +2,13 @@
 
 import json
 import shutil
+import subprocess
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
 
 import fmpy.validation
-from pythonfmu.builder import FmuBuilder
 
 from fmu_src.description import guid
 from fmu_src.native import host_triple, object_code
@@ -43,8 +44,12 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         (folder / STAMP).write_text(json.dumps(stamp, sort_keys=True, indent=1), encoding="utf-8")
         (folder / OBJECT_CODE).write_bytes(object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
-        raw = FmuBuilder.build_FMU(script, dest=folder / "raw", project_files=contents)
-        rewrite(raw, target / f"{name}.fmu")
+        # In a process of its own: pythonfmu imports the slave and leaves it in sys.modules.
+        command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *contents]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")
+        rewrite(folder / "raw" / f"{name}.fmu", target / f"{name}.fmu")
     return target / f"{name}.fmu"
 
 

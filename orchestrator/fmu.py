@@ -23,6 +23,7 @@ from fmpy.fmi2 import (
 )
 
 from fmu_src.slaves.kernel_slave import STAMP, STATE_MARK
+from fmu_src.source_hash import source_hash
 from fmu_src.unit import make_unit
 from orchestrator.component import Component, Signal
 from orchestrator.faults import InputFault, RunFault
@@ -40,6 +41,7 @@ class Fmu(Component):
         if self.description.coSimulation is None or self.description.fmiVersion != "2.0":
             raise InputFault(f"{self.path}: only FMI 2.0 co-simulation units can be stepped")
         self.folder = Path(fmpy.extract(str(self.path)))
+        self.require_same_sources()
         self.messages: list[str] = []
         self.callbacks = self.make_callbacks()
         self.slave = FMU2Slave(
@@ -47,7 +49,7 @@ class Fmu(Component):
             modelIdentifier=self.description.coSimulation.modelIdentifier,
         )
         self.signals = signals_of(self.description)
-        self.attempt(self.slave.instantiate, callbacks=self.callbacks, loggingOn=True)
+        self.instantiate()
 
     def make_callbacks(self) -> fmi2CallbackFunctions:
         """fmpy's callbacks, with messages kept for the error text instead of printed."""
@@ -61,13 +63,22 @@ class Fmu(Component):
         callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(defaultCallbacks.freeMemory)
         return callbacks
 
+    def instantiate(self) -> None:
+        try:
+            self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
+        except Exception as problem:
+            # fmpy raises a bare Exception here; the reason is in what the FMU logged.
+            raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
+
+    def last_messages(self) -> str:
+        return "; ".join(self.messages[-3:]) or "it logged nothing"
+
     def attempt(self, function: Callable, *arguments, **named):
         """Call fmpy; on an FMI error raise RunFault with what the FMU logged."""
         try:
             return function(*arguments, **named)
         except FMICallException as problem:
-            said = "; ".join(self.messages[-3:]) or "it logged nothing"
-            raise RunFault(f"{self.name} ({self.path.name}): {problem}: {said}") from None
+            raise RunFault(f"{self.name} ({self.path.name}): {problem}: {self.last_messages()}") from None
 
     def prepared(self, references, buffer):
         """(value references, count, pointer to the buffer) as fmpy's raw functions take them."""
@@ -127,18 +138,28 @@ class Fmu(Component):
         finally:
             self.slave.freeFMUstate(handle)
 
+    def stamp(self) -> dict | None:
+        """What this project writes into its FMUs; None for an FMU made by others."""
+        path = self.folder / "resources" / STAMP
+        return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+    def require_same_sources(self) -> None:
+        """This project's FMUs share this process's modules: they must be of its sources."""
+        stamp = self.stamp()
+        if stamp is not None and stamp["source_hash"] != source_hash():
+            raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
+
     def specification(self) -> dict:
         """What this project's FMU was built from, see fmu_src.unit."""
-        stamp = self.folder / "resources" / STAMP
-        if not stamp.exists():
+        stamp = self.stamp()
+        if stamp is None:
             raise InputFault(f"{self.path} is not one of this project's FMUs; build them with: rvwear build")
-        return json.loads(stamp.read_text(encoding="utf-8"))["specification"]
+        return stamp["specification"]
 
     def record(self):
         table = make_unit(self.specification()).table
         records = table.new_records()
-        mark = STATE_MARK.nbytes
-        table.cells(records)[: table.state_cells] = np.frombuffer(self.save()[mark:], "f8")
+        table.cells(records)[: table.state_cells] = np.frombuffer(self.save(), "f8", offset=len(STATE_MARK))
         return records
 
     def close(self):

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from orchestrator.faults import InputFault
 from orchestrator.pair import Pair
 from orchestrator.solve import Turn, measure
 
@@ -35,6 +36,15 @@ class LifeSettings:
     first_jump: float = 50.0
     largest_jump: float = 2_000.0
     smallest_jump: float = 1.0
+
+    def check(self) -> None:
+        """InputFault unless the numbers make sense together."""
+        for name in ("hours", "tolerance", "first_jump", "largest_jump"):
+            value = getattr(self, name)
+            if not 0.0 < value < np.inf:
+                raise InputFault(f"{name} = {value}: a positive finite number is needed")
+        if self.tolerance > 0.5:
+            raise InputFault(f"tolerance = {self.tolerance}: it is relative; 0.01 is usual, 0.5 the largest")
 
 
 @dataclass

@@ -102,6 +102,22 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict)
     return xr.Dataset(variables, coordinates, attributes).assign(spectra.data_vars).assign_coords(spectra.coords)
 
 
+def figure_arrays(dataset: xr.Dataset) -> dict[str, list[float]]:
+    """The figures of a life as arrays parallel to ``hours``."""
+    names = [n for n, v in dataset.data_vars.items() if v.dims == ("hour",)]
+    return {"hours": dataset["hour"].values.tolist()} | {n: dataset[n].values.tolist() for n in names}
+
+
+def series_dataset(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict) -> xr.Dataset:
+    """Series of a run over ``time``; names ``component.signal``."""
+    variables = {}
+    for name, values in series.items():
+        if name != "time":
+            axes = tuple(f"{name}_{i}" for i in range(1, values.ndim))
+            variables[name] = xr.Variable(("time", *axes), values, {"units": units[name]})
+    return xr.Dataset(variables, {"time": ("time", series["time"], {"units": "s"})}, provenance(inputs))
+
+
 def bin_middles(count: int, low: float, high: float) -> np.ndarray:
     return low + (np.arange(count) + 0.5) * (high - low) / count
 

@@ -1,6 +1,7 @@
 """Figures of one reducer over a crank turn: forces, pressure, lag, stiffness, sliding."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +33,7 @@ class Turn:
         return self.series[name]
 
 
-def record_turn(pair: Pair, positions: int) -> Turn:
+def record_turn(pair: Pair, positions: int, each_step: Callable[[], None] | None = None) -> Turn:
     """Step the pair through ``positions`` steps and record the plant after each."""
     signals = {name: pair.plant.signal(name) for name in SERIES}
     buffers, readers = {}, []
@@ -47,6 +48,8 @@ def record_turn(pair: Pair, positions: int) -> Turn:
             read()
         for name, buffer in buffers.items():
             series[name][i] = buffer
+        if each_step is not None:
+            each_step()
     return Turn({name: values.reshape(positions, *signals[name].shape) for name, values in series.items()})
 
 

@@ -5,14 +5,12 @@ The law of ``wear_laws`` for a contact sliding under a constant load, and the ma
     K(s) = kss (F/F0)^m [1 + (r - 1) exp(-s/s0)]                             [1]
     Q(s) = rho F/H kss (F/F0)^m [s + (r - 1) s0 (1 - exp(-s/s0))]            [kg]
 
-K (kappa) is dimensionless, s = 2 pi R n t the distance slid, H hardness, rho density.
-Tests of the BX-40E document: GCr15, 20 to 80 N, track radius 25 mm, 30 rpm; no losses
-are printed.  Weighings, the one before the start too, have independent errors of standard
-uncertainty u: a loss between two has sqrt(2) u, and as neighbours share a weighing their
-covariance is tridiagonal, u^2 (-1, 2, -1).  Its Cholesky factor whitens the increments.
+K (kappa) is dimensionless, s = 2 pi R n t the distance slid, H hardness, rho density.  The tests
+are the BX-40E document's (GCr15, 20 to 80 N, R = 25 mm, 30 rpm; no losses printed).  Weighings, the
+first too, have independent errors of standard uncertainty u: a loss between two has sqrt(2) u, and
+neighbours share a weighing: covariance u^2 (-1, 2, -1), tridiagonal, whitened by its Cholesky factor.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,9 +28,9 @@ LIMITS = {  # name: unit, lowest, highest, remedy; those of the law lie within t
     "density": ("kg/m^3", 100.0, 3e4, "give kilograms per cubic metre, steel 7850"),
     "times": ("s", 1e-3, 1e10, "give seconds since the start; leave out time 0, its loss is 0 by definition"),
     "mass_losses": ("kg", -1e-2, 1e-2, "give the mass lost since the start in kilograms, 1 mg = 1e-6"),
-    "contact_length": ("m", 1e-5, 1.0, "give metres"),
+    "contact_length": ("m", 1e-5, 1.0, "give the length of the contact line in metres, with every test"),
     "balance_uncertainty": ("kg", 1e-13, 1e-3, "give the standard uncertainty of one weighing, 0.1 mg = 1e-7"),
-    "reference_load": ("N", 1e-3, 1e5, "give newtons"),
+    "reference_load": ("N", 1e-3, 1e5, "give newtons, or None for the mean of the tests"),
     "wear_coefficient": ("1", 1e-13, 1.0, "give the dimensionless K, not k = K/H"),
     "run_in_ratio": ("1", 1e-2, 1e3, "give K when new over K run in, 1 for no running-in"),
     "run_in_distance": ("m", 1e-6, 1e12, "give metres slid"),
@@ -46,13 +44,9 @@ PARAMETERS = ("wear_coefficient", "run_in_ratio", "run_in_distance", "load_expon
 def checked(name: str, value, where: str = "") -> float:
     """``value`` as a float within ``LIMITS``; else a ValueFault with name, value, unit, range and remedy."""
     unit, low, high, remedy = LIMITS[name]
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueFault(f"{where}{name} = {value!r} is not a number in {unit}; {remedy}") from None
-    if not low <= number <= high:  # NaN too
-        raise ValueFault(f"{where}{name} = {number:g} {unit}: it must lie in [{low:g}, {high:g}] {unit}; {remedy}")
-    return number
+    if not isinstance(value, (int, float, np.number)) or not low <= value <= high:  # NaN too
+        raise ValueFault(f"{where}{name} = {value} {unit}: it must be a number in [{low:g}, {high:g}] {unit}; {remedy}")
+    return float(value)
 
 
 @dataclass(frozen=True)
@@ -71,11 +65,11 @@ class PinOnDiscTest:
     name: str = "test"
 
     def __post_init__(self):
-        for field in LIMITS.keys() & self.__dataclass_fields__.keys():
+        for field in filter(LIMITS.get, self.__dataclass_fields__):
             value = getattr(self, field)
             if field in ("times", "mass_losses"):
-                readings = enumerate(np.ravel(np.asarray(value, dtype=object)), 1)
-                value = tuple(checked(field, v, f"{self.name}, reading {i}: ") for i, v in readings)
+                row = np.ravel(np.array(value, object))
+                value = tuple(checked(field, v, f"{self.name}, reading {i}: ") for i, v in enumerate(row, 1))
             elif value is not None or field not in ("contact_length", "balance_uncertainty"):
                 value = checked(field, value, f"{self.name}: ")
             object.__setattr__(self, field, value)
@@ -86,7 +80,7 @@ class PinOnDiscTest:
     @property
     def distances(self) -> np.ndarray:
         """Distance slid at the readings, 2 pi R n t [m]."""
-        return 2.0 * math.pi * self.track_radius * self.rotational_speed * np.array(self.times)
+        return 2.0 * np.pi * self.track_radius * self.rotational_speed * np.array(self.times)
 
     @property
     def mass_per_distance(self) -> float:
@@ -97,9 +91,8 @@ class PinOnDiscTest:
 def secant_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
     """(distances [m], SECANT kappa [1]) at the readings: Q H/(rho F s) with the cumulative loss Q.
 
-    The BX-40E document prints this formula and calls it instantaneous.  It is the mean of
-    the instantaneous coefficient from 0 to s, so it lags: with running-in it lies above
-    it, and still falls like 1/s when that has settled.  dh = kappa p ds needs the other.
+    The BX-40E document prints this formula and calls it instantaneous.  It is the mean of the
+    instantaneous one from 0 to s, so it lags: with r > 1 it lies above, and nears it as 1/s only.
     """
     return test.distances, np.array(test.mass_losses) / (test.mass_per_distance * test.distances)
 
@@ -107,8 +100,8 @@ def secant_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
 def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
     """(middle distances [m], INSTANTANEOUS kappa [1]) of the intervals between readings: H/(rho F) dQ/ds.
 
-    A value is the mean over its interval (the first from the start); at the middle it
-    equals the law to second order.  Errors of neighbours are negatively correlated.
+    The mean over each interval (the first from the start): equals the law at its middle to
+    second order.  Errors of neighbours are negatively correlated.
     """
     s, q = np.append(0.0, test.distances), np.append(0.0, test.mass_losses)
     return 0.5 * (s[1:] + s[:-1]), np.diff(q) / (test.mass_per_distance * np.diff(s))
@@ -117,13 +110,12 @@ def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarr
 def smallest_visible_coefficient(test: PinOnDiscTest, balance_uncertainty: float | None = None) -> float:
     """Smallest mean kappa [1] whose loss over the whole test is twice the standard error of a loss.
 
-    2 sqrt(2) u H/(rho F s), u [kg] from the argument or the test; the losses are not
-    looked at (zeros do for planning).  kappa = 1e-6 at 80 N for 1 h of the document's test
-    (283 m) removes 25 ug; a balance of u = 0.1 mg sees 1.1e-5.
+    2 sqrt(2) u H/(rho F s), u [kg] from the argument or the test; for planning, losses may be
+    0.  kappa = 1e-6 at 80 N for 1 h (283 m) removes 25 ug; u = 0.1 mg sees 1.1e-5 or more.
     """
     u = test.balance_uncertainty if balance_uncertainty is None else balance_uncertainty
-    u = checked("balance_uncertainty", u, f"{test.name}: ")
-    return VISIBLE * math.sqrt(2.0) * u / (test.mass_per_distance * test.distances[-1])
+    loss = VISIBLE * np.sqrt(2.0) * checked("balance_uncertainty", u, f"{test.name}: ")
+    return loss / (test.mass_per_distance * test.distances[-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,58 +140,51 @@ class PinOnDiscFit:
     def wear_unit_parameters(self, run_in_crank_speed: float, sliding_per_crank_radian: float) -> dict[str, float]:
         """The wear unit's parameters (SI) for ``mesh_wear_law`` "run-in and load".
 
-        The test counts running-in by distance, exp(-s/s0), the unit by crank travel theta
-        [rad], exp(-theta/(run_in_time run_in_crank_speed)).  With the mean sliding length
-        per crank radian l, s = l theta and run_in_time = s0/(l run_in_crank_speed) [s].
-        For the contact, l is the mean of ``kinematics.sliding_per_crank_angle`` over a lobe;
-        that fits a surface always in contact, like the test's pin (assumed).  A point of a
-        flank slides 2 a_H v_s/v_c per pass of a contact of half width a_H, z_p/z_c passes
-        per crank turn: l = a_H z_p/(pi z_c) v_s/v_c, tens of times less, and run_in_time as
-        much longer.  Only K/H is measured: give the unit the tests' hardness.
+        The test counts running-in by distance, exp(-s/s0), the unit by crank travel theta [rad],
+        exp(-theta/(run_in_time run_in_crank_speed)).  With the mean sliding length per crank radian
+        l, s = l theta and run_in_time = s0/(l run_in_crank_speed) [s].  For the contact, l is the mean
+        of ``kinematics.sliding_per_crank_angle`` over a lobe: right for a surface always in contact,
+        like the test's pin (assumed).  A point of a flank slides 2 a_H v_s/v_c per pass of a contact of
+        half width a_H, z_p/z_c passes a crank turn: l = a_H z_p/(pi z_c) v_s/v_c, tens of times less,
+        and run_in_time as much more.  Only K/H is measured: give the unit the tests' hardness.
         """
         for name, reason in self.flags.items():
             raise ValueFault(f"{name} = {self.estimates[name]:g} {LIMITS[name][0]} must not be used: {reason};"
                              f' or hold it at an assumed value, fit(..., held={{"{name}": value}})')
-        if self.contact_length is None:
-            raise ValueFault("contact_length = None m: reference_line_load [N/m] needs it; give it in the tests")
+        length = checked("contact_length", self.contact_length, "for reference_line_load: ")
         speed = checked("run_in_crank_speed", run_in_crank_speed)
         slide = checked("sliding_per_crank_radian", sliding_per_crank_radian)
         k, r, s0, m = (self.estimates[name] for name in PARAMETERS)
         return {"mesh_wear_coefficient": k, "run_in_ratio": r, "run_in_time": s0 / (slide * speed),
-                "run_in_crank_speed": speed, "load_exponent": m,
-                "reference_line_load": self.reference_load / self.contact_length}
+                "run_in_crank_speed": speed, "load_exponent": m, "reference_line_load": self.reference_load / length}
 
 
 def whitened_differences(test: PinOnDiscTest, uncertainty: float) -> np.ndarray:
     """Matrix that turns losses [kg] into increments with independent unit errors; u [kg]."""
-    n = len(test.times)
-    of_weighings = np.eye(n, n + 1, 1) - np.eye(n, n + 1)
-    root = uncertainty * linalg.cholesky(of_weighings @ of_weighings.T, lower=True)
-    return linalg.solve_triangular(root, of_weighings[:, 1:], lower=True)
+    of_weighings = np.diff(np.eye(len(test.times) + 1), axis=0)
+    root = uncertainty * np.linalg.cholesky(of_weighings @ of_weighings.T)
+    return np.linalg.solve(root, of_weighings[:, 1:])
 
 
 def worn_mass(x, s, per_distance, log_load):
     """Q [kg] at distances s [m], and its slopes in x = (ln kss, ln r, ln s0, m); rho F/H [kg/m], ln(F/F0)."""
-    r, s0 = np.exp(x[1:3])
-    gone = -np.expm1(-s / s0)
+    (r, s0), gone = np.exp(x[1:3]), -np.expm1(-s / np.exp(x[2]))
     scale = per_distance * np.exp(x[0] + x[3] * log_load)
     q = scale * (s + (r - 1.0) * s0 * gone)
-    slopes = [q, scale * r * s0 * gone, scale * (r - 1.0) * (s0 * gone - s * (1.0 - gone)), q * log_load]
-    return q, np.column_stack(slopes)
+    return q, np.array([q, scale * r * s0 * gone, scale * (r - 1.0) * (s0 * gone - s * (1.0 - gone)), q * log_load]).T
 
 
 def fit(tests, reference_load: float | None = None, held: dict[str, float] | None = None) -> PinOnDiscFit:
     """Fit the law to a sequence of PinOnDiscTest by least squares on the whitened increments.
 
-    ``reference_load`` F0 [N] None: geometric mean of the loads, where kss and m are least
-    correlated.  ``held`` gives parameters that are not fitted (no running-in: ratio 1 and
-    any distance).  s0 is sought within 1/30 of the first and 30 times the last reading.
+    ``reference_load`` F0 [N] None: geometric mean of the loads.  ``held``: values of parameters
+    that are not fitted.  s0 is sought from 1/30 of the first to 30 times the last reading.
     """
-    tests, held = tuple(tests), dict(held or {})
+    tests, held = tuple(tests), held or {}
     weighed, lengths = {t.balance_uncertainty is not None for t in tests}, {t.contact_length for t in tests}
     if len(weighed) != 1 or len(lengths) != 1:
-        raise ValueFault(f"tests: {len(tests)}, of contact_length {sorted(map(str, lengths))} m; give one or more tests"
-                         " of one contact_length, all with balance_uncertainty [kg] or all without")
+        raise ValueFault(f"tests: {len(tests)}, of contact_length {sorted(map(str, lengths))} m: give one test or more,"
+                         " all of one contact_length [m], and balance_uncertainty [kg] in all or in none")
     if not set(held) < set(PARAMETERS):
         raise ValueFault(f"held = {held}: hold some, but not all, of {', '.join(PARAMETERS)}")
     (known,), (length,), counts = weighed, lengths, [len(t.times) for t in tests]
@@ -207,8 +192,8 @@ def fit(tests, reference_load: float | None = None, held: dict[str, float] | Non
     if not measured.max() > 0.0:
         raise ValueFault(f"mass_losses: at most {measured.max():g} kg, nothing is worn; slide further or load more")
     log_loads = np.log([t.normal_force for t in tests])
-    f0 = math.exp(log_loads.mean()) if reference_load is None else checked("reference_load", reference_load)
-    conditions = s, np.repeat([t.mass_per_distance for t in tests], counts), np.repeat(log_loads - math.log(f0), counts)
+    f0 = np.exp(log_loads.mean()) if reference_load is None else checked("reference_load", reference_load)
+    conditions = s, np.repeat([t.mass_per_distance for t in tests], counts), np.repeat(log_loads - np.log(f0), counts)
     u = np.array([t.balance_uncertainty if known else measured.max() for t in tests])
     whiten = linalg.block_diag(*map(whitened_differences, tests, u))
     x = np.array([checked(name, held[name], "held: ") if name in held else np.nan for name in PARAMETERS])
@@ -218,50 +203,47 @@ def fit(tests, reference_load: float | None = None, held: dict[str, float] | Non
         row[:3] = np.log(row[:3])
     free = np.isnan(x)
 
-    def evaluate(part):
+    def evaluate(part):  # sets x
         x[free] = part
         q, slopes = worn_mass(x, *conditions)
         return whiten @ (q - measured), (whiten @ slopes)[:, free]
 
     def solve(distance):
-        start = np.clip((math.log(1e-5), 1.0, math.log(distance), 0.3), low, high)[free]
+        secant = measured.max() / np.max(s * conditions[1])
+        start = np.clip((np.log(secant), 1.0, np.log(distance), 0.3), low, high)[free]
         return optimize.least_squares(lambda part: evaluate(part)[0], start, lambda part: evaluate(part)[1],
                                       (low[free], high[free]), ftol=1e-12, xtol=1e-12, gtol=1e-12, max_nfev=300)
 
     found = min(map(solve, np.geomspace(s.min(), s.max(), 3)), key=lambda solution: solution.cost)
-    slopes = evaluate(found.x)[1]  # x is now the solution
-    _, singular, v = np.linalg.svd(np.vstack((slopes, np.zeros((4, free.sum())))), full_matrices=False)
+    _, singular, v = np.linalg.svd(np.vstack((evaluate(found.x)[1], np.zeros((4, free.sum())))), full_matrices=False)
     lost = singular <= 1e-9 * singular.max()  # directions of x that no reading depends on
     blind = np.isin(range(4), np.flatnonzero(free)[(np.abs(v[lost]) > 1e-3).any(axis=0)])
     freedom = len(s) - int(np.sum(~lost))
-    spread = 2.0 * float(found.cost) / freedom if freedom else math.nan
+    spread = 2.0 * float(found.cost) / freedom if freedom else np.nan  # reduced chi square
     covariance = np.zeros((4, 4))  # of x
     covariance[np.ix_(free, free)] = (1.0 if known else spread) * (v.T / np.where(lost, np.inf, singular) ** 2) @ v
-    covariance[blind] = covariance[:, blind] = np.nan
-    errors, flags, warnings = np.sqrt(np.diag(covariance)), {}, []
-    reach = (f"readings at {s.min():.3g} to {s.max():.3g} m, s0 about {math.exp(x[2]):.3g} m: weigh several times within"
-             " s0 and beyond 3 s0, load more or weigh finer; without running-in hold ratio 1 and any distance")
-    remedies = "slide further, load more or weigh finer", reach, reach, "test at two or more loads further apart"
+    errors, flags = np.sqrt(np.diag(covariance)), {}
+    finer = "slide further, load more or weigh finer"
+    reach = (f"readings at {s.min():.3g} to {s.max():.3g} m, s0 about {np.exp(x[2]):.3g} m: {finer}, several times"
+             " within s0 and beyond 3 s0; without running-in hold run_in_ratio 1 and any run_in_distance")
     edge = np.minimum(x - low, high - x) < NEAR_BOUND
-    for i in np.flatnonzero(free & (edge | ~(errors <= VAGUE))):
+    for i in np.flatnonzero(free & (blind | edge | ~(errors <= VAGUE))):
         size = f"standard error {errors[i]:.2g}{'' if i == 3 else ' of its logarithm'}"
         reason = "any value fits" if blind[i] else f"on its bound, {size}" if edge[i] else f"not determined, {size}"
-        flags[PARAMETERS[i]] = f"{reason}; {remedies[i]}"
-    if found.status <= 0:
-        warnings.append("the fit has not converged in 300 steps: hold a parameter")
+        flags[PARAMETERS[i]] = f"{reason}; {(finer, reach, reach, 'test at two or more loads further apart')[i]}"
+    warnings = [] if found.status > 0 and (known or freedom) else ["not converged or no errors known: add readings"]
     if known and freedom and stats.chi2.sf(spread * freedom, freedom) < 1e-3:
-        warnings.append(f"reduced chi square {spread:.3g} with {freedom} degrees of freedom: more scatter than the balance"
-                        " has, or another law; the standard errors are too small by its root or more")
-    u = u if known else u * math.sqrt(spread)
-    for test, least in zip(tests, VISIBLE * math.sqrt(2.0) * u):
-        if test.mass_losses[-1] < least:
-            kappa = least / (test.mass_per_distance * test.distances[-1])
-            warnings.append(
-                f"{test.name}, {test.normal_force:g} N: mass_losses ends at {test.mass_losses[-1]:.2g} kg, the balance tells"
-                f" {least:.2g} kg or more, a mean kappa of {kappa:.2g} in {test.distances[-1]:.3g} m; {remedies[0]}")
+        warnings.append(f"reduced chi square {spread:.3g} with {freedom} degrees of freedom: more scatter than the"
+                        " balance has, or another law; the standard errors are too small by its root or more")
+    u = u if known else u * np.sqrt(spread)
+    for t, least in zip(tests, VISIBLE * np.sqrt(2.0) * u):
+        if t.mass_losses[-1] < least:
+            kappa = least / (t.mass_per_distance * t.distances[-1])
+            warnings.append(f"{t.name}: mass_losses end at {t.mass_losses[-1]:.2g} kg, the balance sees {least:.2g} kg,"
+                            f" a mean kappa of {kappa:.2g} at {t.normal_force:g} N, {t.distances[-1]:.3g} m; {finer}")
     values = np.where(blind, np.nan, np.append(np.exp(x[:3]), x[3]))
-    units = np.append(values[:3], 1.0)  # from ln to the parameter
+    units = np.where(blind, np.nan, np.append(values[:3], 1.0))  # slopes of the parameters in x
     return PinOnDiscFit(
         dict(zip(PARAMETERS, values.tolist())), dict(zip(PARAMETERS, (errors * units).tolist())),
-        covariance * np.outer(units, units), spread if known else math.nan, freedom,
-        float(np.sqrt(np.mean(u**2))), f0, length, flags, tuple(warnings))
+        covariance * np.outer(units, units), spread if known else np.nan, freedom,
+        float(np.sqrt(np.mean(u**2))), float(f0), length, flags, tuple(warnings))

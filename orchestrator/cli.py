@@ -1,0 +1,105 @@
+"""The command line tool ``rvwear``.
+
+Exit codes: 0 done, 1 a run that failed, 2 bad input, 130 interrupted.
+"""
+
+import argparse
+import sys
+
+from orchestrator import commands
+from orchestrator.faults import InputFault, RunFault
+from orchestrator.reducer import available
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parser().parse_args(arguments)
+    try:
+        return options.run(options)
+    except InputFault as fault:
+        print(f"rvwear {options.command}: {fault}", file=sys.stderr)
+        return 2
+    except RunFault as fault:
+        print(f"rvwear {options.command}: {fault}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"rvwear {options.command}: interrupted", file=sys.stderr)
+        return 130
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(prog="rvwear", description="Dynamics and wear of RV reducers.")
+    sub = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    solve = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
+    add_reducer_options(solve)
+    add_json(solve)
+    solve.set_defaults(run=commands.solve)
+
+    run = sub.add_parser("run", help="co-simulate: a scenario file, or the pair of a reducer for some crank turns")
+    run.add_argument("scenario", nargs="?", help="scenario file (.toml); without it, the pair of --reducer")
+    add_reducer_options(run)
+    add_coupling_options(run)
+    run.add_argument("--turns", type=float, default=1.0, help="crank turns to simulate (default 1)")
+    run.add_argument("--acceleration", type=float, default=1.0, help="wear counts this many times (default 1)")
+    run.add_argument("--output", help="result file (default results/NAME_run.nc)")
+    add_json(run)
+    run.set_defaults(run=commands.run)
+
+    life = sub.add_parser("life", help="wear over thousands of hours, in error-controlled jumps")
+    add_reducer_options(life)
+    add_coupling_options(life)
+    life.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
+    life.add_argument("--tolerance", type=float, default=0.01, help="error per jump over wear added (default 0.01)")
+    life.add_argument("--first-jump", type=float, default=50.0, help="hours of the first jump (default 50)")
+    life.add_argument("--largest-jump", type=float, default=2000.0, help="hours of the longest jump (default 2000)")
+    life.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
+    life.add_argument("--no-report", action="store_true", help="write no HTML report")
+    start = life.add_mutually_exclusive_group()
+    start.add_argument("--resume", action="store_true", help="go on from the checkpoint beside the output")
+    start.add_argument("--restart", action="store_true", help="discard a checkpoint and start anew")
+    start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
+    add_json(life)
+    life.set_defaults(run=commands.life)
+
+    build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
+    build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
+    build.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
+    add_json(build)
+    build.set_defaults(run=commands.build)
+
+    report = sub.add_parser("report", help="write the HTML report of a life result again")
+    report.add_argument("result", help="result file of rvwear life (.nc)")
+    report.add_argument("--output", help="report file (default beside the result)")
+    report.set_defaults(run=commands.report)
+    return top
+
+
+REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default RV20E-121)"
+
+
+def add_json(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="print figures as JSON, nothing else")
+
+
+def add_reducer_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
+    command.add_argument("--torque", type=float, metavar="NM", help="output torque [N m], opposing the motion")
+    command.add_argument("--bearing-clearance", type=float, metavar="UM", help="radial needle clearance [um]")
+    command.add_argument("--equidistant", type=float, metavar="UM", help="equidistant modification [um], > 0 is a gap")
+    command.add_argument("--shift", type=float, metavar="UM", help="shift modification [um], < 0 is a gap")
+    command.add_argument("--stiffness-reading", metavar="SI|literal", help="how the printed stiffnesses are read")
+    command.add_argument("--contact-law", metavar="LAW", help="line, lankarani-nikravesh or palmgren")
+    command.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE",
+        help="any parameter or input, with a unit if it is not SI: --set pin_radius_error[3]=2um",
+    )  # fmt: skip
+    command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")
+
+
+def add_coupling_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--fmus", metavar="FOLDER", help="step the FMUs of this folder instead of the kernels")
+    command.add_argument("--scheme", default="gauss-seidel", help="gauss-seidel (default) or jacobi")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

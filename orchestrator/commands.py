@@ -1,0 +1,241 @@
+"""What each command of ``rvwear`` does."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from fmu_src.description import guid
+from fmu_src.package import build_fmu, validate
+from fmu_src.source_hash import source_hash
+from orchestrator import results, screen
+from orchestrator.checkpoint import load_checkpoint, save_checkpoint
+from orchestrator.component import InProcess
+from orchestrator.faults import InputFault
+from orchestrator.life import Life, LifeSettings, as_arrays, live
+from orchestrator.master import Master
+from orchestrator.pair import Pair, crank_turn_time, make_pair
+from orchestrator.reducer import Reducer, load_reducer
+from orchestrator.scenario import load_scenario, run_scenario
+from orchestrator.settings import Setting, apply, parse_setting
+from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
+
+# Options that are shorthands of settings: option -> (variable, unit).
+SHORTHANDS = {
+    "torque": ("load_torque", "N.m"),
+    "bearing_clearance": ("bearing_clearance", "um"),
+    "equidistant": ("equidistant_modification", "um"),
+    "shift": ("shift_modification", "um"),
+    "stiffness_reading": ("stiffness_reading", ""),
+    "contact_law": ("contact_law", ""),
+}
+
+
+def settings_of(options: argparse.Namespace, reducer: Reducer) -> list[Setting]:
+    """Settings from the shorthand options and ``--set``, in this order."""
+    texts = [
+        f"{name}={value if isinstance(value, str) else repr(value)}{unit}"
+        for option, (name, unit) in SHORTHANDS.items()
+        if (value := getattr(options, option)) is not None
+    ]
+    return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
+
+
+def print_json(content: dict) -> None:
+    """NaN and infinity are not JSON: they become null."""
+    print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))
+
+
+def solve(options: argparse.Namespace) -> int:
+    """``rvwear solve``: the plant alone over one crank turn."""
+    positions = require_positions(options.positions)
+    reducer = load_reducer(options.reducer)
+    plant = InProcess("plant", reducer.specification("rv_plant"))
+    apply(settings_of(options, reducer), {"plant": plant})
+    torque = plant.get("load_torque")
+    with screen.busy("equilibria of one crank turn"):
+        master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)
+        pair = Pair(reducer, master, plant, plant, positions)
+        master.initialise()
+        full = record_turn(pair, positions)
+        plant.set("load_torque", 0.5 * torque)
+        half = record_turn(pair, positions)
+        figures = figures_of(reducer, plant, full, half, torque)
+    if options.json:
+        print_json({"reducer": reducer.name, "positions": positions} | figures)
+    else:
+        screen.figures(f"{reducer.name} over one crank turn", figures)
+    return 0
+
+
+def run(options: argparse.Namespace) -> int:
+    """``rvwear run``: a scenario file, or the pair of a reducer."""
+    if options.scenario:
+        scenario = load_scenario(options.scenario)
+        with screen.Progress(scenario.steps, "steps") as progress:
+            series = run_scenario(scenario, progress.advance)
+        units = {f"{name}.{signal}": scenario.master.components[name].signal(signal).unit
+                 for name, signal in scenario.recorded}
+        name, inputs = scenario.name, {"scenario": scenario.text}
+        scenario.master.close()
+    else:
+        positions = require_positions(options.positions)
+        reducer = load_reducer(options.reducer)
+        settings = settings_of(options, reducer)
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
+        pair.wear.set("acceleration", options.acceleration)
+        steps = round(options.turns * positions)
+        if steps < 1:
+            raise InputFault(f"turns = {options.turns}: at least one position ({1 / positions:.3g} turns) is needed")
+        with screen.Progress(steps, "steps") as progress:
+            recorded = record_turn(pair, steps, progress.advance).series
+        step = pair.master.step_size
+        series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{k}": v for k, v in recorded.items()}
+        units = {f"plant.{k}": pair.plant.signal(k).unit for k in SERIES}
+        name = f"{reducer.name}_run"
+        inputs = {"reducer": reducer.name, "settings": {s.name: s.value for s in settings},
+                  "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
+                  "parameters": {"plant": results.parameters_of(pair.plant), "wear": results.parameters_of(pair.wear)}}
+        pair.master.close()
+    path = Path(options.output or f"results/{name}.nc")
+    results.write(results.series_dataset(series, units, inputs), path)
+    summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
+    summary |= {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+    if options.json:
+        print_json(summary)
+    else:
+        screen.figures(f"{name}: values at the end (largest of an array)", summary)
+    return 0
+
+
+def folder(text: str | None) -> Path | None:
+    return Path(text) if text else None
+
+
+def life(options: argparse.Namespace) -> int:
+    """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
+    positions = require_positions(options.positions)
+    reducer = load_reducer(options.reducer)
+    settings = settings_of(options, reducer)
+    life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
+    life_settings.check()
+    inputs = {
+        "reducer": reducer.name, "starts": reducer.starts, "settings": {s.name: s.value for s in settings},
+        "life": vars(life_settings).copy(), "scheme": options.scheme, "positions": positions,
+        "units": "fmu" if options.fmus else "in process", "source_hash": source_hash(),
+    }  # fmt: skip
+    path = Path(options.output or f"results/{reducer.name}_life.nc")
+    checkpoint = path.with_suffix(".checkpoint")
+    if options.reuse and (known := known_result(path, inputs)) is not None:
+        return show_life(options, known, path)
+    resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
+    if checkpoint.exists() and not (resume or options.restart or options.reuse):
+        raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
+    with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
+    lived = Life(life_settings)
+    first_orders = results.order_spectrum(pair, 0.0)
+    if resume:
+        lived, saved = load_checkpoint(checkpoint, inputs)
+        pair.master.restore(saved)
+
+    def keep(state: Life) -> None:
+        save_checkpoint(checkpoint, state, pair.master.save(), inputs)
+
+    try:
+        with screen.LifeProgress(lived) as progress:
+            live(pair, lived, progress.show, keep)
+    except KeyboardInterrupt:
+        print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
+        return 130
+    orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
+    dataset = results.life_dataset(pair, lived, orders, inputs)
+    results.write(dataset, path)
+    checkpoint.unlink()
+    pair.master.close()
+    return show_life(options, dataset, path)
+
+
+def belongs_to(checkpoint: Path, inputs: dict) -> bool:
+    """Whether a run of these inputs left the checkpoint."""
+    try:
+        load_checkpoint(checkpoint, inputs)
+    except InputFault:
+        return False
+    return True
+
+
+def known_result(path: Path, inputs: dict) -> xr.Dataset | None:
+    """A finished result with the same inputs, or None."""
+    if not path.exists():
+        return None
+    dataset = results.read(path)
+    stored = json.loads(dataset.attrs["inputs"])
+    same = all(stored.get(k) == json.loads(json.dumps(v)) for k, v in inputs.items())
+    return dataset if same else None
+
+
+def show_life(options: argparse.Namespace, dataset: xr.Dataset, path: Path) -> int:
+    """Table or JSON on the screen, and the report."""
+    page = path.with_suffix(".html")
+    if not options.no_report:
+        from orchestrator.report import write_report
+
+        write_report(dataset, page)
+    if options.json:
+        print_json({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
+    else:
+        screen.life_table(dataset)
+        print(f"result  {path}")
+        if not options.no_report:
+            print(f"report  {page}")
+    return 0
+
+
+def build(options: argparse.Namespace) -> int:
+    """``rvwear build``: both FMUs, validated; those that are up to date stay."""
+    reducer = load_reducer(options.reducer)
+    built = []
+    for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
+        specification = reducer.specification(unit)
+        plant = InProcess("plant", reducer.specification("rv_plant"))
+        step = crank_turn_time(reducer, plant) / 72
+        path = Path(options.output) / f"{name}.fmu"
+        fresh = is_current(path, guid(specification, source_hash()))
+        if not fresh:
+            with screen.busy(f"compiling and packing {path.name}"):
+                build_fmu(name, specification, step, f"rvwear {results.version('rvwear')}", path.parent)
+        validate(path)
+        built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": not fresh, "problems": 0})
+    if options.json:
+        print_json({"reducer": reducer.name, "fmus": built})
+    else:
+        for entry in built:
+            state = "built" if entry["built"] else "up to date"
+            print(f"{entry['fmu']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+    return 0
+
+
+def is_current(path: Path, identity: str) -> bool:
+    """Whether an FMU of this identity is there already."""
+    import fmpy
+
+    return path.exists() and fmpy.read_model_description(str(path)).guid == identity
+
+
+def report(options: argparse.Namespace) -> int:
+    """``rvwear report``: the page of a result file."""
+    from orchestrator.report import write_report
+
+    path = Path(options.result)
+    if not path.is_file():
+        raise InputFault(f"no result file at {path}; rvwear life writes one")
+    page = Path(options.output) if options.output else path.with_suffix(".html")
+    write_report(results.read(path), page)
+    print(page)
+    return 0
+
+

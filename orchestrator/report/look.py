@@ -1,0 +1,158 @@
+"""How figures look: colours, axes, and a figure as plain data for plotly.js."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+INK, QUIET, GRID, STEEL, PAPER = "#1d2733", "#5d6975", "#e4e9ee", "#eceff2", "#ffffff"
+START, NOW = "#98a3af", "#0b4f94"
+# One sequential scale each, light to dark, so that they also read in grey: hours, depth, force.
+HOURS = ("#a8cbe8", "#74abd9", "#4488c2", "#22669f", "#114877", "#062a4e")
+DEPTH = ("#fde3b0", "#fdbe6f", "#f5923e", "#db6420", "#ad3f12", "#6e2108")
+FORCE = ("#ffffff", "#dcd8ee", "#b6abd9", "#8a76bd", "#61449b", "#34156b")
+# The four kinds of surface: colour-blind safe, each with its own line.
+SURFACES = {
+    "disc_flank_um": ("disc flank", "#0072b2", "solid"),
+    "inner_raceway_um": ("inner raceway", "#d55e00", "dash"),
+    "outer_raceway_um": ("outer raceway", "#e0a000", "dashdot"),
+    "pin_um": ("pin", "#6b7785", "dot"),
+}
+FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", sans-serif'
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One plot: ``data`` and ``layout`` for plotly.js, and what the page says about it.
+
+    ``columns`` of twelve is its width on a wide screen.  ``states[disc][hour]`` holds, for
+    figures that follow the page's selectors, one update per trace (None: unchanged);
+    with a single entry for ``disc`` the figure is the same for all discs.
+    """
+
+    name: str
+    title: str
+    caption: str
+    data: list[dict]
+    layout: dict
+    columns: int = 6
+    height: int = 300
+    aspect: str = ""
+    keys: list[tuple[str, str, str]] = field(default_factory=list)
+    states: list[list[list[dict | None]]] = field(default_factory=list)
+    rows: int = 1
+
+
+def blend(scale: tuple[str, ...], part: float) -> str:
+    """Colour at ``part`` (0 to 1) of a scale."""
+    place = min(max(part, 0.0), 1.0) * (len(scale) - 1)
+    i = min(int(place), len(scale) - 2)
+    low, high = (np.array([int(c[k : k + 2], 16) for k in (1, 3, 5)]) for c in (scale[i], scale[i + 1]))
+    mixed = low + (place - i) * (high - low)
+    return "#" + "".join(f"{round(v):02x}" for v in mixed)
+
+
+def hour_colours(count: int) -> list[str]:
+    """Colours of the shown hours, first light, last dark."""
+    return [blend(HOURS, i / max(count - 1, 1)) if count > 1 else HOURS[-1] for i in range(count)]
+
+
+def colour_scale(scale: tuple[str, ...]) -> list[list]:
+    return [[i / (len(scale) - 1), colour] for i, colour in enumerate(scale)]
+
+
+def short(values, digits: int = 4):
+    """Nested lists with as many decimals as ``digits`` of the largest value need; NaN becomes None."""
+    array = np.asarray(values, float)
+    finite = np.abs(array[np.isfinite(array)])
+    largest = float(finite.max(initial=0.0))
+    decimals = digits - 1 - (math.floor(math.log10(largest)) if largest > 0.0 else 0)
+    rounded = np.round(array, decimals)
+    return plain(rounded.tolist())
+
+
+def plain(value):
+    if isinstance(value, list):
+        return [plain(v) for v in value]
+    if value is None or not math.isfinite(value):
+        return None
+    return int(value) if value == int(value) else value
+
+
+def axis(title: str, **more) -> dict:
+    """An axis with its title; quiet lines."""
+    return {
+        "title": {"text": title, "font": {"size": 12, "color": QUIET}, "standoff": 8},
+        "gridcolor": GRID, "linecolor": GRID, "zeroline": False, "ticks": "outside", "ticklen": 3,
+        "tickcolor": GRID, "tickfont": {"size": 11, "color": QUIET}, "automargin": True, "fixedrange": False,
+    } | more  # fmt: skip
+
+
+def hour_axis(**more) -> dict:
+    return axis("operating time [h]", rangemode="tozero", tickformat=",~r", nticks=6, **more)
+
+
+def angle_axis(title: str, low: float, high: float, step: float, **more) -> dict:
+    return axis(title, range=[low, high], dtick=step, tick0=low, **more)
+
+
+def layout(**more) -> dict:
+    """A figure's layout: transparent, small margins, no legend (keys stand in the page)."""
+    return {
+        "font": {"family": FONT, "size": 12, "color": INK}, "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)", "margin": {"l": 56, "r": 14, "t": 10, "b": 46}, "showlegend": False,
+        "hovermode": "closest", "hoverlabel": {"font": {"family": FONT, "size": 12}}, "autosize": True,
+        "dragmode": "zoom",
+    } | more  # fmt: skip
+
+
+def drawing(x_range: list[float], y_range: list[float], **more) -> dict:
+    """Layout of a picture to scale: equal units, no axes."""
+    bare = {"visible": False, "fixedrange": False}
+    return layout(
+        margin={"l": 4, "r": 4, "t": 4, "b": 4},
+        xaxis=bare | {"range": x_range, "constrain": "domain"},
+        yaxis=bare | {"range": y_range, "scaleanchor": "x", "scaleratio": 1, "constrain": "domain"},
+        **more,
+    )
+
+
+def line(x, y, colour: str, width: float = 1.8, dash: str = "solid", hover: str | None = None, **more) -> dict:
+    """A line trace; without ``hover`` text it does not react to the pointer."""
+    trace = {"type": "scatter", "mode": "lines", "x": x, "y": y, "line": {"color": colour, "width": width, "dash": dash}}
+    trace |= {"hovertemplate": hover + "<extra></extra>"} if hover else {"hoverinfo": "skip"}
+    return trace | more
+
+
+def path(points: np.ndarray, colour: str, width: float = 1.2, close: bool = False, digits: int = 5, **more) -> dict:
+    """A line through complex points."""
+    if close:
+        points = np.append(points, points[0])
+    return line(short(points.real, digits), short(points.imag, digits), colour, width, **more)
+
+
+def note(x: float, y: float, text: str, **more) -> dict:
+    """An annotation without arrow."""
+    return {
+        "x": round(float(x), 4), "y": round(float(y), 4), "text": text, "showarrow": False,
+        "font": {"size": 11, "color": QUIET},
+    } | more  # fmt: skip
+
+
+def upright(x: float, text: str = "", colour: str = QUIET, reference: str = "paper") -> tuple[dict, dict]:
+    """A vertical dotted line over the whole plot and its label on top: (shape, annotation)."""
+    shape = {
+        "type": "line", "xref": "x", "yref": reference, "x0": x, "x1": x, "y0": 0, "y1": 1, "layer": "below",
+        "line": {"color": colour, "width": 1, "dash": "dot"},
+    }  # fmt: skip
+    label = note(x, 1.0, text, yref="paper", yanchor="bottom", font={"size": 11, "color": colour})
+    return shape, label
+
+
+def padded(values, floor: float = 0.0, share: float = 0.06) -> list[float]:
+    """Range of all finite values with a margin; at least ``floor`` wide."""
+    array = np.asarray(values, float)
+    array = array[np.isfinite(array)]
+    low, high = (float(array.min()), float(array.max())) if array.size else (0.0, 1.0)
+    spare = max(share * (high - low), 0.5 * (floor - (high - low)), 1e-9 * max(abs(low), abs(high)), 1e-12)
+    return [low - spare, high + spare]
