@@ -1,6 +1,7 @@
 """Checkpoints of a life run: everything needed to go on to the same result."""
 
 import json
+import zipfile
 from dataclasses import asdict
 from pathlib import Path
 
@@ -40,7 +41,7 @@ def load_checkpoint(path: Path, inputs: dict) -> tuple[Life, dict]:
         with np.load(path) as arrays:
             head = json.loads(arrays["head"].tobytes())
             data = {name: arrays[name] for name in arrays.files if name != "head"}
-    except (OSError, ValueError, KeyError) as problem:
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as problem:
         raise InputFault(f"{path} is not a checkpoint ({problem}); start anew with --restart") from None
     different = [k for k in inputs.keys() | head["inputs"].keys() if inputs.get(k) != head["inputs"].get(k)]
     if different:

@@ -82,7 +82,8 @@ class Component(ABC):
     def enter_initialisation(self, start_time: float) -> None: ...
 
     @abstractmethod
-    def exit_initialisation(self) -> None: ...
+    def exit_initialisation(self) -> None:
+        """Compute the initial outputs; InputFault if the parameters do not allow it."""
 
     @abstractmethod
     def step(self, time: float, duration: float) -> None:
@@ -140,14 +141,12 @@ class InProcess(Component):
         pass
 
     def exit_initialisation(self):
-        self.require_success(self.unit.initialise(self.records), 0.0)
+        code = self.unit.initialise(self.records)
+        if code != 0:
+            raise InputFault(f"{self.name}: {self.unit.fault_text(code, self.records, 0.0)}")
 
     def step(self, time, duration):
         code = self.unit.step(self.records, time, duration)
-        if code != 0:
-            self.require_success(code, time)
-
-    def require_success(self, code: int, time: float) -> None:
         if code != 0:
             raise RunFault(f"{self.name}: {self.unit.fault_text(code, self.records, time)}")
 

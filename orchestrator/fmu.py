@@ -119,7 +119,10 @@ class Fmu(Component):
         self.attempt(self.slave.enterInitializationMode)
 
     def exit_initialisation(self):
-        self.attempt(self.slave.exitInitializationMode)
+        try:
+            self.attempt(self.slave.exitInitializationMode)
+        except RunFault as fault:
+            raise InputFault(str(fault)) from None
 
     def step(self, time, duration):
         self.attempt(self.slave.fmi2DoStep, self.slave.component, time, duration, 1)

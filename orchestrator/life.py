@@ -21,10 +21,12 @@ HOUR = 3600.0
 # Surfaces of the wear unit that a result keeps, by the names of its table.
 SURFACES = ("disc_wear", "pin_wear", "pin_even_wear", "inner_race_wear", "outer_race_wear")
 # What the error estimate looks at: deepest wear of each kind of surface.
-WATCHED = ("flank_depth", "pin_depth", "inner_race_depth", "outer_race_depth")
+WATCHED = ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")
 
 # Harmonics of a profile that place its peak.
-SMOOTH_HARMONICS = 10
+SMOOTH_HARMONICS = 12
+# Points per bin when the peak between bins is looked for.
+FINE = 16
 
 
 @dataclass(frozen=True)
@@ -97,20 +99,20 @@ def wear_figures(record: np.ndarray) -> dict[str, float]:
 def peak_of_circle(profiles: np.ndarray) -> tuple[float, float]:
     """(depth, angle [rad]) of the deepest place among closed profiles (..., bins).
 
-    The place is that of the profile's first harmonics: the bins' ripple of a few tenths of
-    a percent would shift the top of a broad hump by degrees.  A tooth's profile, zero at
-    both roots, counts as closed.
+    Both are those of the profile's first harmonics.  A jump samples the roller cage at
+    the few hundred phases of its cycles and leaves a ripple of a few tenths of a
+    percent that real hours average out; it would also shift the top of a broad hump by
+    degrees.  A tooth's profile, zero at both roots, counts as closed.
     """
     rows = profiles.reshape(-1, profiles.shape[-1])
     row = rows[rows.max(axis=1).argmax()]
-    depth = float(row.max())
-    if depth == 0.0:
+    if row.max() == 0.0:
         return 0.0, 0.0
     harmonics = np.fft.rfft(row)
     harmonics[SMOOTH_HARMONICS + 1 :] = 0.0
-    fine = np.fft.irfft(harmonics, 16 * row.size)
+    fine = np.fft.irfft(harmonics, FINE * row.size) * FINE
     # Bin i covers [i, i + 1): its value stands in its middle.
-    return depth, 2.0 * np.pi * (fine.argmax() / 16 + 0.5) / row.size
+    return float(fine.max()), 2.0 * np.pi * (fine.argmax() / FINE + 0.5) / row.size
 
 
 def signed_degrees(angle: float) -> float:
@@ -127,8 +129,9 @@ def run_cycle(pair: Pair, hours: float) -> None:
 
 
 def depths(pair: Pair) -> np.ndarray:
-    """The watched depths, one number per kind of surface [m]."""
-    return np.array([np.max(pair.wear.get(name)) for name in WATCHED])
+    """The watched depths, one number per kind of surface [um]."""
+    figures = wear_figures(pair.wear.record())
+    return np.array([figures[name] for name in WATCHED])
 
 
 def jump(pair: Pair, hours: float) -> float:
@@ -148,6 +151,28 @@ def jump(pair: Pair, hours: float) -> float:
     return float(np.max(np.abs(whole - halves)[worn] / added[worn], initial=0.0))
 
 
+def controlled_jump(pair: Pair, life: Life, hours: float) -> tuple[float, float, float]:
+    """Jump by at most ``hours`` within the tolerance; (hours done, error, factor for the next).
+
+    The error of a jump relative to its wear is proportional to its length.  Where a
+    shorter jump is hardly better, the positions per turn limit the accuracy, not the jump:
+    it is taken, and its error stands in the result.
+    """
+    tolerance, smallest = life.settings.tolerance, life.settings.smallest_jump
+    before = np.inf
+    while True:
+        saved = pair.master.save()
+        error = jump(pair, hours)
+        life.cycles += 3
+        if error <= tolerance:
+            return hours, error, 0.9 * tolerance / max(error, 1e-12)
+        if error > 0.7 * before or hours <= smallest:
+            return hours, error, 1.0
+        pair.master.restore(saved)
+        before = error
+        hours = max(smallest, hours * max(0.2, 0.5 * tolerance / error))
+
+
 def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callable[[Life], None]) -> Life:
     """Run ``life`` to its end from where it stands.
 
@@ -165,16 +190,7 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
         # No last jump that is hardly worth a cycle: share what is left.
         if hours < left < 1.5 * hours:
             hours = 0.5 * left
-        while True:
-            saved = pair.master.save()
-            error = jump(pair, hours)
-            life.cycles += 3
-            # The local error of a jump grows with its square, its share of the jump linearly.
-            factor = 0.9 * settings.tolerance / max(error, 1e-12)
-            if error <= settings.tolerance or hours <= settings.smallest_jump:
-                break
-            pair.master.restore(saved)
-            hours = max(settings.smallest_jump, hours * min(0.8, max(0.2, factor)))
+        hours, error, factor = controlled_jump(pair, life, hours)
         life.note(pair, error)
         life.next_jump = min(settings.largest_jump, hours * min(2.0, max(0.5, factor)))
         keep(life)

@@ -26,7 +26,8 @@ def loaded(topology, supports, seed=3, without=(), **values):
     """A record near its equilibrium under load, every contact clear of the verge of touching."""
     table = plant_table(topology)
     errors = {k: v for k, v in imperfect(table, seed).items() if k not in without}
-    record = in_equilibrium(table, ANGLE, CAGE, load_torque=LOAD, bearing_clearance=2.5e-6, **errors, **supports, **values)
+    values = {"load_torque": LOAD, "bearing_clearance": 2.5e-6, **errors, **supports, **values}
+    record = in_equilibrium(table, ANGLE, CAGE, **values)
     move = np.random.default_rng(seed).uniform(-2e-7, 2e-7, len(record.z))
     twin = Twin(record, ANGLE, CAGE)
     free = record.free[: record.free_count].copy()

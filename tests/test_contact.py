@@ -89,7 +89,8 @@ def test_contact_pressure_of_the_plant_is_the_largest_of_all_pins(rv20e, modific
     radius_of_centre = abs(first) ** 3 / (first.conj() * second).imag
     equivalent = 1.0 / record.pin_radius + 1.0 / (radius_of_centre - twin.radius)
     pressure = np.sqrt(record.mesh_force_now / record.mesh_width * MODULUS * equivalent / np.pi)
-    assert record.contact_pressure == pytest.approx(pressure.max(), rel=1e-9)
+    # The plant takes the curvature at the last iterate of the contact's phase, within 1e-5 rad.
+    assert record.contact_pressure == pytest.approx(pressure.max(), rel=1e-6)
     assert 0.5e9 < record.contact_pressure < 1.5e9
 
 

@@ -72,7 +72,7 @@ def test_stiffness_of_the_second_stage(request, reducer, reading, stiffness):
     ({}, 311.2), ({"first_stage_ratio": 0.0, "input_speed": 67.5}, 319.9),
 ], ids=["sun drive", "cranks turned by couples"])
 def test_peak_pin_force(rv20e, values, pin_force):
-    assert over_turns(rv20e.plant, **values)[2] == pytest.approx(pin_force, rel=0.002)
+    assert over_turns(rv20e.plant, **values)[2] == pytest.approx(pin_force, rel=0.005)
 
 
 @pytest.mark.parametrize("values, teeth, pin_force", [

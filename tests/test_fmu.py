@@ -167,7 +167,7 @@ def test_impossible_geometry_is_named_at_initialisation(fmus):
     unit = Fmu("plant", fmus / "RvPlant.fmu")
     unit.set("eccentricity", 1.5e-3)
     unit.enter_initialisation(0.0)
-    with pytest.raises(RunFault, match="the trochoid has loops.*Reduce eccentricity"):
+    with pytest.raises(InputFault, match="the trochoid has loops.*Reduce eccentricity"):
         unit.exit_initialisation()
     unit.close()
 

@@ -120,7 +120,8 @@ def test_curvature_is_the_turning_of_the_normal_along_the_arc(profile, phi):
         (radius, flank_curvature(phi, LOBES, circle, radius, k1)),
         (0.0, centre_curve_curvature(phi, LOBES, circle, k1)),
     ):
-        (before, n_before), (after, n_after) = (flank(p, (circle, offset, eccentricity)) for p in (phi - step, phi + step))
+        parallel = (circle, offset, eccentricity)
+        (before, n_before), (after, n_after) = flank(phi - step, parallel), flank(phi + step, parallel)
         along = after - before
         # Convex where the normal turns the way the point moves.
         turning = np.angle(n_after / n_before) * np.sign((along * (1j * n_before).conjugate()).real)
@@ -136,7 +137,8 @@ def test_inflection(profile, degrees):
     assert np.cos(phi) == pytest.approx((1.0 + (LOBES + 1) * k1**2) / ((LOBES + 2) * k1), abs=1e-13)
     if degrees:
         assert np.degrees(phi) == pytest.approx(degrees, abs=0.05)
-    assert flank_curvature(phi - 0.1, LOBES, circle, radius, k1) < 0.0 < flank_curvature(phi + 0.1, LOBES, circle, radius, k1)
+    concave, convex = (flank_curvature(p, LOBES, circle, radius, k1) for p in (phi - 0.1, phi + 0.1))
+    assert concave < 0.0 < convex
 
 
 @pytest.mark.parametrize("profile, k1, degrees", [(BX40E, 0.7482, 41.6), (RV20E, 0.6923, None)], ids=["BX40E", "RV20E"])
@@ -171,7 +173,8 @@ def test_literature_radii_of_the_bx40e_flank():
 def test_modification_opens_the_gap_that_first_order_theory_gives(rv20e):
     """Gap = dr - dR (1 - K1 cos phi)/sqrt(S) for equidistant dr and shift dR, to second order in them."""
     equidistant, shift, proud = 13e-6, -20e-6, 60e-6
-    record = in_equilibrium(rv20e.plant, load_torque=0.0, equidistant_modification=equidistant, shift_modification=shift)
+    modification = {"equidistant_modification": equidistant, "shift_modification": shift}
+    record = in_equilibrium(rv20e.plant, load_torque=0.0, **modification)
     record.z[:] = 0.0
     record.pin_radius_error[:] = proud
     assemble(record, 0.3, 0.0, 0.0)

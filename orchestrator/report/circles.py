@@ -7,7 +7,7 @@ from orchestrator.report.look import Figure, path, short
 from orchestrator.report.parts import pin_depths, scale_bars
 from orchestrator.report.result import MICRON, Result, hour_text, number
 
-ROOM = 0.28  # largest drawn depth over the circle's radius
+ROOM = 0.25  # largest drawn depth over the circle's radius
 
 
 def figures(result: Result) -> list[Figure]:
@@ -40,18 +40,18 @@ def pin(result: Result) -> Figure:
         traces.append(path((radius - times * shapes.MM * depth) * ways, colour, 1.4, close=True))
     traces.append(path(shapes.ring(radius), look.INK, 1.6))
     texts = [look.note(0.0, -1.16 * radius, "towards the disc")]
-    traces.append(arrow(0.45 * radius * inward, 0.8 * radius * inward, look.QUIET))
+    traces.append(arrow(0.3 * radius * inward, 0.62 * radius * inward, look.QUIET))
     if times:
         texts.append(look.note(0.0, 0.0, f"{number(result['pin_um'][-1])} µm", font={"size": 14, "color": look.INK}))
-    bars, labels = scale_bars(-1.3 * radius, -1.38 * radius, 0.6 * radius, times)
-    picture = look.drawing([-1.4 * radius, 1.4 * radius], [-1.62 * radius, 1.18 * radius], annotations=texts + labels)
+    bars, labels = scale_bars(-1.3 * radius, -1.40 * radius, 0.5 * radius, 0.16 * radius, times)
+    picture = look.drawing([-1.4 * radius, 1.4 * radius], [-1.66 * radius, 1.14 * radius], annotations=texts + labels)
     how = "It turns in its groove and wears evenly all round" if result.pins_turn else (
         "It stands in its groove and wears where the disc touches it"
     )
     caption = f"Pin {j + 1} at disc {d + 1}. {how}."
     if times:
         caption += f" Wear {times:,.0f} times too large."
-    return Figure("pin", "Pin", caption, traces + bars, picture, 4, aspect="1 / 1")
+    return Figure("pin", "Pin", caption, traces + bars, picture, 4, aspect="1 / 1.02")
 
 
 def deepest_bearing(result: Result, side: str) -> tuple[int, int]:
@@ -67,12 +67,12 @@ def raceway(result: Result, side: str, times: float) -> Figure:
     # A crank loses at its outside, a hole grows.
     sign = -1.0 if side == "inner" else 1.0
     ways = 1j * shapes.directions(shapes.thin(result["race_phase"], 180))
-    reach = (1.4 if side == "inner" else 1.4) * radius
+    reach = 1.42 * radius
     traces = []
     if side == "inner":
         traces.append(path(shapes.ring(radius), look.STEEL, 0.0, fill="toself", fillcolor=look.STEEL))
     else:
-        traces.append(path(shapes.ring(1.36 * radius), look.STEEL, 0.0, fill="toself", fillcolor=look.STEEL))
+        traces.append(path(shapes.ring(1.22 * radius), look.STEEL, 0.0, fill="toself", fillcolor=look.STEEL))
         traces.append(path(shapes.ring(radius), look.PAPER, 0.0, fill="toself", fillcolor=look.PAPER))
     for i, colour in zip(result.shown, look.hour_colours(len(result.shown))) if times else ():
         depth = shapes.thin(result[f"{side}_race_wear"][i, d, c], 180)
@@ -87,15 +87,16 @@ def raceway(result: Result, side: str, times: float) -> Figure:
     if times:
         way = 1j * complex(shapes.directions(np.array(result.sense * peak)))
         at = (radius + sign * times * 1e-3 * float(result[f"{side}_raceway_um"][-1])) * way
+        traces.append(path(np.array([0.0, at]), look.QUIET, 1.0, dash="dot"))
         traces.append({
             "type": "scatter", "mode": "markers", "x": short([at.real]), "y": short([at.imag]), "hoverinfo": "skip",
             "marker": {"size": 8, "color": look.HOURS[-1], "line": {"color": look.PAPER, "width": 1.5}},
         })  # fmt: skip
-        label = 0.60 * radius * way
-        texts.append(look.note(label.real, label.imag, f"<b>{number(result[f'{side}_raceway_um'][-1])} µm</b><br>"
-                               f"at {number(peak)}°", font={"size": 12, "color": look.INK}))
-    bars, labels = scale_bars(-0.94 * reach, -1.30 * radius, 0.38 * radius, times)
-    picture = look.drawing([-reach, reach], [-1.46 * radius, 1.34 * radius], annotations=texts + labels)
+        depth_text = f"deepest<br><b>{number(result[f'{side}_raceway_um'][-1])} µm</b> at {number(peak)}°"
+        texts.append(look.note(0.97 * reach, -1.48 * radius, depth_text, xanchor="right", align="right",
+                               font={"size": 12, "color": look.INK}))
+    bars, labels = scale_bars(-0.94 * reach, -1.40 * radius, 0.5 * radius, 0.16 * radius, times)
+    picture = look.drawing([-reach, reach], [-1.66 * radius, 1.24 * radius], annotations=texts + labels)
     what, start = ("Crank lobe", "the lobe's eccentric direction") if side == "inner" else (
         "Hole in the disc", "the hole's outward radial"
     )
@@ -103,7 +104,7 @@ def raceway(result: Result, side: str, times: float) -> Figure:
     if times:
         caption += f" Wear {times:,.0f} times too large, as on the other raceway."
     title = "Inner raceway" if side == "inner" else "Outer raceway"
-    return Figure(f"{side}_raceway", title, caption, traces + bars, picture, 4, aspect="1 / 1")
+    return Figure(f"{side}_raceway", title, caption, traces + bars, picture, 4, aspect="1 / 1.02")
 
 
 def unrolled(result: Result, side: str, depth_range: list[float]) -> Figure:

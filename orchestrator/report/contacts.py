@@ -8,7 +8,7 @@ import numpy as np
 
 from orchestrator.report import look
 from orchestrator.report.look import Figure, short
-from orchestrator.report.result import ARCSEC, Result
+from orchestrator.report.result import ARCSEC, Result, hour_text, number
 
 MOST_POSITIONS = 120
 
@@ -41,7 +41,7 @@ def compared(result: Result, at_start: bool) -> tuple[str, str]:
     return ("_start", "start") if at_start else ("", "now")
 
 
-def states_of(result: Result, at_start: bool, update) -> list[list[list[dict | None]]]:
+def states_of(result: Result, at_start: bool, update) -> list:
     """``update(disc, entry)`` for every disc and shown hour; the first hour only ``at_start``."""
     shown = result.shown[:1] if at_start else result.shown
     return [[update(d, i) for i in shown] for d in range(result.topology.discs)]
@@ -74,8 +74,9 @@ def pin_map(result: Result, at_start: bool) -> Figure:
         xaxis=crank_axis(), yaxis=look.axis("pin", range=[0.5, len(pins) + 0.5], nticks=6),
         margin={"l": 56, "r": 4, "t": 10, "b": 46},
     )
-    caption = "The loaded half of the ring travels round once per crank turn." if at_start else (
-        "A darker, narrower band means that fewer pins carry more."
+    first, last = (number(result["mesh_force"][i].max()) for i in (result.shown[0], result.shown[-1]))
+    caption = "The loaded part of the ring travels round once per crank turn." if at_start else (
+        f"The same colours: at most {first} N at {{start}}, {last} N at {hour_text(result.hours[-1])}."
     )
     return Figure(f"pin_map{end}", f"Force on every pin, {{{when}}}", caption, [trace], picture, 6, 340,
                   states=states_of(result, at_start, update))
@@ -85,15 +86,13 @@ def pin_lines(result: Result) -> Figure:
     """Force of each pin over the crank angle, and the largest of all then and now."""
     x = short(turned(result, 0.5))
     t = result.topology
-    first = result.shown[0]
     thin = [look.line(x, [], look.NOW, 0.8, opacity=0.45, hover=f"pin {j + 1}: %{{y:.0f}} N") for j in range(t.pins)]
     traces = [*thin, look.line(x, [], look.START, 2.4, hover="largest, start: %{y:.0f} N"),
               look.line(x, [], look.NOW, 2.4, hover="largest: %{y:.0f} N")]
 
     def update(d, i):
-        force = result["mesh_force"][i][every(result), d, :]
-        start = result["mesh_force"][first][every(result), d, :].max(axis=1)
-        return [{"y": short(row, 3)} for row in force.T] + [{"y": short(start, 4)}, {"y": short(force.max(axis=1), 4)}]
+        largest = result["mesh_force"][i][every(result), d, :].max(axis=1)
+        return [None] * t.pins + [t.pins + 1, {"y": short(largest)}]
 
     top = float(result["mesh_force"][result.shown].max())
     picture = look.layout(xaxis=crank_axis(), yaxis=look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)]))
@@ -102,7 +101,7 @@ def pin_lines(result: Result) -> Figure:
         "One thin line per pin: each pin is loaded once per crank turn; bold: the largest force on any pin of the disc.",
         traces, picture, 12, 300, keys=[("one pin", look.NOW, "thin"), ("largest", look.NOW, "solid"),
                                         ("largest, {start}", look.START, "solid")],
-        states=states_of(result, False, update),
+        states=states_of(result, False, update), rows_of="pin_map",
     )  # fmt: skip
 
 
@@ -131,10 +130,10 @@ def roller_map(result: Result, at_start: bool) -> Figure:
         yaxis=look.axis("roller", type="category", tickvals=middle, ticks="", tickangle=-90,
                         ticktext=[f"crank {c + 1}" for c in range(t.cranks)]),
     )  # fmt: skip
-    caption = "Each stripe is one roller: it takes load while it passes the loaded side of its bearing." if at_start else (
-        "Raceway wear widens the loaded side: more rollers share the load, each with less of it."
-        if result["peak_roller_force_N"][-1] < 0.98 * result["peak_roller_force_N"][0]
-        else "The same scale as at the start."
+    first, last = (number((result["roller_force"][i] > 0.0).sum(axis=3).mean()) for i in (result.shown[0], result.shown[-1]))
+    caption = "Each row is one roller: it takes load while it passes the loaded side of its bearing." if at_start else (
+        f"The same colours; a bearing has {first} loaded rollers on average at {{start}}, {last} at"
+        f" {hour_text(result.hours[-1])}."
     )
     return Figure(f"roller_map{end}", f"Force on every roller, {{{when}}}", caption, [trace], picture, 6, 340,
                   states=states_of(result, at_start, update))
@@ -144,8 +143,8 @@ def turn_curves(result: Result) -> list[Figure]:
     """Six small figures: series over the crank turn, first hour grey, selected hour blue."""
     lag = ARCSEC * result["lag"]
     return [
-        curve(result, "turn_lag", "Lag", "lag [″]", lag, "Carrier behind its ideal angle, second stage alone."),
-        curve(result, "turn_error", "Transmission error", "lag less its mean [″]", lag - lag.mean(axis=1, keepdims=True),
+        curve(result, "turn_lag", "Lag", "lag [arcsec]", lag, "Carrier behind its ideal angle, second stage alone."),
+        curve(result, "turn_error", "Transmission error", "lag less its mean [arcsec]", lag - lag.mean(axis=1, keepdims=True),
               "The part of the lag that comes and goes with each turn of the cranks."),
         curve(result, "turn_pin_force", "Largest pin force", "force [N]", result["largest_pin_force"],
               "The most loaded pin of both discs at each position."),
@@ -154,23 +153,22 @@ def turn_curves(result: Result) -> list[Figure]:
         curve(result, "turn_teeth", "Loaded teeth", "teeth in contact", result["loaded_teeth"],
               "Pins that the selected disc touches.", step=True),
         curve(result, "turn_torque", "Input torque", "torque [N·m]", result["input_torque"],
-              "Torque that holds the input against the load, without friction."),
+              "Torque that holds the input against the load."),
     ]  # fmt: skip
 
 
 def curve(result, name, title, unit, series, caption, step=False) -> Figure:
     """One series over the turn; a third dimension is the disc's."""
-    x, first = short(turned(result)), result.shown[0]
-    shape = {"line": {"shape": "hv"}} if step else {}
+    x = short(turned(result))
     unit_text = unit.partition("[")[2].rstrip("]")
     hover = f"%{{x:.0f}}°: %{{y:.4~g}} {unit_text}"
     traces = [look.line(x, [], look.START, 1.8, hover="start, " + hover), look.line(x, [], look.NOW, 1.8, hover=hover)]
     for trace in traces if step else ():
-        trace["line"] = trace["line"] | shape["line"]
+        trace["line"] = trace["line"] | {"shape": "hv"}
 
     def update(d, i):
-        rows = [series[k][every(result)] for k in (first, i)]
-        return [{"y": short(row if row.ndim == 1 else row[:, d], 5)} for row in rows]
+        row = series[i][every(result)]
+        return [1, {"y": short(row if row.ndim == 1 else row[:, d], 5)}]
 
     discs = result.topology.discs if series.ndim == 3 else 1
     states = [[update(d, i) for i in result.shown] for d in range(discs)]

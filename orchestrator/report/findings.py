@@ -38,16 +38,16 @@ class Card:
 def cards(result: Result) -> list[Card]:
     pin_note = "turning, even all round" if result.pins_turn else "standing, where the disc touches"
     texts = {
-        "disc_flank_um": ("Disc flank wear", "µm", place_note(result, "disc_peak_deg", "from root to tip")),
+        "disc_flank_um": ("Disc flank wear", "µm", place_note(result, "disc_peak_deg", "(root 0°, tip 180°)")),
         "inner_raceway_um": ("Inner raceway wear", "µm", place_note(result, "inner_peak_deg", "from the eccentric")),
-        "outer_raceway_um": ("Outer raceway wear", "µm", place_note(result, "outer_peak_deg", "from outward radial")),
+        "outer_raceway_um": ("Outer raceway wear", "µm", place_note(result, "outer_peak_deg", "from the outward radial")),
         "pin_um": ("Pin wear", "µm", pin_note),
         "peak_pin_force_N": ("Peak pin force", "N", ""),
         "peak_contact_pressure_MPa": ("Peak contact pressure", "MPa", ""),
         "mean_loaded_teeth": ("Loaded teeth per disc", "", ""),
-        "mean_lag_arcsec": ("Mean lag", "″", ""),
-        "transmission_error_pp_arcsec": ("Transmission error, peak to peak", "″", ""),
-        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness", "N·m/′", ""),
+        "mean_lag_arcsec": ("Mean lag", "arcsec", ""),
+        "transmission_error_pp_arcsec": ("Transmission error (p-p)", "arcsec", ""),
+        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness", "N·m/arcmin", ""),
     }
     made = []
     for name, (label, unit, note) in texts.items():
@@ -59,7 +59,7 @@ def cards(result: Result) -> list[Card]:
 
 def place_note(result: Result, name: str, reference: str) -> str:
     surface = {"disc_peak_deg": "disc_flank_um", "inner_peak_deg": "inner_raceway_um"}.get(name, "outer_raceway_um")
-    return f"deepest {number(result[name][-1])}° {reference}" if result[surface][-1] > 0.0 else "no wear"
+    return f"deepest at {number(result[name][-1])}° {reference}" if result[surface][-1] > 0.0 else "no wear"
 
 
 def change(start: float, end: float) -> str:
@@ -88,7 +88,7 @@ def spark(result: Result, name: str) -> str:
 
 def conditions(result: Result) -> str:
     """Load, speed and length of the life."""
-    torque = number(float(result["load_torque_Nm"][0]), 4)
+    torque = f"{float(result['load_torque_Nm'][0]):g}"
     rpm = 30.0 / math.pi * abs(result.output_speed)
     t = result.topology
     return (
@@ -128,10 +128,11 @@ def slowing(result: Result, name: str) -> str:
     """How the rate of the deepest wear develops."""
     rate = 1e3 * np.diff(result[name]) / np.diff(result.hours)
     first, last = float(rate[0]), float(rate[-1])
+    what = "Wear there" if name != "disc_flank_um" else "Flank wear"
     if len(rate) < 2 or first == 0.0:
-        return f"It grows by {number(last, 2)} µm per 1000 h."
+        return f"{what} grows by {number(last, 2)} µm per 1000 h."
     how = "slows from" if last < (1.0 - HARDLY) * first else "quickens from" if last > (1.0 + HARDLY) * first else "stays near"
-    return f"Its growth {how} {number(first, 2)} to {number(last, 2)} µm per 1000 h."
+    return f"{what} {how} {number(first, 2)} to {number(last, 2)} µm per 1000 h."
 
 
 def verb(start: float, end: float, up: str, down: str, still: str) -> str:
@@ -150,15 +151,15 @@ def accuracy(result: Result) -> list[str]:
         for n in ("mean_lag_arcsec", "transmission_error_pp_arcsec", "torsional_stiffness_Nm_per_arcmin")
     )
     if len(result.hours) < 2:
-        return [f"The carrier stands {number(lag[1])}″ behind its ideal angle, with a transmission error of"
-                f" {number(error[1])}″ peak to peak."]  # fmt: skip
+        return [f"The carrier stands {number(lag[1])} arcsec behind its ideal angle, with a transmission error of"
+                f" {number(error[1])} arcsec peak to peak."]  # fmt: skip
     lag_word = verb(*lag, "now stands", "now stands", "still stands")
     error_word = verb(*error, "grows from", "falls from", "hardly changes:")
     stiff_word = verb(*stiffness, "rises from", "drops from", "hardly changes:")
     return [
-        f"The carrier {lag_word} {number(lag[1])}″ behind its ideal angle (at first {number(lag[0])}″);"
-        f" the transmission error {error_word} {number(error[0])}″ to {number(error[1])}″ peak to peak,"
-        f" and torsional stiffness {stiff_word} {number(stiffness[0])} to {number(stiffness[1])} N·m/′."
+        f"The carrier {lag_word} {number(lag[1])} arcsec behind its ideal angle (at first {number(lag[0])} arcsec);"
+        f" the transmission error {error_word} {number(error[0])} arcsec to {number(error[1])} arcsec peak to peak,"
+        f" and torsional stiffness {stiff_word} {number(stiffness[0])} to {number(stiffness[1])} N·m/arcmin."
     ]
 
 

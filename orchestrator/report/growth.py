@@ -1,5 +1,7 @@
 """Over the hours: depth, rate, places, forces, stiffness, accuracy, and how the run was stepped."""
 
+import math
+
 import numpy as np
 
 from orchestrator.report import look
@@ -13,14 +15,14 @@ LOAD, SECOND = look.NOW, "#d55e00"
 def figures(result: Result) -> list[Figure]:
     return [
         depths(result), rates(result), places(result),
-        small(result, "growth_lag", "Mean lag", "lag [″]", [("mean_lag_arcsec", "second stage", LOAD, "solid"),
+        small(result, "growth_lag", "Mean lag", "lag [arcsec]", [("mean_lag_arcsec", "second stage", LOAD, "solid"),
               ("mean_lag_at_input_arcsec", "at the input", SECOND, "dash")],
               "Carrier behind its ideal angle at the set torque: wear adds to it like lost motion."),
-        small(result, "growth_error", "Transmission error", "peak to peak [″]",
+        small(result, "growth_error", "Transmission error", "peak to peak [arcsec]",
               [("transmission_error_pp_arcsec", "second stage", LOAD, "solid"),
                ("transmission_error_at_input_pp_arcsec", "at the input", SECOND, "dash")],
               "Its swing over one crank turn."),
-        small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/′]",
+        small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/arcmin]",
               [("torsional_stiffness_Nm_per_arcmin", "second stage", LOAD, "solid")],
               "Secant between half and full torque, contacts of the second stage alone."),
         small(result, "growth_force", "Peak forces", "force [N]", [("peak_pin_force_N", "pin", LOAD, "solid"),
@@ -52,7 +54,7 @@ def small(result: Result, name: str, title: str, unit: str, curves: list, captio
     finite = values[np.isfinite(values)]
     floor = 0.1 * float(np.abs(finite).max(initial=1e-9))
     picture = look.layout(
-        xaxis=look.hour_axis(), yaxis=look.axis(unit, range=[round(v, 6) for v in look.padded(finite, floor, 0.1)], nticks=6)
+        xaxis=look.hour_axis(result.hours), yaxis=look.axis(unit, range=[round(v, 6) for v in look.padded(finite, floor, 0.1)], nticks=6)
     )
     keys = [(text, colour, dash) for _, text, colour, dash in curves] if len(curves) > 1 else []
     return Figure(name, title, caption, traces, picture, 4, 230, keys=keys)
@@ -64,7 +66,8 @@ def depths(result: Result) -> Figure:
         marked(result.hours, result[name], colour, dash, f"{text}, %{{x:,.0f}} h: %{{y:.3~g}} µm")
         for name, (text, colour, dash) in look.SURFACES.items()
     ]
-    picture = look.layout(xaxis=look.hour_axis(), yaxis=look.axis("deepest wear [µm]", rangemode="tozero"))
+    top = round(max(float(result[name][-1]) for name in look.SURFACES), 4) or 1.0
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=look.axis("deepest wear [µm]", range=[-0.03 * top, 1.06 * top]))
     return Figure("growth_depth", "Deepest wear", "Deepest place of each kind of surface.", traces, picture, 6, 300,
                   keys=SURFACE_KEYS)
 
@@ -81,17 +84,21 @@ def rates(result: Result) -> Figure:
         traces.append(marked(middles, np.where(rate > 0.0, rate, np.nan), colour, dash, hover))
     rates_found = np.concatenate(top) if top else np.zeros(0)
     rates_found = rates_found[rates_found > 0.0]
-    vertical = look.axis("wear rate [µm per 1000 h]", type="log", dtick="D2" if spread_of(rates_found) < 1.5 else 1)
+    vertical = look.axis("wear rate [µm per 1000 h]", type="log", tickvals=ticks_of(rates_found))
     if rates_found.size:
         vertical["range"] = [round(v, 3) for v in look.padded(np.log10(rates_found), 0.3)]
-    picture = look.layout(xaxis=look.hour_axis(), yaxis=vertical)
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=vertical)
     return Figure("growth_rate", "Wear rate", "Between one recorded hour and the next, logarithmic.", traces, picture,
                   6, 300, keys=SURFACE_KEYS)
 
 
-def spread_of(values: np.ndarray) -> float:
-    """Decades that positive values span."""
-    return float(np.ptp(np.log10(values))) if values.size else 0.0
+def ticks_of(values: np.ndarray) -> list[float]:
+    """Ticks of a logarithmic axis: 1, 2, 5 within three decades, else 1 alone."""
+    if not values.size:
+        return [1.0]
+    low, high = math.floor(math.log10(values.min())), math.ceil(math.log10(values.max()))
+    steps = (1.0, 2.0, 5.0) if high - low < 4 else (1.0,)
+    return [float(f"{step * 10.0**power:.3g}") for power in range(low, high + 1) for step in steps]
 
 
 def places(result: Result) -> Figure:
@@ -105,7 +112,7 @@ def places(result: Result) -> Figure:
         traces.append(marked(result.hours[worn], result[name][worn], colour, dash, f"{text}, %{{x:,.0f}} h: %{{y:.1f}}°"))
     values = np.concatenate(found)
     picture = look.layout(
-        xaxis=look.hour_axis(range=hour_range(result)),
+        xaxis=look.hour_axis(result.hours),
         yaxis=look.axis("angle [°]", range=[round(v, 3) for v in look.padded(values, 10.0, 0.1)], nticks=6),
     )
     caption = (
@@ -115,12 +122,6 @@ def places(result: Result) -> Figure:
     return Figure("growth_place", "Place of the deepest wear", caption, traces, picture, 4, 230, keys=SURFACE_KEYS[:3])
 
 
-def hour_range(result: Result) -> list[float]:
-    """From zero to a little beyond the last recorded hour."""
-    last = float(result.hours[-1])
-    return [-0.03 * last, 1.04 * last] if last > 0.0 else [-1.0, 1.0]
-
-
 def jumps(result: Result) -> Figure:
     """Hours of each accepted jump."""
     spans = np.diff(result.hours)
@@ -128,7 +129,7 @@ def jumps(result: Result) -> Figure:
         "type": "bar", "x": short(result.hours[:-1] + 0.5 * spans, 6), "y": short(spans, 5), "width": short(0.86 * spans, 5),
         "marker": {"color": "#9db9d6"}, "hovertemplate": "%{y:,.0f} h, ends at about %{x:,.0f} h<extra></extra>",
     }  # fmt: skip
-    picture = look.layout(xaxis=look.hour_axis(range=hour_range(result)), yaxis=look.axis("hours per jump", rangemode="tozero", nticks=6))
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=look.axis("hours per jump", rangemode="tozero", nticks=6))
     cycles = result.dataset.attrs.get("cycles_simulated")
     caption = "Hours that full meshing cycles stand for"
     caption += f"; {int(cycles)} cycles were simulated for the life." if cycles else "."
@@ -147,7 +148,7 @@ def errors(result: Result) -> Figure:
                   "line": {"color": SECOND, "width": 1.4, "dash": "dash"}}]  # fmt: skip
     top = max([*percent, 100.0 * (tolerance or 0.0), 1e-3])
     picture = look.layout(
-        xaxis=look.hour_axis(range=hour_range(result)), yaxis=look.axis("share of the wear added [%]", range=[0.0, round(1.12 * top, 5)], nticks=6),
+        xaxis=look.hour_axis(result.hours), yaxis=look.axis("share of the wear added [%]", range=[0.0, round(1.12 * top, 5)], nticks=6),
         shapes=limit,
     )  # fmt: skip
     keys = [("estimate", LOAD, "solid"), ("tolerance", SECOND, "dash")] if tolerance else []

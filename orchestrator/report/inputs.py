@@ -17,6 +17,7 @@ SHOWN = {
     "s": (("h", 1.0 / 3600.0, 0.0),), "N.m": (("N·m", 1.0, 0.0),), "rad/(N.m)": (("rad/(N·m)", 1.0, 0.0),),
     "1": (("", 1.0, 0.0),),
 }  # fmt: skip
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def groups(result: Result) -> list[dict]:
@@ -89,7 +90,7 @@ def value_text(value: float) -> str:
     text = f"{value:.6g}"
     if "e" in text:
         digits, _, power = text.partition("e")
-        return f"{digits} · 10^{int(power)}".replace("-", "−")
+        return f"{digits}·10".replace("-", "−") + str(int(power)).translate(SUPERSCRIPT)
     whole, dot, rest = text.partition(".")
     return f"{int(whole):,}".replace(",", " ").replace("-", "−") + dot + rest if abs(value) >= 1e4 else text.replace("-", "−")
 

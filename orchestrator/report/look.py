@@ -26,8 +26,10 @@ class Figure:
     """One plot: ``data`` and ``layout`` for plotly.js, and what the page says about it.
 
     ``columns`` of twelve is its width on a wide screen.  ``states[disc][hour]`` holds, for
-    figures that follow the page's selectors, one update per trace (None: unchanged);
-    with a single entry for ``disc`` the figure is the same for all discs.
+    figures that follow the page's selectors, one update per trace (None: unchanged; a
+    number: what that trace has at the first hour); with a single entry for ``disc`` the
+    figure is the same for all discs.  ``rows_of`` names a heat map whose rows are the
+    heights of this figure's first traces.
     """
 
     name: str
@@ -39,7 +41,8 @@ class Figure:
     height: int = 300
     aspect: str = ""
     keys: list[tuple[str, str, str]] = field(default_factory=list)
-    states: list[list[list[dict | None]]] = field(default_factory=list)
+    states: list[list[list[dict | int | None]]] = field(default_factory=list)
+    rows_of: str = ""
     rows: int = 1
 
 
@@ -88,8 +91,10 @@ def axis(title: str, **more) -> dict:
     } | more  # fmt: skip
 
 
-def hour_axis(**more) -> dict:
-    return axis("operating time [h]", rangemode="tozero", tickformat=",~r", nticks=6, **more)
+def hour_axis(hours: np.ndarray) -> dict:
+    """Operating time from zero to a little beyond the last recorded hour."""
+    last = float(hours[-1]) or 1.0
+    return axis("operating time [h]", range=[-0.03 * last, 1.04 * last], tickformat=",~r", nticks=6)
 
 
 def angle_axis(title: str, low: float, high: float, step: float, **more) -> dict:
@@ -100,9 +105,9 @@ def layout(**more) -> dict:
     """A figure's layout: transparent, small margins, no legend (keys stand in the page)."""
     return {
         "font": {"family": FONT, "size": 12, "color": INK}, "paper_bgcolor": "rgba(0,0,0,0)",
-        "plot_bgcolor": "rgba(0,0,0,0)", "margin": {"l": 56, "r": 14, "t": 10, "b": 46}, "showlegend": False,
+        "plot_bgcolor": "rgba(0,0,0,0)", "margin": {"l": 56, "r": 20, "t": 10, "b": 46}, "showlegend": False,
         "hovermode": "closest", "hoverlabel": {"font": {"family": FONT, "size": 12}}, "autosize": True,
-        "dragmode": "zoom",
+        "dragmode": "zoom", "modebar": {"bgcolor": "rgba(255,255,255,0.7)", "color": "#aab4be", "activecolor": NOW},
     } | more  # fmt: skip
 
 
@@ -119,7 +124,8 @@ def drawing(x_range: list[float], y_range: list[float], **more) -> dict:
 
 def line(x, y, colour: str, width: float = 1.8, dash: str = "solid", hover: str | None = None, **more) -> dict:
     """A line trace; without ``hover`` text it does not react to the pointer."""
-    trace = {"type": "scatter", "mode": "lines", "x": x, "y": y, "line": {"color": colour, "width": width, "dash": dash}}
+    trace = {"type": "scatter", "mode": "lines", "y": y, "line": {"color": colour, "width": width, "dash": dash}}
+    trace |= {} if x is None else {"x": x}
     trace |= {"hovertemplate": hover + "<extra></extra>"} if hover else {"hoverinfo": "skip"}
     return trace | more
 

@@ -56,7 +56,7 @@ def embedded(plots: list[Figure], hours: list[str]) -> Markup:
     content = {
         "hours": hours,
         "figures": [
-            {"name": f.name, "data": f.data, "layout": f.layout, "states": f.states} for f in plots
+            {"name": f.name, "data": f.data, "layout": f.layout, "states": f.states, "rows": f.rows_of} for f in plots
         ],
     }
     text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False)

@@ -16,9 +16,9 @@ def figures(result: Result) -> list[Figure]:
 
 
 def enlargement(result: Result) -> float:
-    """How many times wear is enlarged on disc and tooth: at most half the tooth's height, no sharper than it."""
+    """How many times wear is enlarged on disc and tooth: less than the tooth's height and its sharpest radius."""
     deepest = max(result[name][-1] for name in look.SURFACES)
-    room = 0.5 * min(2.0 * shapes.MM * result.plant["eccentricity"], shapes.sharpest_radius(result))
+    room = 0.6 * min(2.0 * shapes.MM * result.plant["eccentricity"], shapes.sharpest_radius(result))
     return shapes.magnification(1e-3 * deepest, room)
 
 
@@ -73,7 +73,7 @@ def disc(result: Result) -> Figure:
         path(shapes.joined(rollers), "#aab4be", 0.8),
         path(shapes.joined(pins), "#aab4be", 0.8, fill="toself", fillcolor="#f7f9fa"),
     ]
-    for place, depths in zip(pin_places, pin_depths(result, d)):
+    for place, depths in zip(pin_places, pin_depths(result, d, count=16 if result.pins_turn else 60)):
         way = shapes.directions(np.linspace(-180.0, 180.0, depths.size, endpoint=False))
         wear_off(place + pin_radius * way * -place / abs(place), way * place / abs(place), depths)
 
@@ -84,11 +84,14 @@ def disc(result: Result) -> Figure:
     traces.append(lobe_names(result, d, contour, depth))
     if times:
         traces.append(depth_bar(edges, colours))
-    reach = mm * (plant["pin_circle_radius"] + plant["pin_radius"]) * 1.03
-    picture = look.drawing([-reach, reach], [-reach, reach], annotations=[
+    reach = mm * (plant["pin_circle_radius"] + plant["pin_radius"]) * 1.02
+    names = [
         look.note(place.real, place.imag, f"crank {c + 1}", font={"size": 12, "color": look.INK})
         for c, place in enumerate(centre + mm * plant["crank_circle_radius"] * places)
-    ])  # fmt: skip
+    ]
+    bars, labels = scale_bars(-0.3 * reach, 0.045 * reach, 0.2 * reach, 0.09 * reach, times)
+    traces += bars
+    picture = look.drawing([-reach, reach], [-reach, reach], annotations=names + labels)
     picture["margin"] = {"l": 4, "r": 4, "t": 4, "b": 62 if times else 4}
     spread = MICRON * result["disc_wear"][-1].max(axis=2)
     caption = (
@@ -97,7 +100,7 @@ def disc(result: Result) -> Figure:
     )
     if times:
         caption += (
-            f" All surfaces share magnification and colours; no tooth is spared: the {spread.size} lobes are worn"
+            f" All surfaces share magnification and colours. The {spread.size} lobes of all discs are worn"
             f" {number(spread.min())} to {number(spread.max())} µm at their deepest."
         )
     return Figure("disc", "The whole disc", caption, traces, picture, 7, aspect="1 / 1.06", rows=2)
@@ -152,8 +155,8 @@ def tooth(result: Result) -> Figure:
     phases = np.arange(-BEYOND, 360.0 + BEYOND + 1.0, 2.0)
     points, normals = shapes.flank(result, phases)
     points, normals = turn * points, turn * normals
-    top = points.imag.max() + 0.9 * mm * plant["pin_radius"]
-    bottom = points.imag.min() - 1.1 * mm * plant["eccentricity"]
+    top = points.imag.max() + 1.3 * mm * plant["pin_radius"]
+    bottom = points.imag.min() - 2.2 * mm * plant["eccentricity"]
     traces = [path(np.concatenate(([points[0].real + 1j * bottom], points, [points[-1].real + 1j * bottom])),
                    look.STEEL, 0.0, fill="toself", fillcolor=look.STEEL)]
     if times:
@@ -171,19 +174,15 @@ def tooth(result: Result) -> Figure:
         "type": "scatter", "mode": "markers", "x": short(at.real, 5), "y": short(at.imag, 5), "hoverinfo": "skip",
         "marker": {"size": 5, "color": look.PAPER, "line": {"color": look.INK, "width": 1.2}},
     })  # fmt: skip
-    names = {0.0: "root 0°", 180.0: "tip 180°", 360.0: "root 360°"}
+    names = {0.0: "root 0°", 60.0: "60°", 120.0: "120°", 180.0: "tip 180°", 240.0: "240°", 300.0: "300°", 360.0: "root 360°"}
     texts = [
-        look.note(place.real, place.imag, names.get(phase, f"{phase:.0f}°"))
-        for phase, place in zip(marks, at + 0.2 * mm * plant["pin_radius"] * out)
+        look.note(place.real, place.imag, names[phase])
+        for phase, place in zip(marks, at + 0.22 * mm * plant["pin_radius"] * out) if phase in names
     ]
     reach = 1.02 * points.real.max()
-    base = bottom + 0.12 * (top - bottom)
-    bars, labels = scale_bars(-0.96 * reach, base, 0.3 * reach, times)
-    middle = [0.5 * (top + bottom)] * 2
-    half = 0.5 * (top - bottom)
-    picture = look.drawing(
-        [-reach, reach], [middle[0] - half, middle[1] + half], annotations=texts + labels
-    )
+    gap = 0.06 * (top - bottom)
+    bars, labels = scale_bars(-0.94 * reach, bottom + 1.7 * gap, 0.3 * reach, gap, times)
+    picture = look.drawing([-reach, reach], [bottom, top], annotations=texts + labels)
     caption = (
         f"Lobe {lobe + 1} of disc {d + 1}, the deepest worn. Black: as made; blue: the worn contour at the recorded"
         f" hours. {enlarged_text(times)}"
@@ -205,15 +204,15 @@ def contact_pin(result: Result, turn: complex) -> dict:
     return path(circle, "#c3cbd3", 1.0, fill="toself", fillcolor="rgba(236,239,242,0.55)")
 
 
-def scale_bars(x: float, y: float, room: float, times: float) -> tuple[list[dict], list[dict]]:
-    """Bars for the part's shape [mm] and for the enlarged wear [um]: (traces, labels)."""
+def scale_bars(x: float, y: float, room: float, gap: float, times: float) -> tuple[list[dict], list[dict]]:
+    """Bars, at most ``room`` long and ``gap`` apart, for the part [mm] and its wear [um]: (traces, labels)."""
     bars = [(shapes.round_down(room), "{:g} mm of the part", look.QUIET)]
     if times:
         micron = shapes.round_down(room * 1e3 / times)
         bars.insert(0, (micron * times * 1e-3, f"{micron:g} µm of wear", look.NOW))
     traces, labels = [], []
     for k, (length, text, colour) in enumerate(bars):
-        height = y - 0.22 * k * room
+        height = y - k * gap
         traces.append(look.line(short([x, x + length], 5), short([height, height], 5), colour, 4))
         labels.append(look.note(x + length, height, " " + text.format(length), xanchor="left"))
     return traces, labels
@@ -243,7 +242,7 @@ def tooth_depth(result: Result) -> Figure:
         xaxis=look.angle_axis("phase on the tooth, root 0°, tip 180°", low, high, 30.0 if high - low < 200.0 else 60.0),
         yaxis=look.axis("wear depth [µm]", rangemode="tozero"),
     )
-    return Figure("tooth_depth", "Depth along the tooth", caption, traces, picture, 5, 270)
+    return Figure("tooth_depth", "Depth along the tooth", caption, traces, picture, 5, 300)
 
 
 def loaded_side(result: Result, *profiles: np.ndarray) -> tuple[float, float]:

@@ -20,7 +20,9 @@ def contact_phases(result: Result, entry: int, disc: int) -> np.ndarray:
     """Phase of every contact in the middle of its step [position, pin], in degrees from the root."""
     t = result.topology
     angle = np.degrees(result["crank_angle"][entry])
-    angle = angle - 0.5 * result.sense * 360.0 / angle.size
+    step = 360.0 / angle.size
+    # Ideal positions: the lag, hundredths of a degree, would only spread the bins.
+    angle = (np.round(angle / step) - 0.5 * result.sense) * step
     eccentric = angle + 360.0 * disc / t.discs
     return (eccentric[:, None] + 360.0 * t.lobes / t.pins * np.arange(t.pins)) % 360.0
 
@@ -70,7 +72,7 @@ def inflection(result: Result) -> float:
 
 def figure(result: Result) -> Figure:
     """The four panels; force, pressure and wear follow the page's selectors."""
-    first, shown = result.shown[0], result.shown
+    shown = result.shown
     along = {(d, i): force_along(result, i, d) for d in range(result.topology.discs) for i in shown}
     low, high = loaded_side(result, *(
         np.interp(result["flank_phase"], phases, mean) for phases, mean, _, _ in along.values()
@@ -84,15 +86,13 @@ def figure(result: Result) -> Figure:
         return teeth[i, d][teeth[i, d].max(axis=1).argmax()][inside]
 
     def update(d, i):
-        force = short([along[d, k][1] for k in (first, i)], 4)
-        spread = short([along[d, i][2], along[d, i][3]], 3)
-        phases = [along[d, k][0] for k in (first, i)]
-        pressure = short([pressure_at(result, *along[d, k][:2]) for k in (first, i)], 4)
-        x = [short(p, 5) for p in phases]
+        phases, mean, smallest, largest = along[d, i]
+        kept = (phases > low - BIN) & (phases < high + BIN)
+        phases, mean = phases[kept], mean[kept]
+        x, pressure = short(phases), pressure_at(result, phases, mean)
         return [
-            {"x": x[1], "y": spread[0]}, {"x": x[1], "y": spread[1]}, {"x": x[0], "y": force[0]},
-            {"x": x[1], "y": force[1]}, {"x": x[0], "y": pressure[0]}, {"x": x[1], "y": pressure[1]},
-            None, {"y": short(deepest(d, i), 4)},
+            {"x": x, "y": short(smallest[kept], 3)}, {"x": x, "y": short(largest[kept], 3)},
+            3, {"x": x, "y": short(mean)}, 5, {"x": x, "y": short(pressure)}, None, {"y": short(deepest(d, i))},
         ]  # fmt: skip
 
     def panel(trace, k):
@@ -126,13 +126,13 @@ def figure(result: Result) -> Figure:
     step = 30.0 if high - low < 200.0 else 60.0
     axes["xaxis"] = look.angle_axis("phase on the tooth: 0° root, 180° tip", low, high, step, anchor="y4")
     bend = inflection(result)
-    marks = [look.upright(p, "inflection") for p in (bend, 360.0 - bend) if low < p < high]
+    marks = [look.upright(p, "inflection: hollow to round") for p in (bend, 360.0 - bend) if low < p < high]
     picture = look.layout(**axes, shapes=[m[0] for m in marks], annotations=[m[1] for m in marks],
-                          margin={"l": 62, "r": 14, "t": 24, "b": 46})
+                          margin={"l": 62, "r": 20, "t": 24, "b": 46})
     states = [[update(d, i) for i in shown] for d in range(result.topology.discs)]
     return Figure(
         "tooth_phase", "Along the tooth, {now}",
-        "Where a tooth wears follows from force times sliding: force is shared between root and tip, sliding grows"
-        " towards the tip. Band: smallest to largest force of all pins; wear: the deepest tooth of the disc.",
+        "Read downwards: what each place of a tooth carries, how fast a standing pin slides there, what it has lost."
+        " Band: smallest to largest force of all pins; wear: the deepest tooth of the disc.",
         traces, picture, 12, 640, keys=[("{now}", look.NOW, "solid"), ("{start}", look.START, "solid")], states=states,
     )  # fmt: skip

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import xarray as xr
 
+from orchestrator.faults import InputFault
 from rv_plant.gear_stage import total_ratio
 from rv_plant.geometry import shortening
 from rv_plant.variables import Topology
@@ -29,6 +30,8 @@ class Result:
     @classmethod
     def of(cls, dataset: xr.Dataset) -> "Result":
         n = dataset.sizes
+        if "hour" not in n or "lobe" not in n:
+            raise InputFault("this result has no recorded hours of a life, which the report shows; rvwear life writes one")
         topology = Topology(n["disc"], n["crank"], n["pin"], n["lobe"], n["roller"])
         return cls(dataset, json.loads(dataset.attrs.get("inputs", "{}")), topology)
 
@@ -106,7 +109,7 @@ def number(value: float, digits: int = 3) -> str:
     if value == 0.0:
         return "0"
     size = math.floor(math.log10(abs(value)))
-    if not -4 < size < 7:
+    if not -5 < size < 7:
         return f"{value:.{digits - 1}e}"
     text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
     return text.replace("-", "−")

@@ -35,15 +35,15 @@ def ring(radius: float, centre: complex = 0.0, count: int = 120) -> np.ndarray:
     return centre + radius * directions(np.linspace(0.0, 360.0, count + 1))
 
 
-def round_down(value: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is not above ``value``."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9))
+def round_down(value: float, steps: tuple[float, ...] = (1.0, 2.0, 5.0)) -> float:
+    """The largest of ``steps`` times a power of ten that is not above ``value``."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-9)
+    return max(step * power for step in steps if step * power <= value * (1.0 + 1e-9))
 
 
 def magnification(depth: float, room: float) -> float:
     """How many times wear of ``depth`` is enlarged to be at most ``room`` long; 0 if nothing is worn."""
-    return round_down(room / depth) if depth > 0.0 else 0.0
+    return round_down(room / depth, (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)) if depth > 0.0 else 0.0
 
 
 def levels(depth: float, most: int = 8) -> np.ndarray:

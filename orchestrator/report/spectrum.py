@@ -10,7 +10,7 @@ from orchestrator.report.look import Figure, short
 from orchestrator.report.result import Result, hour_text, number
 
 # Orders that far below the largest are not drawn.
-DEPTH = 3e3
+DEPTH = 2e3
 # A cause is named for an order this close to it.
 NEAR = 0.6
 LARGEST = 12
@@ -89,7 +89,7 @@ def stems(result: Result) -> Figure:
     entries = ends(result)
     amplitude = result["order_amplitude"]
     top = float(amplitude[entries].max()) or 1.0
-    floor = 10.0 ** math.floor(math.log10(top / DEPTH))
+    floor = 10.0 ** round(math.log10(top / DEPTH))
     traces = []
     for i, (text, colour, _) in zip(entries, keys(result)):
         kept = amplitude[i] > floor
@@ -100,22 +100,27 @@ def stems(result: Result) -> Figure:
         traces.append({
             "type": "scatter", "mode": "markers", "x": x.tolist(), "y": short(y, 6), "text": named(result, x, y, top),
             "marker": {"size": 4 if i == entries[-1] else 5, "color": colour},
-            "hovertemplate": f"order %{{x}}, {text}: %{{y:.3~g}}″ %{{text}}<extra></extra>",
+            "hovertemplate": f"order %{{x}}, {text}: %{{y:.3~g}} arcsec %{{text}}<extra></extra>",
         })  # fmt: skip
-    marks = [look.upright(round(math.log10(mid), 5), text) for mid, text in grouped(causes(result))]
-    shapes = []
-    for (shape, label), (mid, _) in zip(marks, grouped(causes(result))):
-        shapes.append(shape | {"x0": round(mid, 3), "x1": round(mid, 3)})
-        label |= {"textangle": -90, "font": {"size": 11, "color": look.QUIET}}
+    marks, shapes, before, high = [], [], 0.0, False
+    for place, text in grouped(causes(result)):
+        # Close neighbours at two heights, for narrow screens.
+        high = place < 1.5 * before and not high
+        shape, label = look.upright(round(place, 3), text)
+        # plotly.js takes annotations of a logarithmic axis as exponents, shapes as values.
+        marks.append(label | {"x": round(math.log10(place), 5), "textangle": -90, "yshift": 40 if high else 4})
+        shapes.append(shape)
+        before = place
     picture = look.layout(
         xaxis=look.axis("order per output turn", type="log", range=[-0.05, round(math.log10(orders[-1] * 1.08), 4)],
-                        tickvals=[1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000]),
-        yaxis=look.axis("amplitude [″]", type="log", range=[math.log10(floor), round(math.log10(top) + 0.15, 4)], dtick=1,
+                        tickvals=[1, 3, 10, 30, 100, 300, 1000, 3000], tickangle=0),
+        yaxis=look.axis("amplitude [arcsec]", type="log", range=[math.log10(floor), round(math.log10(top) + 0.15, 4)], dtick=1,
                         exponentformat="none"),
-        shapes=shapes, annotations=[m[1] for m in marks], margin={"l": 62, "r": 14, "t": 62, "b": 46},
+        shapes=shapes, annotations=marks, margin={"l": 62, "r": 20, "t": 84, "b": 46},
     )  # fmt: skip
     return Figure("orders", "Orders of the transmission error at the input",
-                  "Dotted: orders that are known from the counts of parts, named in the table below; hover names the rest.",
+                  "Dotted: orders known from the counts and radii of the parts, named in the table; those of the rollers are"
+                  " not whole and spread over their neighbours.",
                   traces, picture, 12, 400, keys=keys(result))
 
 
@@ -146,19 +151,19 @@ def turn(result: Result, whole: bool) -> Figure:
     t = result.topology
     angle = result["output_phase"]
     last = 360.0 if whole else 3 * 360.0 / t.pins
-    kept = angle <= last
+    kept, step = angle <= last, round(float(angle[0]), 9)
     error = result["transmission_error_over_turn"]
     error = error - error.mean(axis=1, keepdims=True)
     traces = [
-        look.line(short(angle[kept], 6), short(error[i][kept], 4), colour, 1.0 if whole else 1.8,
-                  hover=f"{text}, %{{x:.2f}}°: %{{y:.2f}}″")
+        look.line(None, short(error[i][kept], 4), colour, 1.0 if whole else 1.8,
+                  hover=f"{text}, %{{x:.2f}}°: %{{y:.2f}} arcsec", x0=step, dx=step)
         for i, (text, colour, _) in zip(ends(result), keys(result))
     ]  # fmt: skip
     title = "Over one output turn" if whole else "Three turns of the cranks"
     spread = [round(v, 5) for v in look.padded(error[ends(result)], 0.01, 0.1)]
     picture = look.layout(
         xaxis=look.axis("output angle [°]", range=[0.0, last], **({"dtick": 60.0} if whole else {})),
-        yaxis=look.axis("transmission error [″]", range=spread, nticks=6),
+        yaxis=look.axis("transmission error [arcsec]", range=spread, nticks=6),
     )
     caption = (
         "Less its mean; drag over the plot to look closer, double-click to return." if whole
@@ -173,7 +178,7 @@ def tables(result: Result) -> list[dict]:
     if not ends(result):
         return []
     entries, amplitude, orders = ends(result), result["order_amplitude"], result["order"]
-    hours = [f"{hour_text(result['spectrum_hour'][i])} [″]" for i in entries]
+    hours = [f"{hour_text(result['spectrum_hour'][i])} [arcsec]" for i in entries]
     known = [
         [order_text(c.order), c.text, *(number(near(orders, amplitude[i], c.order)) for i in entries)]
         for c in causes(result)

@@ -1,0 +1,126 @@
+"""The command line as a user meets it: figures, exit codes, files, errors."""
+
+import json
+
+import numpy as np
+import pytest
+
+from orchestrator.cli import main
+from orchestrator.results import read
+
+SOLVE_KEYS = {
+    "peak_pin_force_N", "mean_loaded_teeth", "peak_contact_pressure_MPa", "peak_roller_force_N", "mean_lag_arcsec",
+    "transmission_error_pp_arcsec", "torsional_stiffness_Nm_per_arcmin", "sliding_speed_min_mm_s",
+    "sliding_speed_max_mm_s",
+}  # fmt: skip
+LIFE_KEYS = {
+    "hours", "inner_raceway_um", "outer_raceway_um", "disc_flank_um", "pin_um", "inner_peak_deg", "outer_peak_deg",
+    "disc_peak_deg", *SOLVE_KEYS,
+}  # fmt: skip
+
+
+def json_of(capsys, *arguments):
+    assert main([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_solve_gives_the_promised_figures(capsys):
+    figures = json_of(capsys, "solve", "--reducer", "RV20E-121")
+    assert SOLVE_KEYS <= figures.keys()
+    # Independent solver with the same set-up: 51.9 arcsec, 6.8 arcsec, 311.2 N, 382 N m/arcmin.
+    assert figures["mean_lag_arcsec"] == pytest.approx(51.9, rel=0.005)
+    assert figures["transmission_error_pp_arcsec"] == pytest.approx(6.8, rel=0.01)
+    assert figures["peak_pin_force_N"] == pytest.approx(311.2, rel=0.005)
+    assert figures["torsional_stiffness_Nm_per_arcmin"] == pytest.approx(382, rel=0.005)
+
+
+@pytest.mark.parametrize("options, lag", [
+    (("--bearing-clearance", "0"), 26.5), (("--bearing-clearance", "5"), 75.5), (("--bearing-clearance", "10"), 120.0),
+    (("--set", "bearing_clearance=10um"), 120.0),
+])  # fmt: skip
+def test_solve_options_act(capsys, options, lag):
+    assert json_of(capsys, "solve", *options)["mean_lag_arcsec"] == pytest.approx(lag, rel=0.005)
+
+
+def test_stiffness_reading_and_contact_law(capsys):
+    literal = json_of(capsys, "solve", "--stiffness-reading", "literal")
+    assert literal["torsional_stiffness_Nm_per_arcmin"] == pytest.approx(199, rel=0.01)
+    palmgren = json_of(capsys, "solve", "--contact-law", "palmgren")
+    # Palmgren for 8.82 mm is 1.74 times the printed stiffness of the mesh.
+    assert palmgren["mean_lag_arcsec"] < 51.0
+    assert json_of(capsys, "solve", "--contact-law", "lankarani-nikravesh")["mean_lag_arcsec"] > 0.0
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (("solve", "--reducer", "RV99"), "no reducer 'RV99'"),
+    (("solve", "--set", "pin_radus=2mm"), "did you mean pin_radius"),
+    (("solve", "--set", "pin_radius=2kg"), "'kg' does not fit"),
+    (("solve", "--set", "pin_radius=-2mm"), "out of range"),
+    (("solve", "--set", "pin_radius=big"), "not a number"),
+    (("solve", "--set", "pin_radius_error[41]=1um"), "do not fit the shape"),
+    (("solve", "--set", "input_speed=0"), "must turn"),
+    (("solve", "--torque", "nan"), "not a finite number"),
+    (("solve", "--contact-law", "glue"), "line, lankarani-nikravesh, palmgren"),
+    (("solve", "--positions", "2"), "at least 8"),
+    (("life", "--hours", "-5"), "hours = -5"),
+    (("run", "nowhere.toml"), "no scenario file"),
+    (("run", "--scheme", "newton", "--output", "unused.nc"), "gauss-seidel, jacobi"),
+    (("report", "nowhere.nc"), "no result file"),
+    (("life", "--fmus", "nowhere"), "rvwear build"),
+])  # fmt: skip
+def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
+    assert main(list(arguments)) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("setting, said", [
+    ("eccentricity=1.4mm", "the trochoid has loops"), ("eccentricity=1.25mm", "undercut"),
+    ("roller_radius=2mm", "rollers do not fit"),
+])  # fmt: skip
+def test_impossible_reducer_exits_with_2_and_says_why(capsys, setting, said):
+    assert main(["solve", "--set", setting]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_life_writes_result_and_figures(capsys, tmp_path):
+    path = tmp_path / "short.nc"
+    arguments = ["life", "--hours", "120", "--positions", "24", "--no-report", "--output", str(path)]
+    figures = json_of(capsys, *arguments)
+    assert LIFE_KEYS <= figures.keys()
+    assert all(len(figures[key]) == len(figures["hours"]) for key in LIFE_KEYS)
+    dataset = read(path)
+    assert dataset["disc_wear"].dims == ("hour", "disc", "lobe", "flank_bin")
+    assert all("units" in v.attrs for v in dataset.data_vars.values())
+    inputs = json.loads(dataset.attrs["inputs"])
+    assert inputs["parameters"]["plant"]["load_torque"] == 167.0
+    assert inputs["sources"]["load_torque"] == "document, table 2"
+    assert len(dataset.attrs["source_hash"]) == 64
+    assert not path.with_suffix(".checkpoint").exists()
+    again = json_of(capsys, *arguments, "--reuse")
+    assert again == figures
+
+
+def test_unfinished_run_is_not_overwritten(capsys, tmp_path):
+    path = tmp_path / "life.nc"
+    path.with_suffix(".checkpoint").write_bytes(b"precious")
+    assert main(["life", "--hours", "60", "--output", str(path)]) == 2
+    assert "--resume" in capsys.readouterr().err
+    assert path.with_suffix(".checkpoint").read_bytes() == b"precious"
+
+
+def test_run_records_the_pair(capsys, tmp_path):
+    path = tmp_path / "run.nc"
+    summary = json_of(capsys, "run", "--turns", "0.5", "--output", str(path))
+    assert summary["steps"] == 36
+    dataset = read(path)
+    assert dataset["plant.mesh_force"].shape == (36, 2, 40)
+    assert float(dataset["plant.mesh_force"].max()) > 200.0
+    assert np.all(np.diff(dataset["time"]) > 0.0)
+
+
+def test_help_of_every_command(capsys):
+    for command in ("solve", "run", "life", "build", "report"):
+        with pytest.raises(SystemExit) as stop:
+            main([command, "--help"])
+        assert stop.value.code == 0
+        assert "--" in capsys.readouterr().out

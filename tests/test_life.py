@@ -1,0 +1,130 @@
+"""A life in jumps: error control, resumption, and independence of how the hours are cut."""
+
+import numpy as np
+import pytest
+
+from orchestrator.checkpoint import load_checkpoint, save_checkpoint
+from orchestrator.faults import InputFault
+from orchestrator.life import HOUR, Life, LifeSettings, live, peak_of_circle, run_cycle
+from orchestrator.pair import make_pair
+
+# A quarter of the usual positions per turn: the jumps, not the angles, are under test.
+COARSE = 24
+
+
+def nothing(_):
+    pass
+
+
+def run_life(reducer, settings, keep=nothing):
+    pair = make_pair(reducer, positions=COARSE)
+    return live(pair, Life(settings), nothing, keep), pair
+
+
+@pytest.fixture(scope="module")
+def short(rv20e):
+    return run_life(rv20e, LifeSettings(hours=400.0, first_jump=100.0))[0]
+
+
+def test_hours_start_at_zero_and_end_where_asked(short):
+    assert short.hours[0] == 0.0
+    assert short.hours[-1] == pytest.approx(400.0, rel=1e-9)
+    assert np.all(np.diff(short.hours) > 0.0)
+
+
+def test_wear_only_grows(short):
+    for name in ("inner_raceway_um", "outer_raceway_um", "disc_flank_um", "pin_um"):
+        assert np.all(np.diff([f[name] for f in short.figures]) > 0.0), name
+    for before, after in zip(short.surfaces, short.surfaces[1:]):
+        for name in before:
+            assert np.all(after[name] >= before[name]), name
+            assert np.all(before[name] >= 0.0), name
+
+
+def test_every_jump_meets_the_tolerance(short):
+    assert max(short.errors) <= short.settings.tolerance
+
+
+def test_tighter_tolerance_agrees_within_the_looser_one(rv20e, short):
+    tight, _ = run_life(rv20e, LifeSettings(hours=400.0, first_jump=20.0, tolerance=0.003))
+    assert len(tight.hours) > len(short.hours)
+    for name in ("inner_raceway_um", "disc_flank_um", "mean_lag_arcsec"):
+        assert short.figures[-1][name] == pytest.approx(tight.figures[-1][name], rel=0.005), name
+
+
+def test_too_long_a_first_jump_is_cut(rv20e):
+    life, _ = run_life(rv20e, LifeSettings(hours=2000.0, first_jump=2000.0, tolerance=0.004))
+    assert life.hours[1] < 1999.0
+    assert max(life.errors) <= 0.004
+
+
+def test_measuring_leaves_the_pair_as_it_was(rv20e):
+    pair = make_pair(rv20e, positions=COARSE)
+    run_cycle(pair, 100.0)
+    before = pair.master.save()
+    life = Life(LifeSettings())
+    life.note(pair, 0.0)
+    assert pair.master.save() == before
+
+
+class Killed(Exception):
+    pass
+
+
+def test_resumed_life_equals_the_uninterrupted_one(rv20e, short, tmp_path):
+    path, inputs = tmp_path / "life.checkpoint", {"case": 1}
+    pair = make_pair(rv20e, positions=COARSE)
+
+    def kill_after_two_jumps(life):
+        save_checkpoint(path, life, pair.master.save(), inputs)
+        if len(life.hours) == 3:
+            raise Killed
+
+    with pytest.raises(Killed):
+        live(pair, Life(short.settings), nothing, kill_after_two_jumps)
+    life, saved = load_checkpoint(path, inputs)
+    again = make_pair(rv20e, positions=COARSE)
+    again.master.restore(saved)
+    live(again, life, nothing, nothing)
+    assert life.hours == short.hours
+    assert life.figures == short.figures
+    for ours, theirs in zip(life.surfaces, short.surfaces):
+        assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
+
+
+def test_checkpoint_of_other_inputs_is_refused(short, rv20e, tmp_path):
+    path = tmp_path / "life.checkpoint"
+    pair = make_pair(rv20e, positions=COARSE)
+    save_checkpoint(path, short, pair.master.save(), {"positions": 24})
+    with pytest.raises(InputFault, match="positions was 24, is 72"):
+        load_checkpoint(path, {"positions": 72})
+
+
+def test_broken_checkpoint_is_refused(tmp_path):
+    path = tmp_path / "life.checkpoint"
+    path.write_bytes(b"PK\x03\x04 cut off")
+    with pytest.raises(InputFault, match="is not a checkpoint"):
+        load_checkpoint(path, {})
+
+
+@pytest.mark.parametrize("bad", [{"hours": -1.0}, {"tolerance": 0.0}, {"first_jump": np.nan}, {"tolerance": 0.9}])
+def test_senseless_settings_are_named(bad):
+    with pytest.raises(InputFault, match=next(iter(bad))):
+        LifeSettings(**bad).check()
+
+
+def test_acceleration_counts_hours_and_distance(rv20e):
+    pair = make_pair(rv20e, positions=COARSE)
+    run_cycle(pair, 123.0)
+    assert pair.wear.get("operating_time") / HOUR == pytest.approx(123.0, rel=1e-12)
+    speed = abs(pair.plant.get("crank_speed"))
+    assert pair.wear.get("crank_travel") == pytest.approx(speed * 123.0 * HOUR, rel=1e-6)
+
+
+def test_peak_of_a_rippled_hump_lies_at_its_middle():
+    angle = 2 * np.pi * (np.arange(360) + 0.5) / 360
+    hump = np.maximum(np.cos(angle - 1.234), 0.0) ** 2
+    ripple = 1.0 + 0.002 * np.cos(90 * angle + 0.3)
+    depth, place = peak_of_circle((hump * ripple)[None, :])
+    assert place == pytest.approx(1.234, abs=np.radians(0.3))
+    assert depth == pytest.approx(1.0, abs=0.003)

@@ -1,0 +1,77 @@
+"""The kernels as plain Python: same functions, no compiler, same numbers."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from orchestrator.reducer import load_reducer
+from rv_plant import plant
+from stand import BACK, SHARED, crank_period, exchange, records_of
+from wear_fmu import accumulator
+
+STEPS, HOURS_PER_STEP = 4, 20.0
+# What each case asks of the kernels beyond the ideal reducer.
+CASES = {
+    "ideal": {},
+    "compliant with errors": {
+        "crank_support_compliance": 7e-9, "main_bearing_compliance": 3e-9, "first_stage_compliance": 1e-8,
+        "housing_compliance": 1e-7, "lobe_profile_error": 2e-6, "pin_radius_error": 1e-6, "angle_modification": 1e-5,
+        "pins": 1, "load_torque": -100.0,
+    },
+}
+
+
+def trajectory(case):
+    """State cells of both units after each of some coupled steps."""
+    reducer = load_reducer("RV20E-121")
+    tables = reducer.plant, reducer.wear
+    machine, surface = (
+        records_of(t, **{k: v for k, v in CASES[case].items() if k in t.by_name}).view(np.recarray) for t in tables
+    )
+    rows = []
+    assert plant.initialise(machine) == 0
+    step = crank_period(machine) / 40
+    surface["acceleration"] = HOURS_PER_STEP * 3600 / step
+    exchange(machine, surface, SHARED)
+    assert accumulator.initialise(surface) == 0
+    for i in range(STEPS):
+        assert plant.step(machine, i * step, step) == 0
+        exchange(machine, surface, SHARED)
+        assert accumulator.step(surface, i * step, step) == 0
+        exchange(surface, machine, BACK)
+        rows.append([{v.name: np.array(r[v.name][0]) for v in t.of_role("output", "state")}
+                     for t, r in zip(tables, (machine, surface))])
+    return rows
+
+
+def write(path, case):
+    values = {f"{i}/{u}/{n}": v for i, row in enumerate(trajectory(case)) for u, unit in enumerate(row)
+              for n, v in unit.items()}
+    np.savez(path, **values)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_plain_python_gives_the_compiled_trajectory(tmp_path, case):
+    plain = tmp_path / "plain.npz"
+    root = Path(__file__).resolve().parents[1]
+    program = f"import test_plain_python as t; t.assert_plain(); t.write({str(plain)!r}, {case!r})"
+    search = os.pathsep.join([str(root), str(root / "tests")])
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=120,
+                   env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": search})
+    write(tmp_path / "compiled.npz", case)
+    found, expected = np.load(plain), np.load(tmp_path / "compiled.npz")
+    assert set(found) == set(expected) and len(found) > 100
+    for name in expected:
+        if expected[name].dtype.kind == "i":
+            assert (found[name] == expected[name]).all(), name
+            continue
+        scale = np.abs(expected[name]).max()
+        assert np.abs(found[name] - expected[name]).max() <= 1e-12 * scale, name
+
+
+def assert_plain():
+    assert not hasattr(plant.step, "py_func"), "the compiler is not switched off"

@@ -1,0 +1,56 @@
+"""Reducer files: what comes with the software, and what a bad file is told."""
+
+import pytest
+
+from orchestrator.faults import InputFault
+from orchestrator.reducer import available, load_reducer
+
+
+def test_the_two_reducers_of_the_sources_come_with_the_software():
+    assert available() == ["BX-40E", "RV20E-121"]
+
+
+@pytest.mark.parametrize("name", ["BX-40E", "RV20E-121"])
+def test_every_number_has_a_source(name):
+    reducer = load_reducer(name)
+    assert reducer.starts.keys() == reducer.sources.keys()
+    assert all(s.startswith(("document", "assumed", "ratio", "2000 rpm", "15 rpm")) for s in reducer.sources.values())
+
+
+def test_numbers_are_converted_to_si():
+    reducer = load_reducer("RV20E-121")
+    assert reducer.starts["pin_radius"] == pytest.approx(2e-3)
+    assert reducer.starts["input_speed"] == pytest.approx(209.4395102)
+    assert reducer.starts["run_in_time"] == pytest.approx(1.08e6)
+
+
+@pytest.mark.parametrize("before, after, said", [
+    ("pin_radius = ", "pin_radus = ", r"\[cycloid\] pin_radus is not a parameter.*did you mean pin_radius"),
+    ('pin_radius = { value = 2.0, unit = "mm"', "pin_radius = { value = 2.0", "cycloid.pin_radius.unit"),
+    ('value = 2.0, unit = "mm"', 'value = -2.0, unit = "mm"', r"pin_radius = -2 mm.*out of range"),
+    ('value = 2.0, unit = "mm"', 'value = 2.0, unit = "kg"', r"pin_radius = 2 kg: unit 'kg' does not fit"),
+    ('value = 2.0, unit = "mm"', 'value = 2.0, unit = "mmm"', "unit 'mmm' is not known"),
+    ('value = 2.0, unit = "mm"', 'value = nan, unit = "mm"', "not a finite number"),
+    ('value = 2.0, unit = "mm"', 'value = "two", unit = "mm"', "is not a number"),
+    ("pins = 40", "pins = 41", r"pins = 41, lobes = 39: the pins do not close the ring.*set pins = 40"),
+    ("discs = 2", "discs = 0", "topology.discs = 0"),
+    ("[topology]", "[topologie]", r"section \[topology\] is missing"),
+    ("[cycloid]", "[cycloid", "not a TOML file"),
+    ('pin_radius = { value = 2.0, unit = "mm", source = "document, table 1" }', "pin_radius = 2.0", "has no unit"),
+    ('source = "document, table 1" }\npin_circle', 'source = "" }\npin_circle', "cycloid.pin_radius.source"),
+])  # fmt: skip
+def test_bad_file_is_told_file_key_value_and_remedy(tmp_path, before, after, said):
+    text = load_reducer("RV20E-121").path.read_text(encoding="utf-8")
+    assert before in text
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace(before, after, 1), encoding="utf-8")
+    with pytest.raises(InputFault, match=said) as fault:
+        load_reducer(path)
+    assert "mine.toml" in str(fault.value)
+
+
+def test_three_cranks_are_a_matter_of_the_file(tmp_path):
+    text = load_reducer("RV20E-121").path.read_text(encoding="utf-8").replace("cranks = 2", "cranks = 3")
+    path = tmp_path / "three.toml"
+    path.write_text(text, encoding="utf-8")
+    assert load_reducer(path).plant.by_name["roller_force"].shape == (2, 3, 16)

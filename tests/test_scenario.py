@@ -1,0 +1,77 @@
+"""Scenario files: the pair from a file, and what a bad file is told."""
+
+import numpy as np
+import pytest
+
+from orchestrator.faults import InputFault
+from orchestrator.scenario import load_scenario, run_scenario
+
+PAIR = """
+[scenario]
+name = "pair"
+step = { value = 1.3, unit = "ms" }
+duration = { value = 26, unit = "ms" }
+
+[components.plant]
+reducer = "RV20E-121"
+unit = "plant"
+parameters = { load_torque = "100 N.m", bearing_clearance = "4 um", contact_law = "line" }
+record = ["lag", "mesh_force", "mesh_force[1,3]"]
+
+[components.wear]
+reducer = "RV20E-121"
+unit = "wear"
+parameters = { acceleration = 1e6 }
+record = ["flank_depth"]
+
+[[connections]]
+from = "plant.crank_angle"
+to = "wear.crank_angle"
+
+[[connections]]
+from = "plant.mesh_force"
+to = "wear.mesh_force"
+"""
+
+
+def write(folder, text):
+    path = folder / "case.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_pair_from_a_file_runs_and_records(tmp_path):
+    scenario = load_scenario(write(tmp_path, PAIR))
+    series = run_scenario(scenario)
+    assert series["time"] == pytest.approx(1.3e-3 * np.arange(21))
+    assert series["plant.mesh_force"].shape == (21, 2, 40)
+    assert np.array_equal(series["plant.mesh_force[1,3]"], series["plant.mesh_force"][:, 0, 2])
+    assert series["wear.flank_depth"][-1].max() > 0.0
+    assert scenario.master.components["plant"].get("load_torque") == 100.0
+    assert scenario.master.components["plant"].get("bearing_clearance") == pytest.approx(4e-6)
+
+
+def test_fmu_from_a_file(tmp_path, fmus):
+    text = PAIR.replace('reducer = "RV20E-121"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
+    theirs = run_scenario(load_scenario(write(tmp_path, text)))
+    ours = run_scenario(load_scenario(write(tmp_path, PAIR)))
+    assert theirs["wear.flank_depth"] == pytest.approx(ours["wear.flank_depth"], rel=1e-12)
+
+
+@pytest.mark.parametrize("before, after, said", [
+    ("step =", "stepp =", "scenario.step"),
+    ('unit = "ms" }\nduration', 'unit = "mm" }\nduration', "'mm' does not fit"),
+    ("value = 1.3", "value = -1.3", "both positive"),
+    ('unit = "plant"', 'unit = "plnt"', "components.plant.unit"),
+    ('reducer = "RV20E-121"\nunit = "plant"', "", "give either fmu"),
+    ('"lag"', '"lagg"', "did you mean lag"),
+    ('"100 N.m"', '"100 kg"', r"load_torque = '100 kg'.*'kg' does not fit"),
+    ('"100 N.m"', "nan", "not a finite number"),
+    ("contact_law =", "contact_lw =", "did you mean contact_law"),
+    ('"wear.mesh_force"', '"wear.roller_force"', "shapes"),
+    ('"wear.mesh_force"', '"wheel.mesh_force"', "no component 'wheel'"),
+])  # fmt: skip
+def test_bad_scenario_is_told_what_is_wrong(tmp_path, before, after, said):
+    assert before in PAIR
+    with pytest.raises(InputFault, match=said):
+        load_scenario(write(tmp_path, PAIR.replace(before, after, 1)))
