@@ -7,7 +7,7 @@
     scheme = "gauss-seidel"
 
     [components.plant]
-    fmu = "dist/RvPlant.fmu"          # or reducer = "RV20E-121", unit = "plant"
+    fmu = "../dist/RvPlant.fmu"       # or reducer = "RV20E-121", unit = "plant"
     ratio = 1                         # base steps per step of this unit
     parameters = { load_torque = "150 N.m" }
     record = ["lag", "mesh_force"]

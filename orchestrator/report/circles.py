@@ -43,7 +43,7 @@ def pin(result: Result) -> Figure:
     traces.append(arrow(0.3 * radius * inward, 0.62 * radius * inward, look.QUIET))
     if times:
         texts.append(look.note(0.0, 0.0, f"{number(result['pin_um'][-1])} µm", font={"size": 14, "color": look.INK}))
-    bars, labels = scale_bars(-1.3 * radius, -1.40 * radius, 0.5 * radius, 0.16 * radius, times)
+    bars, labels = scale_bars(radius * (-1.3 - 1.4j), -0.16j * radius, 0.5 * radius, times)
     picture = look.drawing([-1.4 * radius, 1.4 * radius], [-1.66 * radius, 1.14 * radius], annotations=texts + labels)
     how = "It turns in its groove and wears evenly all round" if result.pins_turn else (
         "It stands in its groove and wears where the disc touches it"
@@ -95,7 +95,7 @@ def raceway(result: Result, side: str, times: float) -> Figure:
         depth_text = f"deepest<br><b>{number(result[f'{side}_raceway_um'][-1])} µm</b> at {number(peak)}°"
         texts.append(look.note(0.97 * reach, -1.48 * radius, depth_text, xanchor="right", align="right",
                                font={"size": 12, "color": look.INK}))
-    bars, labels = scale_bars(-0.94 * reach, -1.40 * radius, 0.5 * radius, 0.16 * radius, times)
+    bars, labels = scale_bars(-0.94 * reach - 1.4j * radius, -0.16j * radius, 0.5 * radius, times)
     picture = look.drawing([-reach, reach], [-1.66 * radius, 1.24 * radius], annotations=texts + labels)
     what, start = ("Crank lobe", "the lobe's eccentric direction") if side == "inner" else (
         "Hole in the disc", "the hole's outward radial"

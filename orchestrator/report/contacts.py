@@ -14,8 +14,10 @@ MOST_POSITIONS = 120
 
 
 def figures(result: Result) -> list[Figure]:
-    return [pin_map(result, True), pin_map(result, False), pin_lines(result), roller_map(result, True),
-            roller_map(result, False), *turn_curves(result)]  # fmt: skip
+    """Maps of the start stand beside those of the chosen hour, if there is more than one."""
+    ways = (False,) if alone(result) else (True, False)
+    maps = [[make(result, at_start) for at_start in ways] for make in (pin_map, roller_map)]
+    return [*maps[0], pin_lines(result), *maps[1], *turn_curves(result)]
 
 
 def every(result: Result) -> slice:
@@ -36,7 +38,12 @@ def crank_axis(step: float = 60.0) -> dict:
     return look.angle_axis("crank angle [°]", 0.0, 360.0, step)
 
 
-def compared(result: Result, at_start: bool) -> tuple[str, str]:
+def alone(result: Result) -> bool:
+    """Whether there is but one hour and nothing to compare."""
+    return len(result.shown) == 1
+
+
+def compared(at_start: bool) -> tuple[str, str]:
     """(end of a figure's name, hour in its title)."""
     return ("_start", "start") if at_start else ("", "now")
 
@@ -62,7 +69,7 @@ def heat_map(rows, z_max: float, result: Result, hover: str) -> dict:
 
 def pin_map(result: Result, at_start: bool) -> Figure:
     """Force on every pin over the crank angle."""
-    end, when = compared(result, at_start)
+    end, when = compared(at_start)
     pins = list(range(1, result.topology.pins + 1))
     trace = heat_map(pins, float(result["mesh_force"][result.shown].max()), result,
                      "pin %{y}, crank %{x:.0f}°: %{z:.0f} N")
@@ -75,7 +82,7 @@ def pin_map(result: Result, at_start: bool) -> Figure:
         margin={"l": 56, "r": 4, "t": 10, "b": 46},
     )
     first, last = (number(result["mesh_force"][i].max()) for i in (result.shown[0], result.shown[-1]))
-    caption = "The loaded part of the ring travels round once per crank turn." if at_start else (
+    caption = "The loaded part of the ring travels round once per crank turn." if at_start or alone(result) else (
         f"The same colours: at most {first} N at {{start}}, {last} N at {hour_text(result.hours[-1])}."
     )
     return Figure(f"pin_map{end}", f"Force on every pin, {{{when}}}", caption, [trace], picture, 6, 340,
@@ -95,19 +102,19 @@ def pin_lines(result: Result) -> Figure:
         return [None] * t.pins + [t.pins + 1, {"y": short(largest)}]
 
     top = float(result["mesh_force"][result.shown].max())
-    picture = look.layout(xaxis=crank_axis(), yaxis=look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)]))
+    picture = look.layout(xaxis=crank_axis(), yaxis=look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)], automargin=False))
     return Figure(
         "pin_lines", "Force on every pin over the crank turn, {now}",
         "One thin line per pin: each pin is loaded once per crank turn; bold: the largest force on any pin of the disc.",
-        traces, picture, 12, 300, keys=[("one pin", look.NOW, "thin"), ("largest", look.NOW, "solid"),
-                                        ("largest, {start}", look.START, "solid")],
+        traces, picture, 12, 300, keys=[("one pin", look.NOW, "thin"), ("largest", look.NOW, "solid")]
+        + [("largest, {start}", look.START, "solid")] * (not alone(result)),
         states=states_of(result, False, update), rows_of="pin_map",
     )  # fmt: skip
 
 
 def roller_map(result: Result, at_start: bool) -> Figure:
     """Force on every roller of a disc's bearings over the crank angle."""
-    end, when = compared(result, at_start)
+    end, when = compared(at_start)
     t = result.topology
     # One empty row between the bearings.
     row_names: list[str] = []
@@ -131,7 +138,9 @@ def roller_map(result: Result, at_start: bool) -> Figure:
                         ticktext=[f"crank {c + 1}" for c in range(t.cranks)]),
     )  # fmt: skip
     first, last = (number((result["roller_force"][i] > 0.0).sum(axis=3).mean()) for i in (result.shown[0], result.shown[-1]))
-    caption = "Each row is one roller: it takes load while it passes the loaded side of its bearing." if at_start else (
+    caption = "Each row is one roller: it takes load while it passes the loaded side of its bearing." if (
+        at_start or alone(result)
+    ) else (
         f"The same colours; a bearing has {first} loaded rollers on average at {{start}}, {last} at"
         f" {hour_text(result.hours[-1])}."
     )
@@ -147,7 +156,7 @@ def turn_curves(result: Result) -> list[Figure]:
         curve(result, "turn_error", "Transmission error", "lag less its mean [arcsec]", lag - lag.mean(axis=1, keepdims=True),
               "The part of the lag that comes and goes with each turn of the cranks."),
         curve(result, "turn_pin_force", "Largest pin force", "force [N]", result["largest_pin_force"],
-              "The most loaded pin of both discs at each position."),
+              "The most loaded pin of all discs at each position."),
         curve(result, "turn_pressure", "Largest contact pressure", "Hertz pressure [MPa]",
               1e-6 * result["contact_pressure"], "Between disc and pin, at the worst contact of each position."),
         curve(result, "turn_teeth", "Loaded teeth", "teeth in contact", result["loaded_teeth"],
@@ -168,7 +177,7 @@ def curve(result, name, title, unit, series, caption, step=False) -> Figure:
 
     def update(d, i):
         row = series[i][every(result)]
-        return [1, {"y": short(row if row.ndim == 1 else row[:, d], 5)}]
+        return [1, {"y": short(row if row.ndim == 1 else row[:, d], 6)}]
 
     discs = result.topology.discs if series.ndim == 3 else 1
     states = [[update(d, i) for i in result.shown] for d in range(discs)]

@@ -37,6 +37,7 @@ class Card:
 
 def cards(result: Result) -> list[Card]:
     pin_note = "turning, even all round" if result.pins_turn else "standing, where the disc touches"
+    pin_note = pin_note if result["pin_um"][-1] > 0.0 else "no wear"
     texts = {
         "disc_flank_um": ("Disc flank wear", "µm", place_note(result, "disc_peak_deg", "(root 0°, tip 180°)")),
         "inner_raceway_um": ("Inner raceway wear", "µm", place_note(result, "inner_peak_deg", "from the eccentric")),
@@ -53,7 +54,8 @@ def cards(result: Result) -> list[Card]:
     for name, (label, unit, note) in texts.items():
         start, end = float(result[name][0]), float(result[name][-1])
         colour = look.SURFACES[name][1] if name in look.SURFACES else look.NOW
-        made.append(Card(name, label, unit, start, end, note or change(start, end), colour, spark(result, name)))
+        note = note or (change(start, end) if len(result.hours) > 1 else "")
+        made.append(Card(name, label, unit, start, end, note, colour, spark(result, name)))
     return made
 
 
@@ -91,8 +93,9 @@ def conditions(result: Result) -> str:
     torque = f"{float(result['load_torque_Nm'][0]):g}"
     rpm = 30.0 / math.pi * abs(result.output_speed)
     t = result.topology
+    life = hour_text(result.hours[-1]) if result.hours[-1] > 0.0 else "New,"
     return (
-        f"{hour_text(result.hours[-1])} at {torque} N·m and {number(rpm)} rpm output"
+        f"{life} at {torque} N·m and {number(rpm)} rpm output"
         f" ({number(30.0 / math.pi * abs(result.crank_speed))} rpm of the cranks);"
         f" {t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.rollers} rollers per bearing"
     )
@@ -101,7 +104,7 @@ def conditions(result: Result) -> str:
 def sentences(result: Result) -> list[str]:
     """The main finding, in words."""
     if len(result.hours) < 2:
-        return ["The new reducer: only one hour was recorded, so nothing has changed yet."] + accuracy(result)
+        return ["Only one hour was recorded: there is no change to show."] + accuracy(result)
     worn = sorted(((float(result[n][-1]), n) for n in look.SURFACES), reverse=True)
     if worn[0][0] == 0.0:
         return [f"After {hour_text(result.hours[-1])} nothing is worn."] + accuracy(result)
@@ -128,50 +131,48 @@ def slowing(result: Result, name: str) -> str:
     """How the rate of the deepest wear develops."""
     rate = 1e3 * np.diff(result[name]) / np.diff(result.hours)
     first, last = float(rate[0]), float(rate[-1])
-    what = "Wear there" if name != "disc_flank_um" else "Flank wear"
+    what = f"{look.SURFACES[name][0].capitalize()} wear"
     if len(rate) < 2 or first == 0.0:
         return f"{what} grows by {number(last, 2)} µm per 1000 h."
-    how = "slows from" if last < (1.0 - HARDLY) * first else "quickens from" if last > (1.0 + HARDLY) * first else "stays near"
-    return f"{what} {how} {number(first, 2)} to {number(last, 2)} µm per 1000 h."
+    word = verb(first, last, "quickens from", "slows from", "stays near")
+    return f"{what} {word} {number(first, 2)} to {number(last, 2)} µm per 1000 h."
 
 
 def verb(start: float, end: float, up: str, down: str, still: str) -> str:
     """The word for a change."""
-    if not math.isfinite(start) or not math.isfinite(end):
-        return still
-    if abs(end - start) < HARDLY * abs(start):
+    if not (math.isfinite(start) and math.isfinite(end)) or abs(end - start) < HARDLY * abs(start):
         return still
     return up if end > start else down
 
 
+def moves(what: str, result: Result, name: str, unit: str) -> str:
+    """A figure of the dataset and its change as a clause."""
+    start, end = float(result[name][0]), float(result[name][-1])
+    if number(start) == number(end):
+        return f"{what} stays at {number(end)} {unit}"
+    word = verb(start, end, "rises", "falls", "hardly changes,")
+    return f"{what} {word} from {number(start)} to {number(end)} {unit}"
+
+
 def accuracy(result: Result) -> list[str]:
     """Lag, transmission error and stiffness."""
-    lag, error, stiffness = (
-        (float(result[n][0]), float(result[n][-1]))
-        for n in ("mean_lag_arcsec", "transmission_error_pp_arcsec", "torsional_stiffness_Nm_per_arcmin")
-    )
+    # The lag has the sign of the torque; behind is behind either way.
+    lag = [abs(float(result["mean_lag_arcsec"][i])) for i in (0, -1)]
     if len(result.hours) < 2:
-        return [f"The carrier stands {number(lag[1])} arcsec behind its ideal angle, with a transmission error of"
-                f" {number(error[1])} arcsec peak to peak."]  # fmt: skip
-    lag_word = verb(*lag, "now stands", "now stands", "still stands")
-    error_word = verb(*error, "grows from", "falls from", "hardly changes:")
-    stiff_word = verb(*stiffness, "rises from", "drops from", "hardly changes:")
-    return [
-        f"The carrier {lag_word} {number(lag[1])} arcsec behind its ideal angle (at first {number(lag[0])} arcsec);"
-        f" the transmission error {error_word} {number(error[0])} arcsec to {number(error[1])} arcsec peak to peak,"
-        f" and torsional stiffness {stiff_word} {number(stiffness[0])} to {number(stiffness[1])} N·m/arcmin."
-    ]
+        return [
+            f"The carrier stands {number(lag[1])} arcsec behind its ideal angle, with a transmission error of"
+            f" {number(result['transmission_error_pp_arcsec'][-1])} arcsec peak to peak."
+        ]
+    before = f"now stands {number(lag[1])} arcsec behind its ideal angle, {number(lag[0])} at first"
+    if number(lag[0]) == number(lag[1]):
+        before = f"still stands {number(lag[1])} arcsec behind its ideal angle"
+    error = moves("the transmission error", result, "transmission_error_pp_arcsec", "arcsec peak to peak")
+    stiffness = moves("torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
+    return [f"The carrier {before}; {error}, and {stiffness}."]
 
 
 def loads(result: Result) -> str:
     """Pin force and pressure."""
-    force, pressure = (
-        (float(result[n][0]), float(result[n][-1])) for n in ("peak_pin_force_N", "peak_contact_pressure_MPa")
-    )
-    word = verb(*force, "rises from", "falls from", "hardly changes:")
-    pressure_word = verb(*pressure, "rises from", "falls from", "hardly changes:")
-    joint = "and" if (force[1] - force[0]) * (pressure[1] - pressure[0]) > 0.0 else "while"
-    return (
-        f"The largest pin force {word} {number(force[0])} to {number(force[1])} N,"
-        f" {joint} peak contact pressure {pressure_word} {number(pressure[0])} to {number(pressure[1])} MPa."
-    )
+    force = moves("The largest pin force", result, "peak_pin_force_N", "N")
+    pressure = moves("peak contact pressure", result, "peak_contact_pressure_MPa", "MPa")
+    return f"{force}; {pressure}."

@@ -13,8 +13,11 @@ LOAD, SECOND = look.NOW, "#d55e00"
 
 
 def figures(result: Result) -> list[Figure]:
-    return [
-        depths(result), rates(result), places(result),
+    """None if there is but one hour; rate and place only of what wears."""
+    if len(result.hours) < 2:
+        return []
+    worn = any(result[name][-1] > 0.0 for name in look.SURFACES)
+    return [depths(result), *([rates(result), places(result)] if worn else []),
         small(result, "growth_lag", "Mean lag", "lag [arcsec]", [("mean_lag_arcsec", "second stage", LOAD, "solid"),
               ("mean_lag_at_input_arcsec", "at the input", SECOND, "dash")],
               "Carrier behind its ideal angle at the set torque: wear adds to it like lost motion."),

@@ -94,11 +94,11 @@ def axis(title: str, **more) -> dict:
 def hour_axis(hours: np.ndarray) -> dict:
     """Operating time from zero to a little beyond the last recorded hour."""
     last = float(hours[-1]) or 1.0
-    return axis("operating time [h]", range=[-0.03 * last, 1.04 * last], tickformat=",~r", nticks=6)
+    return axis("operating time [h]", range=[-0.03 * last, 1.04 * last], tickformat=",~r", nticks=6, automargin=False)
 
 
 def angle_axis(title: str, low: float, high: float, step: float, **more) -> dict:
-    return axis(title, range=[low, high], dtick=step, tick0=low, **more)
+    return axis(title, range=[low, high], dtick=step, tick0=low, automargin=False, **more)
 
 
 def layout(**more) -> dict:

@@ -15,10 +15,10 @@ def figures(result: Result) -> list[Figure]:
     return [disc(result), tooth(result), tooth_depth(result)]
 
 
-def enlargement(result: Result) -> float:
-    """How many times wear is enlarged on disc and tooth: less than the tooth's height and its sharpest radius."""
+def enlargement(result: Result, share: float) -> float:
+    """How many times wear is enlarged: at most to a share of the tooth's height and of its sharpest radius."""
     deepest = max(result[name][-1] for name in look.SURFACES)
-    room = 0.6 * min(2.0 * shapes.MM * result.plant["eccentricity"], shapes.sharpest_radius(result))
+    room = share * min(2.0 * shapes.MM * result.plant["eccentricity"], shapes.sharpest_radius(result))
     return shapes.magnification(1e-3 * deepest, room)
 
 
@@ -31,7 +31,7 @@ def disc(result: Result) -> Figure:
     t, plant = result.topology, result.plant
     d, _ = result.deepest_tooth
     mm, up = shapes.MM, 1j
-    times = enlargement(result)
+    times = enlargement(result, 0.75)
     edges = shapes.levels(max(float(result[name][-1]) for name in look.SURFACES))
     centre = mm * plant["eccentricity"] * up
     strips: list[list[np.ndarray]] = [[] for _ in range(edges.size - 1)]
@@ -89,9 +89,9 @@ def disc(result: Result) -> Figure:
         look.note(place.real, place.imag, f"crank {c + 1}", font={"size": 12, "color": look.INK})
         for c, place in enumerate(centre + mm * plant["crank_circle_radius"] * places)
     ]
-    bars, labels = scale_bars(-0.3 * reach, 0.045 * reach, 0.2 * reach, 0.09 * reach, times)
+    bars, labels = scale_bars(reach * (-0.95 - 1.1j), 0.95 * reach, 0.2 * reach, times)
     traces += bars
-    picture = look.drawing([-reach, reach], [-reach, reach], annotations=names + labels)
+    picture = look.drawing([-reach, reach], [-1.16 * reach, reach], annotations=names + labels)
     picture["margin"] = {"l": 4, "r": 4, "t": 4, "b": 62 if times else 4}
     spread = MICRON * result["disc_wear"][-1].max(axis=2)
     caption = (
@@ -103,7 +103,7 @@ def disc(result: Result) -> Figure:
             f" All surfaces share magnification and colours. The {spread.size} lobes of all discs are worn"
             f" {number(spread.min())} to {number(spread.max())} µm at their deepest."
         )
-    return Figure("disc", "The whole disc", caption, traces, picture, 7, aspect="1 / 1.06", rows=2)
+    return Figure("disc", "The whole disc", caption, traces, picture, 7, aspect="1 / 1.14" if times else "1 / 1.08", rows=2)
 
 
 def pin_depths(result: Result, d: int, entry: int = -1, count: int = 60) -> np.ndarray:
@@ -149,7 +149,7 @@ def tooth(result: Result) -> Figure:
     """The deepest worn tooth, tip upwards, with its contour at every shown hour."""
     t, plant, mm = result.topology, result.plant, shapes.MM
     d, lobe = result.deepest_tooth
-    times = enlargement(result)
+    times = enlargement(result, 0.5)
     # The tip, half a lobe from the root, goes upwards; x = 0 at the tip.
     turn = 1j * shapes.directions(np.array(-180.0 / t.lobes))
     phases = np.arange(-BEYOND, 360.0 + BEYOND + 1.0, 2.0)
@@ -181,12 +181,14 @@ def tooth(result: Result) -> Figure:
     ]
     reach = 1.02 * points.real.max()
     gap = 0.06 * (top - bottom)
-    bars, labels = scale_bars(-0.94 * reach, bottom + 1.7 * gap, 0.3 * reach, gap, times)
+    bars, labels = scale_bars(-0.94 * reach + 1j * (bottom + 1.7 * gap), -1j * gap, 0.3 * reach, times)
     picture = look.drawing([-reach, reach], [bottom, top], annotations=texts + labels)
-    caption = (
-        f"Lobe {lobe + 1} of disc {d + 1}, the deepest worn. Black: as made; blue: the worn contour at the recorded"
-        f" hours. {enlarged_text(times)}"
-    )
+    caption = f"Lobe {lobe + 1} of disc {d + 1}. Nothing is worn."
+    if times:
+        caption = (
+            f"Lobe {lobe + 1} of disc {d + 1}, the deepest worn. Black: as made; blue: the worn contour at the recorded"
+            f" hours. {enlarged_text(times)}"
+        )
     aspect = f"{2 * reach:.2f} / {top - bottom:.2f}"
     return Figure("tooth", "One tooth, enlarged", caption, traces + bars, picture, 5, aspect=aspect)
 
@@ -204,17 +206,17 @@ def contact_pin(result: Result, turn: complex) -> dict:
     return path(circle, "#c3cbd3", 1.0, fill="toself", fillcolor="rgba(236,239,242,0.55)")
 
 
-def scale_bars(x: float, y: float, room: float, gap: float, times: float) -> tuple[list[dict], list[dict]]:
-    """Bars, at most ``room`` long and ``gap`` apart, for the part [mm] and its wear [um]: (traces, labels)."""
+def scale_bars(start: complex, step: complex, room: float, times: float) -> tuple[list[dict], list[dict]]:
+    """Bars, at most ``room`` long and ``step`` apart, for the part [mm] and its wear [um]: (traces, labels)."""
     bars = [(shapes.round_down(room), "{:g} mm of the part", look.QUIET)]
     if times:
         micron = shapes.round_down(room * 1e3 / times)
         bars.insert(0, (micron * times * 1e-3, f"{micron:g} µm of wear", look.NOW))
     traces, labels = [], []
     for k, (length, text, colour) in enumerate(bars):
-        height = y - k * gap
-        traces.append(look.line(short([x, x + length], 5), short([height, height], 5), colour, 4))
-        labels.append(look.note(x + length, height, " " + text.format(length), xanchor="left"))
+        ends = start + k * step + np.array([0.0, length])
+        traces.append(path(ends, colour, 4))
+        labels.append(look.note(ends[1].real, ends[1].imag, " " + text.format(length), xanchor="left"))
     return traces, labels
 
 
@@ -252,6 +254,6 @@ def loaded_side(result: Result, *profiles: np.ndarray) -> tuple[float, float]:
     second = sum(float(p[half:].sum()) for p in profiles)
     if first == second == 0.0:
         return 0.0, 360.0
-    if second < 0.01 * first:
+    if second < 0.05 * first:
         return 0.0, 180.0
-    return (180.0, 360.0) if first < 0.01 * second else (0.0, 360.0)
+    return (180.0, 360.0) if first < 0.05 * second else (0.0, 360.0)

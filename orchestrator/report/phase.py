@@ -134,5 +134,5 @@ def figure(result: Result) -> Figure:
         "tooth_phase", "Along the tooth, {now}",
         "Read downwards: what each place of a tooth carries, how fast a standing pin slides there, what it has lost."
         " Band: smallest to largest force of all pins; wear: the deepest tooth of the disc.",
-        traces, picture, 12, 640, keys=[("{now}", look.NOW, "solid"), ("{start}", look.START, "solid")], states=states,
+        traces, picture, 12, 640, keys=[("{now}", look.NOW, "solid"), ("{start}", look.START, "solid")] * (len(shown) > 1), states=states,
     )  # fmt: skip

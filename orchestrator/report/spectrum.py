@@ -35,6 +35,7 @@ def causes(result: Result) -> list[Cause]:
         Cause(2 * t.lobes, "2 × crank in the housing (pin positions)"),
         Cause(2 * t.pins, "2 × crank against the carrier (needle clearance)"),
         Cause(t.lobes * t.pins, "pin meshing"),
+        Cause(t.pins * inner / (inner + outer), "roller cages in the discs"),
         Cause(passing * outer, "rollers passing the inner raceway"),
         Cause(passing * inner, "rollers passing the outer raceway"),
     ]
@@ -162,8 +163,8 @@ def turn(result: Result, whole: bool) -> Figure:
     title = "Over one output turn" if whole else "Three turns of the cranks"
     spread = [round(v, 5) for v in look.padded(error[ends(result)], 0.01, 0.1)]
     picture = look.layout(
-        xaxis=look.axis("output angle [°]", range=[0.0, last], **({"dtick": 60.0} if whole else {})),
-        yaxis=look.axis("transmission error [arcsec]", range=spread, nticks=6),
+        xaxis=look.angle_axis("output angle [°]", 0.0, last, 60.0 if whole else 5.0),
+        yaxis=look.axis("transmission error [arcsec]", range=spread, nticks=6, automargin=False),
     )
     caption = (
         "Less its mean; drag over the plot to look closer, double-click to return." if whole

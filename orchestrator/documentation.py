@@ -1,0 +1,26 @@
+"""The page docs/variables.md, from the units' tables.
+
+    python -m orchestrator.documentation > docs/variables.md
+"""
+
+from orchestrator.reducer import load_reducer
+
+HEAD = """# Variables of the units
+
+Made from the tables in `rv_plant/variables.py` and `wear_fmu/variables.py` with the numbers of RV20E-121:
+`python -m orchestrator.documentation > docs/variables.md`. Arrays are scalars named `mesh_force[1,7]` in FMI 2.0,
+counted from 1; a scalar given for an array fills it.
+"""
+
+
+def page() -> str:
+    """The whole page."""
+    reducer = load_reducer("RV20E-121")
+    parts = [HEAD]
+    for table in (reducer.plant, reducer.wear):
+        parts.append(f"## {table.name}.fmu\n\n{table.description}.\n\n{table.markdown()}")
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    print(page(), end="")
