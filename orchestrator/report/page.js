@@ -41,7 +41,17 @@
   if (touch) {
     for (const figure of content.figures) Plotly.relayout(idOf(figure), { dragmode: false });
   }
-  const fit = () => content.figures.forEach((figure) => Plotly.Plots.resize(idOf(figure)));
-  window.addEventListener("beforeprint", fit);
-  window.addEventListener("afterprint", fit);
+  // Plots measure themselves on the screen, so the page takes a sheet's width before it is printed.
+  function fit(printing) {
+    document.body.classList.toggle("printing", printing);
+    for (const figure of content.figures) {
+      const place = document.getElementById(idOf(figure));
+      // Plots.resize would wait a moment, and the sheet would be printed by then.
+      Plotly.relayout(place, printing
+        ? { width: place.clientWidth, height: place.clientHeight }
+        : { width: null, height: null, autosize: true });
+    }
+  }
+  window.addEventListener("beforeprint", () => fit(true));
+  window.addEventListener("afterprint", () => fit(false));
 })();
