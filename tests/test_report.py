@@ -5,9 +5,9 @@ import json
 import re
 
 import numpy as np
+import plotly.graph_objects as go
 import pytest
 
-import plotly.graph_objects as go
 from orchestrator import results
 from orchestrator.faults import InputFault
 from orchestrator.life import Life, LifeSettings, live
@@ -71,7 +71,8 @@ def traces_of(figure, disc, hour):
 
 
 def test_equal_data_give_equal_bytes(dataset, tmp_path):
-    one, two = write_report(dataset, tmp_path / "one.html"), write_report(dataset.copy(deep=True), tmp_path / "two.html")
+    one = write_report(dataset, tmp_path / "one.html")
+    two = write_report(dataset.copy(deep=True), tmp_path / "two.html")
     assert one.read_bytes() == two.read_bytes()
     assert one.stat().st_size < 6e6
     assert sorted(p.name for p in tmp_path.iterdir()) == ["one.html", "two.html"]
@@ -90,8 +91,8 @@ def test_every_section_and_figure_is_there(page):
     figures = content(page)["figures"]
     assert [f["name"] for f in figures] == places
     assert all(f'<section id="{name}">' in page for name in SECTIONS)
-    assert {"disc", "tooth", "pin", "inner_raceway", "outer_raceway", "pin_map", "roller_map", "tooth_phase", "turn_lag",
-            "growth_depth", "growth_errors", "orders", "error_turn"} <= set(places)  # fmt: skip
+    assert {"disc", "tooth", "pin", "inner_raceway", "outer_raceway", "pin_map", "roller_map", "tooth_phase",
+            "turn_lag", "growth_depth", "growth_errors", "orders", "error_turn"} <= set(places)  # fmt: skip
     captions = re.findall(r"<figcaption>(.*?)</figcaption>", page)
     assert len(captions) == len(figures) and all(len(c) > 10 for c in captions)
 
@@ -116,8 +117,9 @@ def test_figures_are_valid_and_not_empty(page, result):
 
 
 def test_numbers_are_rounded_with_sense():
-    shown = {0.0: "0", 6.5714: "6.57", 311.33: "311", 1234.6: "1,230", -51.87: "−51.9", 0.00071: "0.00071", 3e-9: "3.00e-09"}
-    assert {value: number(value, 2 if value == 0.00071 else 3) for value in shown} == shown
+    shown = {0.0: "0", 6.5714: "6.57", 311.33: "311", 1234.6: "1,230", -51.87: "−51.9", 0.00071: "0.000710"}
+    assert {value: number(value) for value in shown} == shown
+    assert (number(3e-9), number(0.4912, 2)) == ("3.00e-09", "0.49")
     assert number(float("nan")) == "–"
 
 
@@ -131,7 +133,9 @@ def test_what_is_coloured_is_what_is_worn():
     assert area == pytest.approx(exact, rel=1e-3)
 
 
-@pytest.mark.parametrize("depth, room, times", [(6.6e-3, 1.0, 150.0), (0.05, 1.0, 20.0), (1e-5, 0.5, 50_000.0), (0.0, 1.0, 0.0)])
+@pytest.mark.parametrize(
+    "depth, room, times", [(6.6e-3, 1.0, 150.0), (0.05, 1.0, 20.0), (1e-5, 0.5, 50_000.0), (0.0, 1.0, 0.0)]
+)
 def test_magnification_is_round(depth, room, times):
     assert shapes.magnification(depth, room) == pytest.approx(times)
 

@@ -102,10 +102,11 @@ def pin_lines(result: Result) -> Figure:
         return [None] * t.pins + [t.pins + 1, {"y": short(largest)}]
 
     top = float(result["mesh_force"][result.shown].max())
-    picture = look.layout(xaxis=crank_axis(), yaxis=look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)], automargin=False))
+    vertical = look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)], automargin=False)
+    picture = look.layout(xaxis=crank_axis(), yaxis=vertical)
     return Figure(
         "pin_lines", "Force on every pin over the crank turn, {now}",
-        "One thin line per pin: each pin is loaded once per crank turn; bold: the largest force on any pin of the disc.",
+        "One thin line per pin, each loaded once per crank turn; bold: the largest force on any pin of the disc.",
         traces, picture, 12, 300, keys=[("one pin", look.NOW, "thin"), ("largest", look.NOW, "solid")]
         + [("largest, {start}", look.START, "solid")] * (not alone(result)),
         states=states_of(result, False, update), rows_of="pin_map",
@@ -137,7 +138,8 @@ def roller_map(result: Result, at_start: bool) -> Figure:
         yaxis=look.axis("roller", type="category", tickvals=middle, ticks="", tickangle=-90,
                         ticktext=[f"crank {c + 1}" for c in range(t.cranks)]),
     )  # fmt: skip
-    first, last = (number((result["roller_force"][i] > 0.0).sum(axis=3).mean()) for i in (result.shown[0], result.shown[-1]))
+    loaded = (result["roller_force"] > 0.0).sum(axis=4)
+    first, last = (number(loaded[i].mean()) for i in (result.shown[0], result.shown[-1]))
     caption = "Each row is one roller: it takes load while it passes the loaded side of its bearing." if (
         at_start or alone(result)
     ) else (
@@ -153,7 +155,8 @@ def turn_curves(result: Result) -> list[Figure]:
     lag = ARCSEC * result["lag"]
     return [
         curve(result, "turn_lag", "Lag", "lag [arcsec]", lag, "Carrier behind its ideal angle, second stage alone."),
-        curve(result, "turn_error", "Transmission error", "lag less its mean [arcsec]", lag - lag.mean(axis=1, keepdims=True),
+        curve(result, "turn_error", "Transmission error", "lag less its mean [arcsec]",
+              lag - lag.mean(axis=1, keepdims=True),
               "The part of the lag that comes and goes with each turn of the cranks."),
         curve(result, "turn_pin_force", "Largest pin force", "force [N]", result["largest_pin_force"],
               "The most loaded pin of all discs at each position."),

@@ -41,7 +41,7 @@ def cards(result: Result) -> list[Card]:
     texts = {
         "disc_flank_um": ("Disc flank wear", "µm", place_note(result, "disc_peak_deg", "(root 0°, tip 180°)")),
         "inner_raceway_um": ("Inner raceway wear", "µm", place_note(result, "inner_peak_deg", "from the eccentric")),
-        "outer_raceway_um": ("Outer raceway wear", "µm", place_note(result, "outer_peak_deg", "from the outward radial")),
+        "outer_raceway_um": ("Outer raceway wear", "µm", place_note(result, "outer_peak_deg", "from outward radial")),
         "pin_um": ("Pin wear", "µm", pin_note),
         "peak_pin_force_N": ("Peak pin force", "N", ""),
         "peak_contact_pressure_MPa": ("Peak contact pressure", "MPa", ""),
@@ -124,7 +124,8 @@ def deepest(result: Result, worn: list[tuple[float, str]]) -> str:
     if name == "disc_flank_um":
         place = f", {number(result['disc_peak_deg'][-1])}° from the root (0°) towards the tip (180°)"
     others = ", ".join(f"{look.SURFACES[n][0]} {number(d)} µm" for d, n in worn[1:])
-    return f"After {hour_text(result.hours[-1])} the deepest wear, {number(depth)} µm, is {WHERE[name]}{place}; {others}."
+    after = f"After {hour_text(result.hours[-1])}"
+    return f"{after} the deepest wear, {number(depth)} µm, is {WHERE[name]}{place}; {others}."
 
 
 def slowing(result: Result, name: str) -> str:

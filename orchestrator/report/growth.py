@@ -34,7 +34,8 @@ def figures(result: Result) -> list[Figure]:
               [("peak_contact_pressure_MPa", "disc on pin", LOAD, "solid")],
               "Disc on pin, on the curvature of the flank as made."),
         small(result, "growth_teeth", "Loaded teeth", "teeth per disc",
-              [("mean_loaded_teeth", "mean over a crank turn", LOAD, "solid")], "Pins that one disc touches, mean over a turn."),
+              [("mean_loaded_teeth", "mean over a crank turn", LOAD, "solid")],
+              "Pins that one disc touches, mean over a turn."),
         jumps(result), errors(result),
     ]  # fmt: skip
 
@@ -56,9 +57,8 @@ def small(result: Result, name: str, title: str, unit: str, curves: list, captio
     values = np.concatenate([result[variable] for variable, *_ in curves])
     finite = values[np.isfinite(values)]
     floor = 0.1 * float(np.abs(finite).max(initial=1e-9))
-    picture = look.layout(
-        xaxis=look.hour_axis(result.hours), yaxis=look.axis(unit, range=[round(v, 6) for v in look.padded(finite, floor, 0.1)], nticks=6)
-    )
+    spread = [round(v, 6) for v in look.padded(finite, floor, 0.1)]
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=look.axis(unit, range=spread, nticks=6))
     keys = [(text, colour, dash) for _, text, colour, dash in curves] if len(curves) > 1 else []
     return Figure(name, title, caption, traces, picture, 4, 230, keys=keys)
 
@@ -70,7 +70,8 @@ def depths(result: Result) -> Figure:
         for name, (text, colour, dash) in look.SURFACES.items()
     ]
     top = round(max(float(result[name][-1]) for name in look.SURFACES), 4) or 1.0
-    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=look.axis("deepest wear [µm]", range=[-0.03 * top, 1.06 * top]))
+    vertical = look.axis("deepest wear [µm]", range=[-0.03 * top, 1.06 * top])
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=vertical)
     return Figure("growth_depth", "Deepest wear", "Deepest place of each kind of surface.", traces, picture, 6, 300,
                   keys=SURFACE_KEYS)
 
@@ -112,7 +113,8 @@ def places(result: Result) -> Figure:
         text, colour, dash = look.SURFACES[surface]
         worn = result[surface] > 0.0
         found.append(result[name][worn])
-        traces.append(marked(result.hours[worn], result[name][worn], colour, dash, f"{text}, %{{x:,.0f}} h: %{{y:.1f}}°"))
+        hover = f"{text}, %{{x:,.0f}} h: %{{y:.1f}}°"
+        traces.append(marked(result.hours[worn], result[name][worn], colour, dash, hover))
     values = np.concatenate(found)
     picture = look.layout(
         xaxis=look.hour_axis(result.hours),
@@ -129,10 +131,12 @@ def jumps(result: Result) -> Figure:
     """Hours of each accepted jump."""
     spans = np.diff(result.hours)
     trace = {
-        "type": "bar", "x": short(result.hours[:-1] + 0.5 * spans, 6), "y": short(spans, 5), "width": short(0.86 * spans, 5),
-        "marker": {"color": "#9db9d6"}, "hovertemplate": "%{y:,.0f} h, ends at about %{x:,.0f} h<extra></extra>",
+        "type": "bar", "x": short(result.hours[:-1] + 0.5 * spans, 6), "y": short(spans, 5),
+        "width": short(0.86 * spans, 5), "marker": {"color": "#9db9d6"},
+        "hovertemplate": "%{y:,.0f} h about %{x:,.0f} h<extra></extra>",
     }  # fmt: skip
-    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=look.axis("hours per jump", rangemode="tozero", nticks=6))
+    vertical = look.axis("jump [h]", rangemode="tozero", nticks=6)
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=vertical)
     cycles = result.dataset.attrs.get("cycles_simulated")
     caption = "Hours that full meshing cycles stand for"
     caption += f"; {int(cycles)} cycles were simulated for the life." if cycles else "."
@@ -150,10 +154,8 @@ def errors(result: Result) -> Figure:
         limit = [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 100.0 * tolerance, "y1": 100.0 * tolerance,
                   "line": {"color": SECOND, "width": 1.4, "dash": "dash"}}]  # fmt: skip
     top = max([*percent, 100.0 * (tolerance or 0.0), 1e-3])
-    picture = look.layout(
-        xaxis=look.hour_axis(result.hours), yaxis=look.axis("share of the wear added [%]", range=[0.0, round(1.12 * top, 5)], nticks=6),
-        shapes=limit,
-    )  # fmt: skip
+    vertical = look.axis("share of the wear added [%]", range=[0.0, round(1.12 * top, 5)], nticks=6)
+    picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=vertical, shapes=limit)
     keys = [("estimate", LOAD, "solid"), ("tolerance", SECOND, "dash")] if tolerance else []
     return Figure("growth_errors", "Error estimate of the jumps", "One jump against two of half the length.", traces,
                   picture, 4, 230, keys=keys)

@@ -27,7 +27,8 @@ def groups(result: Result) -> list[dict]:
     plant, wear = plant_table(result.topology), wear_table(result.topology, bins)
     return [
         {"title": "Operation", "rows": rows(result, result.plant, plant, lambda v: v.role == "input")},
-        {"title": "Reducer", "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and not v.shape)},
+        {"title": "Reducer",
+         "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and not v.shape)},
         {"title": "Wear", "rows": rows(result, result.wear, wear, lambda v: is_own(v, plant))},
         {"title": "Deviations of single parts",
          "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and bool(v.shape))},
@@ -91,8 +92,9 @@ def value_text(value: float) -> str:
     if "e" in text:
         digits, _, power = text.partition("e")
         return f"{digits}·10".replace("-", "−") + str(int(power)).translate(SUPERSCRIPT)
-    whole, dot, rest = text.partition(".")
-    return f"{int(whole):,}".replace(",", " ").replace("-", "−") + dot + rest if abs(value) >= 1e4 else text.replace("-", "−")
+    if abs(value) >= 1e4:
+        text = f"{value:,.6g}"
+    return text.replace("-", "−")
 
 
 def run_rows(result: Result) -> list[tuple[str, str]]:

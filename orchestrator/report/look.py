@@ -162,3 +162,23 @@ def padded(values, floor: float = 0.0, share: float = 0.06) -> list[float]:
     low, high = (float(array.min()), float(array.max())) if array.size else (0.0, 1.0)
     spare = max(share * (high - low), 0.5 * (floor - (high - low)), 1e-9 * max(abs(low), abs(high)), 1e-12)
     return [low - spare, high + spare]
+
+
+def scale_bars(start: complex, step: complex, room: float, times: float) -> tuple[list[dict], list[dict]]:
+    """Bars, at most ``room`` long and ``step`` apart, for the part [mm] and its wear [um]: (traces, labels)."""
+    bars = [(round_down(room), "{:g} mm of the part", QUIET)]
+    if times:
+        micron = round_down(room * 1e3 / times)
+        bars.insert(0, (micron * times * 1e-3, f"{micron:g} µm of wear", NOW))
+    traces, labels = [], []
+    for k, (length, text, colour) in enumerate(bars):
+        ends = start + k * step + np.array([0.0, length])
+        traces.append(path(ends, colour, 4))
+        labels.append(note(ends[1].real, ends[1].imag, " " + text.format(length), xanchor="left"))
+    return traces, labels
+
+
+def round_down(value: float, steps: tuple[float, ...] = (1.0, 2.0, 5.0)) -> float:
+    """The largest of ``steps`` times a power of ten that is not above ``value``."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-9)
+    return max(step * power for step in steps if step * power <= value * (1.0 + 1e-9))

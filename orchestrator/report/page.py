@@ -7,7 +7,7 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-from orchestrator.report import circles, contacts, findings, growth, inputs, look, parts, phase, spectrum
+from orchestrator.report import circles, contacts, findings, growth, inputs, look, parts, phase, spectrum, tooth
 from orchestrator.report.look import Figure
 from orchestrator.report.result import Result, hour_text
 
@@ -17,7 +17,7 @@ HERE = Path(__file__).parent
 def page_of(result: Result) -> str:
     """The whole report as HTML."""
     sections = {
-        "parts": parts.figures(result) + circles.figures(result),
+        "parts": [parts.disc(result), tooth.shape(result), tooth.depth(result), *circles.figures(result)],
         "turn": contacts.figures(result) + [phase.figure(result)],
         "growth": growth.figures(result),
         "orders": spectrum.figures(result),
@@ -31,8 +31,8 @@ def page_of(result: Result) -> str:
     return environment.get_template("page.html").render(
         result=result, sections=sections, cards=findings.cards(result), sentences=findings.sentences(result),
         conditions=findings.conditions(result), hours=hours, start=hours[0],
-        hour_keys=list(zip(hours, look.hour_colours(len(hours)))), tables=spectrum.tables(result), groups=inputs.groups(result),
-        run=inputs.run_rows(result), counts=inputs.counts(result), heading=heading,
+        hour_keys=list(zip(hours, look.hour_colours(len(hours)))), tables=spectrum.tables(result),
+        groups=inputs.groups(result), run=inputs.run_rows(result), counts=inputs.counts(result), heading=heading,
         spark=(findings.SPARK_WIDTH, findings.SPARK_HEIGHT), style=inside("page.css"), script=inside("page.js"),
         plotly=Markup(get_plotlyjs()), figures=embedded(plots, hours),
     )  # fmt: skip

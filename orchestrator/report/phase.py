@@ -6,8 +6,8 @@ import numpy as np
 
 from orchestrator.report import look
 from orchestrator.report.look import Figure, short
-from orchestrator.report.parts import loaded_side
 from orchestrator.report.result import MICRON, Result
+from orchestrator.report.tooth import loaded_side
 from rv_plant.contact import hertz_peak_pressure
 from rv_plant.geometry import flank_curvature
 from wear_fmu.kinematics import sliding_per_crank_angle
@@ -124,15 +124,16 @@ def figure(result: Result) -> Figure:
             title, range=[0.0, round(1.08 * top, 4)], domain=[round(base, 4), round(base + height, 4)], nticks=4,
         )
     step = 30.0 if high - low < 200.0 else 60.0
-    axes["xaxis"] = look.angle_axis("phase on the tooth: 0° root, 180° tip", low, high, step, anchor="y4")
+    axes["xaxis"] = look.angle_axis("phase on the tooth [°]: 0 root, 180 tip", low, high, step, anchor="y4")
     bend = inflection(result)
     marks = [look.upright(p, "inflection: hollow to round") for p in (bend, 360.0 - bend) if low < p < high]
     picture = look.layout(**axes, shapes=[m[0] for m in marks], annotations=[m[1] for m in marks],
                           margin={"l": 62, "r": 20, "t": 24, "b": 46})
     states = [[update(d, i) for i in shown] for d in range(result.topology.discs)]
+    keys = [("{now}", look.NOW, "solid"), ("{start}", look.START, "solid")]
     return Figure(
         "tooth_phase", "Along the tooth, {now}",
         "Read downwards: what each place of a tooth carries, how fast a standing pin slides there, what it has lost."
         " Band: smallest to largest force of all pins; wear: the deepest tooth of the disc.",
-        traces, picture, 12, 640, keys=[("{now}", look.NOW, "solid"), ("{start}", look.START, "solid")] * (len(shown) > 1), states=states,
+        traces, picture, 12, 640, keys=keys if len(shown) > 1 else [], states=states,
     )  # fmt: skip

@@ -31,7 +31,7 @@ class Result:
     def of(cls, dataset: xr.Dataset) -> "Result":
         n = dataset.sizes
         if "hour" not in n or "lobe" not in n:
-            raise InputFault("this result has no recorded hours of a life, which the report shows; rvwear life writes one")
+            raise InputFault("this result holds no life, which the report shows; rvwear life writes one")
         topology = Topology(n["disc"], n["crank"], n["pin"], n["lobe"], n["roller"])
         return cls(dataset, json.loads(dataset.attrs.get("inputs", "{}")), topology)
 

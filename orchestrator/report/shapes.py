@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from orchestrator.report import look
 from orchestrator.report.result import Result
 from rv_plant.geometry import flank_curvature, lobe_point
 
@@ -35,15 +36,9 @@ def ring(radius: float, centre: complex = 0.0, count: int = 120) -> np.ndarray:
     return centre + radius * directions(np.linspace(0.0, 360.0, count + 1))
 
 
-def round_down(value: float, steps: tuple[float, ...] = (1.0, 2.0, 5.0)) -> float:
-    """The largest of ``steps`` times a power of ten that is not above ``value``."""
-    power = 10.0 ** math.floor(math.log10(value) + 1e-9)
-    return max(step * power for step in steps if step * power <= value * (1.0 + 1e-9))
-
-
 def magnification(depth: float, room: float) -> float:
     """How many times wear of ``depth`` is enlarged to be at most ``room`` long; 0 if nothing is worn."""
-    return round_down(room / depth, (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)) if depth > 0.0 else 0.0
+    return look.round_down(room / depth, (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)) if depth > 0.0 else 0.0
 
 
 def levels(depth: float, most: int = 8) -> np.ndarray:
@@ -82,3 +77,14 @@ def joined(polygons: list[np.ndarray]) -> np.ndarray:
 def thin(values: np.ndarray, count: int) -> np.ndarray:
     """Every so many-th of the last axis, so that about ``count`` are left."""
     return values[..., :: max(1, round(values.shape[-1] / count))]
+
+
+def enlargement(result: Result, share: float) -> float:
+    """How many times wear is enlarged: at most to a share of the tooth's height and of its sharpest radius."""
+    deepest = max(result[name][-1] for name in look.SURFACES)
+    room = share * min(2.0 * MM * result.plant["eccentricity"], sharpest_radius(result))
+    return magnification(1e-3 * deepest, room)
+
+
+def enlarged_text(times: float) -> str:
+    return f"Wear is drawn {times:,.0f} times too large." if times else "Nothing is worn."

@@ -115,13 +115,13 @@ def stems(result: Result) -> Figure:
     picture = look.layout(
         xaxis=look.axis("order per output turn", type="log", range=[-0.05, round(math.log10(orders[-1] * 1.08), 4)],
                         tickvals=[1, 3, 10, 30, 100, 300, 1000, 3000], tickangle=0),
-        yaxis=look.axis("amplitude [arcsec]", type="log", range=[math.log10(floor), round(math.log10(top) + 0.15, 4)], dtick=1,
-                        exponentformat="none"),
+        yaxis=look.axis("amplitude [arcsec]", type="log", dtick=1, exponentformat="none",
+                        range=[math.log10(floor), round(math.log10(top) + 0.15, 4)]),
         shapes=shapes, annotations=marks, margin={"l": 62, "r": 20, "t": 84, "b": 46},
     )  # fmt: skip
     return Figure("orders", "Orders of the transmission error at the input",
-                  "Dotted: orders known from the counts and radii of the parts, named in the table; those of the rollers are"
-                  " not whole and spread over their neighbours.",
+                  "Dotted: orders known from the counts and radii of the parts, named in the table; those of rollers"
+                  " are not whole and spread over their neighbours.",
                   traces, picture, 12, 400, keys=keys(result))
 
 
