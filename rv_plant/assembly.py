@@ -58,14 +58,14 @@ def mesh_contacts(r, d, ideal_output):
     disc_angle = ideal_output + r.z[3 * d + 2] + profile_turn
     cd, sd = math.cos(disc_angle), math.sin(disc_angle)
     ring = r.z.shape[0] - 1
-    ring_turn = r.z[ring]
+    ring_cos, ring_sin = math.cos(r.z[ring]), math.sin(r.z[ring])
     rx = ry = rt = rr = 0.0
     kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
     loaded = 0
     for j in range(pins):
         # Pin centre from the disc's centre, in the housing and in the profile's frame.
-        pin_x = r.pin_x[j] - ring_turn * r.pin_y[j]
-        pin_y = r.pin_y[j] + ring_turn * r.pin_x[j]
+        pin_x = ring_cos * r.pin_x[j] - ring_sin * r.pin_y[j]
+        pin_y = ring_cos * r.pin_y[j] + ring_sin * r.pin_x[j]
         px, py = pin_x - disc_x, pin_y - disc_y
         along_disc = lobes * (r.pin_angle[j] - ideal_output - profile_turn)
         # The frame stands on the nearest root; the tooth lies between two roots.
@@ -75,9 +75,11 @@ def mesh_contacts(r, d, ideal_output):
         cl, sl = r.root_cos[root], r.root_sin[root]
         cr, sr = cd * cl - sd * sl, sd * cl + cd * sl
         cx, cy = cr * px + sr * py, cr * py - sr * px
-        pitch = r.lobe_pitch_error[d, lobe] / r.pin_circle_radius
-        cx, cy = cx + pitch * cy, cy - pitch * cx
+        # A flank is displaced along the pitch with its tooth, and turned into it by angle modification.
         ideal_phase = along_disc - 2.0 * math.pi * root_number
+        flank = 1.0 if ideal_phase >= 0.0 else -1.0
+        pitch = r.lobe_pitch_error[d, lobe] / r.pin_circle_radius + flank * r.angle_modification
+        cx, cy = cx + pitch * cy, cy - pitch * cx
         phase, distance, nx, ny, bend = closest_distance(
             cx, cy, ideal_phase + r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
         )
@@ -85,16 +87,15 @@ def mesh_contacts(r, d, ideal_output):
         r.mesh_phase[d, j] = phase
         r.centre_curvature[d, j] = bend
         gap = distance + radius - r.pin_radius - r.pin_radius_error[j]
-        if r.angle_modification != 0.0:
-            arm_of_normal = abs(math.sin(phase)) / math.sqrt(1.0 + k1 * k1 - 2.0 * k1 * math.cos(phase))
-            gap += r.angle_modification * r.eccentricity * lobes * arm_of_normal
         gap += r.lobe_profile_error[d, lobe] + r.mesh_profile_error[d, j]
         force, stiffness = contact_force(-gap, r.mesh_constant, r.mesh_exponent)
         r.mesh_force_now[d, j] = force
         if force == 0.0:
             continue
         loaded += 1
-        # Gradient of the penetration: (N, arm about the disc, minus arm about the ring).
+        # Gradient of the penetration: (N, arm about the disc, minus arm about the ring),
+        # with the normal turned back from the displaced flank.
+        nx, ny = nx - pitch * ny, ny + pitch * nx
         nhx, nhy = cr * nx - sr * ny, sr * nx + cr * ny
         gx, gy = ce * nhx + se * nhy, ce * nhy - se * nhx
         gt = px * nhy - py * nhx
@@ -123,6 +124,11 @@ def mesh_contacts(r, d, ideal_output):
         kxt -= force * turn * gy
         kyt += force * turn * gx
         ktt += force * turn * reach
+        swing = pin_x * nhx + pin_y * nhy
+        kxr -= force * bend * swing * gy
+        kyr += force * bend * swing * gx
+        ktr -= force * turn * swing
+        krr += force * swing * (1.0 - bend * swing)
     r.loaded_teeth[d] = loaded
     x, y, t = 3 * d, 3 * d + 1, 3 * d + 2
     r.residual_vector[x] += rx
@@ -176,6 +182,8 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
     crank_turn = (
         -lobes * ideal_output + per_turn * z[carrier] + per_x * shift_x + per_y * shift_y + z[crank + 2]
     )
+    # The teeth's direction turns with the carrier.
+    per_turn += per_x * shift_y - per_y * shift_x
     lobe_angle = crank_turn + offset + r.crank_phase_error[d, c]
     throw = r.eccentricity + r.crank_eccentricity_error[d, c]
     ex, ey = throw * math.cos(lobe_angle), throw * math.sin(lobe_angle)
@@ -200,12 +208,16 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
     g[3, 0], g[3, 1], g[3, 2] = -ay - per_turn * ey, ax + per_turn * ex, 0.0
     g[4, 0], g[4, 1], g[4, 2] = 1.0 - per_x * ey, per_x * ex, 0.0
     g[5, 0], g[5, 1], g[5, 2] = -per_y * ey, 1.0 + per_y * ex, 0.0
-    for i in range(3):
+    # The fourth column is d(crank's turning)/dz.
+    g[0, 3] = g[1, 3] = g[2, 3] = 0.0
+    g[3, 3], g[4, 3], g[5, 3], g[8, 3] = per_turn, per_x, per_y, 1.0
+    for i in range(4):
         g[6, i], g[7, i] = g[4, i], g[5, i]
     g[8, 0], g[8, 1], g[8, 2] = -ey, ex, 0.0
     # Levers turn with disc and carrier.
     r.tangent[3 * d + 2, 3 * d + 2] += fx * hx + fy * hy
-    r.tangent[carrier, carrier] -= fx * (ax + per_turn * per_turn * ex) + fy * (ay + per_turn * per_turn * ey)
+    r.tangent[carrier, carrier] -= fx * ax + fy * ay
+    outward, forward = fx * ex + fy * ey, fy * ex - fx * ey
     k = r.bearing_tangent
     for a in range(9):
         ia = bearing_coordinate(a, d, carrier, crank)
@@ -219,7 +231,12 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
         for b in range(a, 9):
             ib = bearing_coordinate(b, d, carrier, crank)
             if r.is_free[ib]:
-                r.tangent[ia, ib] += k0 * g[b, 0] + k1 * g[b, 1] + k2 * g[b, 2]
+                r.tangent[ia, ib] += k0 * g[b, 0] + k1 * g[b, 1] + k2 * g[b, 2] - outward * g[a, 3] * g[b, 3]
+                # The teeth's direction turns with the carrier.
+                if a == 3 and (b == 4 or b == 6):
+                    r.tangent[ia, ib] -= forward * per_y
+                elif a == 3 and (b == 5 or b == 7):
+                    r.tangent[ia, ib] += forward * per_x
 
 
 @kernel

@@ -14,6 +14,8 @@ from rv_plant.linear import cholesky_solve
 
 # No component may move a contact further than this in one iteration [m].
 LONGEST_STEP = 3e-5
+# The residual is weighed with at least this force [N]; rounding leaves 1e-8 N.
+LEAST_FORCE = 30.0
 # Stiffness that stands for "a typical diagonal" [N/m].
 TYPICAL_STIFFNESS = 1e8
 
@@ -53,9 +55,19 @@ def relative_residual(r, load_torque):
         if is_turning(r, i):
             force /= lever
         # A NaN must not look like a small residual.
-        if not force <= worst:
-            worst = force
-    return worst / max(1.0, abs(load_torque) / lever)
+        if not force < 1e300:
+            return 1e300
+        worst = max(worst, force)
+    # What rounding of positions leaves goes with the largest contact force.
+    scale = max(LEAST_FORCE, abs(load_torque) / lever)
+    discs, cranks, rollers = r.roller_force_now.shape
+    for d in range(discs):
+        for j in range(r.mesh_force_now.shape[1]):
+            scale = max(scale, r.mesh_force_now[d, j])
+        for c in range(cranks):
+            for k in range(rollers):
+                scale = max(scale, r.roller_force_now[d, c, k])
+    return worst / scale
 
 
 @kernel
@@ -79,8 +91,9 @@ def newton_direction(r):
     longest = 0.0
     for a in range(n):
         move = abs(r.direction[a]) * (lever if is_turning(r, r.free[a]) else 1.0)
-        if not move <= longest:
-            longest = move
+        if not move < 1e300:
+            return False
+        longest = max(longest, move)
     if longest > LONGEST_STEP:
         for a in range(n):
             r.direction[a] *= LONGEST_STEP / longest
@@ -108,16 +121,25 @@ def newton(r, ideal_output, cage_angle, load_torque):
         slope = slope_along(r)
         taken = 0.0
         step = 1.0
-        for _ in range(12):
+        # Illinois rule between a place where the slope falls and one where it rises.
+        low, low_slope, high, high_slope = 0.0, slope, 0.0, 0.0
+        for _ in range(40):
             for a in range(r.free_count):
                 r.z[r.free[a]] += (step - taken) * r.direction[a]
             taken = step
             assemble(r, ideal_output, cage_angle, load_torque)
             r.iterations += 1
             new_slope = slope_along(r)
-            if new_slope <= 0.5 * abs(slope):
+            if abs(new_slope) <= 0.5 * abs(slope) or (high == 0.0 and new_slope < 0.0):
                 break
-            step *= abs(slope) / (abs(slope) + new_slope)
+            if new_slope > 0.0:
+                high, high_slope = step, new_slope
+                low_slope *= 0.5
+            else:
+                low, low_slope = step, new_slope
+                high_slope *= 0.5
+            step = low - low_slope * (high - low) / (high_slope - low_slope)
+            step = min(max(step, low + 0.02 * (high - low)), high - 0.02 * (high - low))
         r.residual = relative_residual(r, load_torque)
     return r.residual <= r.tolerance
 

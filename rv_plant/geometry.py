@@ -85,8 +85,8 @@ def closest_distance(cx, cy, phi, lobes, generating_circle, eccentricity, k1):
         # Below 1e-5 rad the last correction is carried to distance and normal to first
         # order, which leaves errors of 1e-15 m and 1e-10 rad.
         if abs(turn) < 1e-5:
-            g += 0.5 * along * along * bend
-            swing = along * bend
+            swing = along * bend / (1.0 + bend * g)
+            g += 0.5 * along * swing
             nx, ny = nx - swing * ny, ny + swing * nx
             break
     return phi, g, nx, ny, bend

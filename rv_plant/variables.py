@@ -64,7 +64,7 @@ def plant_table(topology: Topology) -> Table:
                -1e-3, maximum=1e-3),
         length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
                -1e-3, maximum=1e-3),
-        Variable("angle_modification", "parameter", "rad", "turning of both flanks into the tooth (positive: gap)",
+        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
                  0.0, minimum=-1e-2, maximum=1e-2, source=FILE),
         length("crank_circle_radius", "radius of the circle of the cranks' centres", 1e-4, 28e-3),
         length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
@@ -135,7 +135,7 @@ def plant_table(topology: Topology) -> Table:
         output("output_angle", "rad", "angle of the output flange"),
         output("output_speed", "rad/s", "speed of the output flange"),
         output("input_torque", "N.m", "torque that holds the input"),
-        output("reaction_torque", "N.m", "torque of the pin ring on the housing"),
+        output("reaction_torque", "N.m", "torque with which the housing holds the pin ring"),
         output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4),
         output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
                nominal=1e-4),
@@ -190,7 +190,7 @@ def plant_table(topology: Topology) -> Table:
         scratch("factor_scale", (z,)), scratch("direction", (z,)),
         scratch("mesh_phase", mesh), scratch("centre_curvature", mesh),
         scratch("crank_force", (t.cranks, 2)), scratch("crank_moment", (t.cranks,)),
-        scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 3)),
+        scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 4)),
     ]
     return Table("RvPlant", "RV reducer: quasi-static equilibrium of discs, pins, needle bearings and cranks",
                  inputs + parameters + outputs + states + work)

@@ -156,14 +156,36 @@ def wear_meshes(r, modulus, viscosity, run_in):
                 r.pin_even_wear[d, j] += worn / (2.0 * math.pi * r.pin_radius)
                 r.pin_depth[d, j] = r.pin_even_wear[d, j]
             else:
-                pin_bins = r.pin_wear.shape[2]
-                bin_arc = math.pi * r.pin_radius / pin_bins
-                half_width = math.sqrt(4.0 * line_load / (math.pi * curvature * contact_modulus))
-                deepest, place = add_footprint(
-                    r.pin_wear[d, j], pin_position(r, start), pin_position(r, end), half_width / bin_arc,
-                    worn / bin_arc,
-                )
+                deepest = wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, worn)
                 r.pin_depth[d, j] = max(r.pin_depth[d, j], deepest)
+
+
+@kernel
+def wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, worn):
+    """Spread the worn area over what the contact sweeps on the pin; returns the deepest depth touched.
+
+    Where the contact turns back within the step the sweep has two parts.
+    """
+    bins, flank_bins = r.pin_wear.shape[2], r.arc.shape[0]
+    bin_arc = math.pi * r.pin_radius / bins
+    half_width = math.sqrt(4.0 * line_load / (math.pi * curvature * contact_modulus)) / bin_arc
+    # The contact on the pin turns back at the phase acos(K1), on either flank.
+    turning = math.acos(shortening(r)) / (2.0 * math.pi) * flank_bins
+    lobe = math.floor(0.5 * (start + end) / flank_bins) * flank_bins
+    split = middle = 0.0
+    for side in (lobe + turning, lobe + flank_bins - turning):
+        if (start - side) * (end - side) < 0.0:
+            split = (side - start) / (end - start)
+            middle = pin_position(r, side)
+    if split == 0.0:
+        return add_footprint(
+            r.pin_wear[d, j], pin_position(r, start), pin_position(r, end), half_width, worn / bin_arc
+        )[0]
+    first = add_footprint(r.pin_wear[d, j], pin_position(r, start), middle, half_width, split * worn / bin_arc)[0]
+    second = add_footprint(
+        r.pin_wear[d, j], middle, pin_position(r, end), half_width, (1.0 - split) * worn / bin_arc
+    )[0]
+    return max(first, second)
 
 
 @kernel

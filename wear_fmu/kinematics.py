@@ -35,12 +35,8 @@ def printed_sliding_per_crank_angle(phi, lobes, eccentricity, k1):
     alpha is the pressure angle, sin(alpha) = sin(phi)/sqrt(S), beta the normal's angle
     against the pin's radius.
     """
-    s = pitch_distance(phi, k1)
-    alpha = math.asin(min(1.0, max(-1.0, math.sin(phi) / s)))
-    beta = math.atan2(k1 * math.sin(phi), 1.0 - k1 * math.cos(phi))
-    below = math.sin(alpha + beta)
-    share = math.sin(alpha) / below if abs(below) > 1e-12 else 1.0 / (1.0 + k1)
-    return abs(eccentricity * ((lobes + 1.0) / lobes - share))
+    # In the triangle of ring centre, pitch point and pin the fraction is 1/sqrt(S).
+    return abs(eccentricity * ((lobes + 1.0) / lobes - 1.0 / pitch_distance(phi, k1)))
 
 
 @kernel
