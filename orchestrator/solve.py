@@ -17,7 +17,7 @@ ARCMIN = math.degrees(1.0) * 60.0
 
 # What is recorded at each position of a turn: plant output -> shape per position.
 SERIES = (
-    "input_angle", "crank_angle", "cage_angle", "output_angle", "transmission_error", "lag", "input_torque",
+    "input_angle", "crank_angle", "cage_angle", "output_angle", "transmission_error", "lag", "drive_torque",
     "loaded_teeth", "contact_pressure", "largest_pin_force", "largest_roller_force", "mesh_force", "roller_force",
     "tooth_force", "residual", "iterations",
 )  # fmt: skip
@@ -89,7 +89,7 @@ def figures_of(reducer: Reducer, plant: Component, full: Turn, half: Turn, torqu
         "mean_lag_at_input_arcsec": float(-full["transmission_error"].mean()) * ARCSEC,
         "transmission_error_at_input_pp_arcsec": float(np.ptp(full["transmission_error"])) * ARCSEC,
         "torsional_stiffness_Nm_per_arcmin": stiffness(0.5 * torque, lag - lag_half),
-        "mean_input_torque_Nm": float(full["input_torque"].mean()),
+        "mean_input_torque_Nm": float(full["drive_torque"].mean()),
         "sliding_speed_min_mm_s": slowest * 1e3,
         "sliding_speed_max_mm_s": fastest * 1e3,
         "largest_residual": float(full["residual"].max()),

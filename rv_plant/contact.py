@@ -9,6 +9,15 @@ Lankarani-Nikravesh   n free (1.5 in the BX-40E document; that exponent belongs 
 Palmgren              n = 10/9, K = 8.06e4 L^(8/9) N/mm^(10/9), L in mm (Palmgren 1959,
                       steel on steel)
 
+Damping, in the dynamic plant (rate is the speed of penetration):
+
+step                  F + C s(d/d0) rate; the step s rises from 0 to 1 over the depth d0, so
+                      that force begins at zero (needle-bearing document: C c_c v)
+Lankarani-Nikravesh   F [1 + 3 (1 - ce^2)/4 rate/rate0], rate0 the speed at first touch
+modal                 F + tau dF/dd rate: in a mode of frequency omega the ratio omega tau/2
+
+None of them pulls: a total below zero is zero.
+
 A stiffness is given by the force at 1 mm, so its unit is N whatever the exponent.
 The needle-bearing document prints "3.2e8 N/m": read "literally" that is the force at
 1 m, 2.15 times softer at n = 10/9 than the same digits per millimetre ("SI").
@@ -20,6 +29,10 @@ from fmu_src.kernel import kernel
 
 LINE, LANKARANI, PALMGREN = 0, 1, 2
 LAWS = ("line", "lankarani-nikravesh", "palmgren")
+NO_DAMPING, STEP, HYSTERETIC, MODAL = 0, 1, 2, 3
+DAMPINGS = ("none", "step", "lankarani-nikravesh", "modal")
+# Below this a touch is no impact; it keeps the hysteretic factor finite [m/s].
+SLOWEST_IMPACT = 1e-3
 SI, LITERAL = 0, 1
 READINGS = ("SI", "literal")
 
@@ -44,6 +57,40 @@ def contact_force(penetration, stiffness, exponent):
         return 0.0, 0.0
     slope = stiffness * penetration ** (exponent - 1.0)
     return slope * penetration, exponent * slope
+
+
+@kernel
+def impact_speed(at_first_touch, rate):
+    """rate0 of a contact [m/s]: kept from its first touch, of which the first step knows only the rate."""
+    return max(at_first_touch if at_first_touch > 0.0 else rate, SLOWEST_IMPACT)
+
+
+@kernel
+def damped_force(penetration, rate, stiffness, exponent, law, coefficient, depth, impact_speed):
+    """(force [N], dF/d penetration [N/m], dF/d rate [N s/m], elastic force [N]).
+
+    ``coefficient`` is C [N s/m] for "step", the restitution ce for "lankarani-nikravesh",
+    the time tau [s] for "modal"; ``impact_speed`` [m/s] is rate0.
+    """
+    elastic, tangent = contact_force(penetration, stiffness, exponent)
+    if elastic == 0.0 or law == NO_DAMPING:
+        return elastic, tangent, 0.0, elastic
+    by_depth = by_rate = 0.0
+    if law == STEP:
+        share = min(1.0, penetration / depth)
+        by_rate = coefficient * share * share * (3.0 - 2.0 * share)
+        by_depth = coefficient * 6.0 * share * (1.0 - share) / depth * rate
+    elif law == HYSTERETIC:
+        factor = 0.75 * (1.0 - coefficient * coefficient) / impact_speed
+        by_rate = factor * elastic
+        by_depth = factor * tangent * rate
+    else:
+        by_rate = coefficient * tangent
+        by_depth = by_rate * (exponent - 1.0) / penetration * rate
+    force = elastic + by_rate * rate
+    if force <= 0.0:
+        return 0.0, 0.0, 0.0, elastic
+    return force, tangent + by_depth, by_rate, elastic
 
 
 @kernel

@@ -1,6 +1,7 @@
 """The plant as a unit: initialise it, step it through time.
 
-Quasi-static: the input turns, and at each angle every part is in equilibrium.  All
+Quasi-static, the input turns and at each angle every part is in equilibrium; dynamic, the
+bodies move (``motion``).  All
 entry points take a one-element record array of ``plant_table`` and return a status
 code, 0 or a key of ``FAULTS``.
 """
@@ -9,13 +10,18 @@ import math
 
 from fmu_src.kernel import kernel
 
-from rv_plant.contact import hertz_peak_pressure, law_constants
+from rv_plant.contact import HYSTERETIC, MODAL, law_constants
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, planet_radius, total_ratio
 from rv_plant.geometry import centre_curve_curvature
+from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
+from rv_plant.outputs import publish_contacts
+
+QUASI_STATIC, DYNAMIC = 0, 1
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
+NO_MOTION, TORQUE_AT_REST = range(8, 10)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations."
@@ -30,6 +36,10 @@ FAULTS = {
     " rollers between the races. Reduce roller_radius or the number of rollers",
     RING_OPEN: "the pins do not close the ring: a cycloid disc needs one pin more than it has lobes."
     " Correct pins or lobes in [topology]",
+    NO_MOTION: "the integrator's step fell below 1e-10 s (crank angle {crank_angle:.6g} rad, {rejected} rejected steps)."
+    " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
+    TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
+    " Set fidelity to dynamic, or drive to speed",
     RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
     " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
     " the clearance is bearing_clearance",
@@ -79,6 +89,11 @@ def prepare(r):
         r.contact_law, r.stiffness_reading, r.mesh_stiffness, r.mesh_stiffness_lankarani,
         r.exponent_lankarani, r.mesh_width,
     )
+    r.mesh_damping_now, r.roller_damping_now = r.mesh_damping, r.roller_damping
+    if r.damping_law == HYSTERETIC:
+        r.mesh_damping_now = r.roller_damping_now = r.restitution
+    elif r.damping_law == MODAL:
+        r.mesh_damping_now = r.roller_damping_now = r.modal_damping_time
     r.roller_constant, r.roller_exponent = law_constants(
         r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
         r.exponent_lankarani, r.roller_length,
@@ -119,27 +134,10 @@ def publish(r, output_speed):
     r.output_speed = output_speed
     r.transmission_error = turning - twist
     r.lag = -crank_turning / lobes - turning + twist
-    r.input_torque = moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment
-    r.reaction_torque = r.load_torque - r.input_torque
+    r.drive_torque = moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment
+    r.reaction_torque = r.load_torque - r.drive_torque
     r.reducer_temperature = r.temperature
-
-    circle = r.pin_circle_radius + r.shift_modification
-    radius = r.pin_radius + r.equidistant_modification
-    modulus = 0.5 * r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
-    worst = 0.0
-    r.largest_pin_force = r.largest_roller_force = 0.0
-    for d in range(discs):
-        for c in range(cranks):
-            for k in range(r.roller_force.shape[2]):
-                r.largest_roller_force = max(r.largest_roller_force, r.roller_force_now[d, c, k])
-        for j in range(pins):
-            force = r.mesh_force_now[d, j]
-            r.largest_pin_force = max(r.largest_pin_force, force)
-            if force > 0.0:
-                centre = r.centre_curvature[d, j]
-                curvature = 1.0 / r.pin_radius + centre / (1.0 - radius * centre)
-                worst = max(worst, hertz_peak_pressure(force / r.mesh_width, curvature, modulus))
-    r.contact_pressure = worst
+    publish_contacts(r)
 
 
 @kernel
@@ -175,12 +173,18 @@ def initialise(records):
     fault = geometry_fault(r)
     if fault != 0:
         return fault
+    if r.drive == 1 and r.fidelity == QUASI_STATIC:
+        return TORQUE_AT_REST
     prepare(r)
     if not solve(r):
         return NO_EQUILIBRIUM
     copy_means(r, 0.0, 1.0)
     ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.root_cos.shape[0])
     publish(r, r.input_speed / ratio)
+    if r.fidelity == DYNAMIC:
+        if not start_motion(r):
+            return NO_EQUILIBRIUM
+        publish_motion(r)
     return 0
 
 
@@ -198,11 +202,21 @@ def copy_means(r, keep, weight):
 
 @kernel
 def step(records, time, duration):
+    """One communication step: through equilibria or, if fidelity is dynamic, in motion."""
+    r = records[0]
+    if r.fidelity == DYNAMIC:
+        moved = advance(r, duration)
+        publish_motion(r)
+        return 0 if moved else NO_MOTION
+    return step_through_equilibria(r, duration)
+
+
+@kernel
+def step_through_equilibria(r, duration):
     """Turn the input by input_speed times duration [s] through one or more equilibria.
 
     The contact forces' means over the step are trapezoidal: second order in the angle.
     """
-    r = records[0]
     pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
     output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
     cage_speed = cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)

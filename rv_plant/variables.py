@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fmu_src.variables import Table, Variable
 
 from rv_plant.assembly import coordinate_count
-from rv_plant.contact import LAWS, READINGS
+from rv_plant.contact import DAMPINGS, LAWS, READINGS, STEP
 
 FILE = "reducer file"
 
@@ -33,6 +33,7 @@ def plant_table(topology: Topology) -> Table:
     inputs = [
         Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
                  1.0, source=FILE),
+        Variable("input_torque", "input", "N.m", "torque on the sun if drive is torque", 0.0, source=FILE),
         Variable("load_torque", "input", "N.m", "torque on the carrier, positive against positive rotation",
                  0.0, nominal=100.0, source=FILE),
         Variable("temperature", "input", "K", "temperature of the reducer's surroundings", 293.15,
@@ -54,6 +55,10 @@ def plant_table(topology: Topology) -> Table:
     def compliance(name, unit, text):
         return Variable(name, "parameter", unit, text + " (0 is rigid)", 0.0, minimum=0.0,
                         source="assumed: rigid, as in both sources")
+
+    def mass(name, unit, text, start):
+        return Variable(name, "parameter", unit, f"mass or inertia of {text}", start, minimum=1e-9,
+                        source="assumed: plausible from geometry")
 
     parameters = [
         length("pin_radius", "radius of the pins", 1e-5, 2e-3),
@@ -115,6 +120,44 @@ def plant_table(topology: Topology) -> Table:
         compliance("first_stage_compliance", "m/N", "one tooth contact of sun and planet, along its normal"),
         compliance("housing_compliance", "rad/(N.m)", "turning of the pin ring under its torque"),
         compliance("carrier_compliance", "rad/(N.m)", "twist between crank seats and output flange"),
+        Variable("fidelity", "parameter", "1", "equilibrium at each angle, or bodies in motion", 0,
+                 choices=("quasi-static", "dynamic"), source="as the system model needs it"),
+        Variable("drive", "parameter", "1", "what moves the input in motion", 0, choices=("speed", "torque"),
+                 source="as the system model needs it"),
+        mass("disc_mass", "kg", "one disc", 0.387), mass("disc_inertia", "kg.m^2", "one disc", 5.7e-4),
+        mass("crank_mass", "kg", "one crank with its planet", 0.131),
+        mass("crank_inertia", "kg.m^2", "one crank with its planet", 1.26e-5),
+        mass("carrier_mass", "kg", "the carrier", 0.715), mass("carrier_inertia", "kg.m^2", "the carrier", 7.8e-4),
+        mass("sun_inertia", "kg.m^2", "sun with what is fixed to it", 3.6e-6),
+        mass("ring_inertia", "kg.m^2", "pin ring on its housing", 1e-3),
+        mass("load_inertia", "kg.m^2", "what the output flange carries", 5.0),
+        Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
+                 source="assumed: usual for a ratio of 3"),
+        length("backlash", "play between the flanks of the first stage, along the normal", 0.0, maximum=1e-3,
+               source="assumed: none, as in both sources"),
+        Variable("tooth_stiffness_variation", "parameter", "1", "first-stage tooth stiffness over its mean, amplitude"
+                 " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant"),
+        deviation("tooth_error", "profile error of the first stage, amplitude at mesh order", (), ()),
+        Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
+                 maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+        Variable("spectral_radius", "parameter", "1", "what the integrator leaves of frequencies far above its step",
+                 0.5, minimum=0.0, maximum=1.0, source="assumed: between none and all"),
+        Variable("dynamic_tolerance", "parameter", "1", "local error of a step over a deflection of 1 um", 3e-3,
+                 minimum=1e-9, maximum=1.0, source="measured: forces within 1 %"),
+        Variable("max_newton", "parameter", "1", "Newton iterations before a step is repeated shorter", 8,
+                 integer=True, minimum=2, maximum=100, source="assumed"),
+        Variable("damping_law", "parameter", "1", "damping of the contacts in motion", STEP, choices=DAMPINGS,
+                 source="needle-bearing document: C c_c v"),
+        Variable("mesh_damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
+                 nominal=100.0, source="assumed: 50 to 500 N s/m per tooth"),
+        Variable("roller_damping", "parameter", "N.s/m", "coefficient C of a roller (law step)", 200.0, minimum=0.0,
+                 nominal=100.0, source="assumed: as disc and pin"),
+        Variable("damping_depth", "parameter", "m", "penetration at which damping is full (law step)", 1e-6,
+                 minimum=1e-9, maximum=1e-3, nominal=1e-6, source="assumed: a third of the usual penetration"),
+        Variable("restitution", "parameter", "1", "coefficient of restitution (law lankarani-nikravesh)", 0.8,
+                 minimum=0.0, maximum=1.0, source="assumed: 0.7 to 0.9"),
+        Variable("modal_damping_time", "parameter", "s", "time tau of the law modal: damping ratio omega tau/2", 4e-6,
+                 minimum=0.0, maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
         Variable("largest_crank_step", "parameter", "rad", "a communication step is divided so that no crank"
                  " turns further between two equilibria", math.radians(5.0), minimum=1e-6, maximum=1.0,
                  source="assumed: 72 positions a turn"),
@@ -134,7 +177,7 @@ def plant_table(topology: Topology) -> Table:
         output("cage_angle", "rad", "angle of the roller cages against the discs"),
         output("output_angle", "rad", "angle of the output flange"),
         output("output_speed", "rad/s", "speed of the output flange"),
-        output("input_torque", "N.m", "torque that holds the input"),
+        output("drive_torque", "N.m", "torque that holds or drives the input"),
         output("reaction_torque", "N.m", "torque with which the housing holds the pin ring"),
         output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4),
         output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
@@ -150,6 +193,8 @@ def plant_table(topology: Topology) -> Table:
         output("tooth_force", "N", "tangential force of the sun on a planet", (t.cranks,), ("crank",),
                nominal=100.0),
         output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
+        output("power_loss", "W", "mean power lost in the last communication step, in motion"),
+        output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
         output("residual", "1", "out-of-balance force over load at the last equilibrium"),
         output("iterations", "1", "equilibrium iterations of the last angle", integer=True),
         output("substeps", "1", "equilibria in the last communication step", integer=True),
@@ -167,6 +212,27 @@ def plant_table(topology: Topology) -> Table:
         state("phase_shift", "rad", "contact phase less the ideal one", mesh, mesh_axes),
         state("mesh_force_now", "N", "force of the last equilibrium", mesh, mesh_axes),
         state("roller_force_now", "N", "force of the last equilibrium", roller, roller_axes),
+        state("q", "1", "places of the bodies, see dynamics", (z + 2,), ("coordinate",)),
+        state("acceleration", "1", "accelerations of the bodies", (z + 2,), ("coordinate",)),
+        state("smooth", "1", "the integrator's acceleration", (z + 2,), ("coordinate",)),
+        state("mass", "1", "mass or inertia of each coordinate", (z + 2,), ("coordinate",)),
+        state("length_scale", "1", "small change of each coordinate", (z + 2,), ("coordinate",)),
+        state("drive_speed", "rad/s", "input speed at the last communication point"),
+        state("internal_step", "s", "next step of the integrator"),
+        state("mesh_force_before", "N", "force one internal step earlier", mesh, mesh_axes),
+        state("roller_force_before", "N", "force one internal step earlier", roller, roller_axes),
+        state("potential", "J", "energy of deformation"), state("dissipation", "W", "power lost in damping"),
+        state("cage_power", "W", "power of the cages' prescribed motion"),
+        state("input_energy", "J", "work of the input"), state("output_energy", "J", "work done on the load"),
+        state("lost_energy", "J", "energy lost in damping"), state("cage_energy", "J", "work of the cages"),
+        state("stored_energy", "J", "energy of motion and deformation at the start"),
+        state("assemblies", "1", "evaluations of all forces in the last communication step", integer=True),
+        state("rejected", "1", "internal steps repeated shorter", integer=True),
+        state("v", "1", "velocities of the coordinates, sun and load", (z + 2,), ("coordinate",)),
+        state("mesh_impact_speed", "m/s", "speed of penetration at first touch", mesh, mesh_axes),
+        state("roller_impact_speed", "m/s", "speed of approach at first touch", roller, roller_axes),
+        state("mesh_damping_now", "1", "coefficient of the chosen law for disc and pin"),
+        state("roller_damping_now", "1", "coefficient of the chosen law for a roller"),
         state("compliance", "1", "compliance of each coordinate of z", (z,), ("coordinate",)),
         state("is_free", "1", "whether the coordinate is an unknown", (z,), ("coordinate",), integer=True),
         state("free", "1", "the unknown coordinates", (z,), ("unknown",), integer=True),
@@ -186,8 +252,13 @@ def plant_table(topology: Topology) -> Table:
         return Variable(name, "scratch", "1", "", 0.0, shape, ("",) * len(shape), **more)
 
     work = [
-        scratch("residual_vector", (z,)), scratch("tangent", (z, z)), scratch("factor", (z, z)),
-        scratch("factor_scale", (z,)), scratch("direction", (z,)),
+        # Two coordinates more than z in motion: sun and load.
+        scratch("residual_vector", (z + 2,)), scratch("tangent", (z + 2, z + 2)), scratch("factor", (z + 2, z + 2)),
+        scratch("factor_scale", (z + 2,)), scratch("direction", (z + 2,)),
+        scratch("mesh_rate", mesh), scratch("roller_rate", roller), scratch("joint_index", (5,), integer=True),
+        scratch("unknown", (z + 2,), integer=True),
+        scratch("joint_gradient", (5,)), scratch("q_start", (z + 2,)), scratch("v_start", (z + 2,)),
+        scratch("acceleration_start", (z + 2,)), scratch("smooth_start", (z + 2,)),
         scratch("mesh_phase", mesh), scratch("centre_curvature", mesh),
         scratch("crank_force", (t.cranks, 2)), scratch("crank_moment", (t.cranks,)),
         scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 4)),

@@ -40,9 +40,9 @@ def assert_in_balance(record, twin, left_over):
         assert np.abs(twin.support_force + twin.crank_shift / record.crank_support_compliance).max() < force
     if record.main_bearing_compliance > 0.0:
         assert abs(twin.support_force.sum() + twin.carrier_shift / record.main_bearing_compliance) < force
-    assert record.input_torque == pytest.approx(twin.input_torque, abs=moment)
+    assert record.drive_torque == pytest.approx(twin.input_torque, abs=moment)
     assert record.reaction_torque == pytest.approx(twin.pin_moment.sum(), abs=moment)
-    assert record.reaction_torque + record.input_torque == pytest.approx(twin.load, abs=moment)
+    assert record.reaction_torque + record.drive_torque == pytest.approx(twin.load, abs=moment)
     if twin.planet_radius:
         assert record.tooth_force * twin.planet_radius == pytest.approx(twin.crank_moment, abs=moment)
 
@@ -198,7 +198,7 @@ def test_negative_load_mirrors_everything(rv20e):
     assert back.mesh_force == pytest.approx(ahead.mesh_force[:, pins], abs=1e-6)
     assert back.roller_force == pytest.approx(ahead.roller_force[:, cranks][:, :, rollers], abs=1e-6)
     assert ahead.mesh_force[:, pins] != pytest.approx(ahead.mesh_force, abs=1.0)
-    assert (back.lag, back.input_torque) == pytest.approx((-ahead.lag, -ahead.input_torque), rel=1e-8, abs=0)
+    assert (back.lag, back.drive_torque) == pytest.approx((-ahead.lag, -ahead.drive_torque), rel=1e-8, abs=0)
 
 
 @pytest.mark.parametrize("fault, values", [

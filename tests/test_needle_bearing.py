@@ -4,15 +4,20 @@ import numpy as np
 import pytest
 
 from rv_plant.needle_bearing import cage_rate, roller_contacts
-from stand import gradient
+from rv_plant.variables import Topology, plant_table
+from stand import gradient, only, records_of
 
 ROLLERS, STIFFNESS, EXPONENT = 16, 1.1e9, 10.0 / 9.0
 
 
 def bearing(shift, first_angle, clearance, profile_error, rollers=ROLLERS):
-    force, total, tangent = np.zeros(rollers), np.zeros(3), np.zeros((3, 3))
-    roller_contacts(*shift, first_angle, clearance, profile_error, STIFFNESS, EXPONENT, force, total, tangent)
-    return force, total, tangent
+    table = plant_table(Topology(1, 2, 40, 39, rollers))
+    record = only(records_of(
+        table, bearing_clearance=clearance, roller_constant=STIFFNESS, roller_exponent=EXPONENT
+    ))
+    record.roller_profile_error[0, 1] = profile_error
+    roller_contacts(record, 0, 1, *shift, first_angle, 0.0, 0.0, 0.0, 0.0)
+    return record.roller_force_now[0, 1].copy(), record.bearing_total.copy(), record.bearing_tangent.copy()
 
 
 def cases():

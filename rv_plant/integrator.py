@@ -1,0 +1,193 @@
+"""Time integration of the motion: generalised-alpha with error control, nothing allocated.
+
+The generalised-alpha method of Chung and Hulbert (1993) in the form of Arnold and Bruls
+(2007), which meets the equations of motion at the end of each step: second order,
+unconditionally stable for linear systems, with a chosen damping ``spectral_radius`` of
+frequencies far above the step.  Each step is a Newton iteration on the positions with
+the assembled tangent; its local error is taken from the change of acceleration
+(Zienkiewicz and Xie 1991).  A step across the beginning or end of a contact shows as
+error and is repeated shorter.
+"""
+
+
+from fmu_src.kernel import kernel
+
+from rv_plant.dynamics import assemble_motion
+from rv_plant.linear import cholesky_solve
+from rv_plant.mesh import ring_coordinate
+
+SHORTEST_STEP = 1e-10
+# Square of the frequency that stands in where nothing holds a body [1/s^2].
+FLOATING = 1e8
+
+
+@kernel
+def keep_start(r):
+    """Remember where the step begins."""
+    for i in range(r.q.shape[0]):
+        r.q_start[i] = r.q[i]
+        r.v_start[i] = r.v[i]
+        r.acceleration_start[i] = r.acceleration[i]
+        r.smooth_start[i] = r.smooth[i]
+
+
+@kernel
+def back_to_start(r):
+    for i in range(r.q.shape[0]):
+        r.q[i] = r.q_start[i]
+        r.v[i] = r.v_start[i]
+        r.acceleration[i] = r.acceleration_start[i]
+        r.smooth[i] = r.smooth_start[i]
+
+
+@kernel
+def driven_coordinate(r):
+    """Index of the sun if its motion is prescribed, else -1."""
+    return ring_coordinate(r) + 1 if r.drive == 0 else -1
+
+
+@kernel
+def settle(r):
+    """Move the bodies, sun held, to where all forces balance the given accelerations; True if found.
+
+    Joints that statics takes as rigid get their small deflection here.
+    """
+    n, sun = r.q.shape[0], ring_coordinate(r) + 1
+    for _ in range(40):
+        assemble_motion(r, 1.0)
+        free, worst = 0, 0.0
+        for i in range(n):
+            if i != sun:
+                r.unknown[free] = i
+                free += 1
+        # Bodies that float in clearance or backlash are held by a little of their inertia.
+        shift = 0.0
+        for _ in range(10):
+            for a in range(free):
+                i = r.unknown[a]
+                r.direction[a] = -(r.residual_vector[i] + r.mass[i] * r.acceleration[i])
+                r.factor_scale[a] = max(r.tangent[i, i], r.mass[i] * FLOATING)
+                for b in range(a, free):
+                    r.factor[a, b] = r.tangent[i, r.unknown[b]]
+            if cholesky_solve(r.factor, r.direction, r.factor_scale, free, shift):
+                break
+            shift = max(1e-9, 10.0 * shift)
+        else:
+            return False
+        for a in range(free):
+            i = r.unknown[a]
+            r.q[i] += r.direction[a]
+            worst = max(worst, abs(r.direction[a]) / r.length_scale[i])
+        # A picometre is far below every tolerance and above rounding.
+        if worst < 1e-6:
+            return True
+    return False
+
+
+@kernel
+def alpha_step(r, h, drive_speed, drive_acceleration):
+    """One step of h [s]; fills r.smooth (the method's acceleration) and r.acceleration.
+
+    A driven sun ends at ``drive_speed`` with ``drive_acceleration``.  Returns the local
+    error over the tolerance, or a negative number if Newton's iteration failed.
+    """
+    n = r.q.shape[0]
+    rho = r.spectral_radius
+    alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+    gamma = 0.5 + alpha_f - alpha_m
+    beta = 0.25 * (1.0 + alpha_f - alpha_m) ** 2
+    by_acceleration = (1.0 - alpha_f) / (1.0 - alpha_m)
+    q_weight = 1.0 / (h * h * beta * by_acceleration)
+    v_weight = gamma / (h * beta)
+    driven = driven_coordinate(r)
+    for i in range(n):
+        # Predicted with the acceleration unchanged: a smooth motion needs few iterations.
+        r.acceleration[i] = r.acceleration_start[i]
+        r.smooth[i] = (
+            alpha_f * r.acceleration_start[i] - alpha_m * r.smooth_start[i] + (1.0 - alpha_f) * r.acceleration[i]
+        ) / (1.0 - alpha_m)
+        r.q[i] = r.q_start[i] + h * r.v_start[i] + h * h * (
+            (0.5 - beta) * r.smooth_start[i] + beta * r.smooth[i])
+        r.v[i] = r.v_start[i] + h * ((1.0 - gamma) * r.smooth_start[i] + gamma * r.smooth[i])
+    if driven >= 0:
+        r.q[driven] = r.q_start[driven] + 0.5 * h * (r.v_start[driven] + drive_speed)
+        r.v[driven] = drive_speed
+        r.acceleration[driven] = r.smooth[driven] = drive_acceleration
+    for _ in range(r.max_newton):
+        assemble_motion(r, v_weight)
+        r.assemblies += 1
+        free = 0
+        worst = 0.0
+        for i in range(n):
+            if i == driven:
+                continue
+            r.unknown[free] = i
+            free += 1
+        for a in range(free):
+            i = r.unknown[a]
+            r.direction[a] = -(r.residual_vector[i] + r.mass[i] * r.acceleration[i])
+            for b in range(a, free):
+                r.factor[a, b] = r.tangent[i, r.unknown[b]]
+            r.factor[a, a] += r.mass[i] * q_weight
+            r.factor_scale[a] = max(r.factor[a, a], 1e-30)
+        if not cholesky_solve(r.factor, r.direction, r.factor_scale, free, 0.0):
+            return -1.0
+        for a in range(free):
+            i = r.unknown[a]
+            change = r.direction[a]
+            r.q[i] += change
+            r.v[i] += v_weight * change
+            r.acceleration[i] += q_weight * change
+            r.smooth[i] += q_weight * by_acceleration * change
+            size = abs(change) / r.length_scale[i]
+            if not size <= worst:
+                worst = size
+        if worst < NEWTON_SHARE * r.dynamic_tolerance:
+            error = 0.0
+            for a in range(free):
+                i = r.unknown[a]
+                jump = h * h * abs(beta - 1.0 / 6.0) * abs(r.smooth[i] - r.smooth_start[i])
+                error = max(error, jump / r.length_scale[i])
+            return error / r.dynamic_tolerance
+        if not worst < 1e6:
+            return -1.0
+    return -1.0
+
+
+# Newton's last correction against the tolerance of a step.
+NEWTON_SHARE = 1e-2
+
+
+@kernel
+def finish_step(r):
+    """First touches keep their speed; lost contacts forget it."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            if r.mesh_force_now[d, j] == 0.0:
+                r.mesh_impact_speed[d, j] = 0.0
+            elif r.mesh_impact_speed[d, j] == 0.0:
+                r.mesh_impact_speed[d, j] = abs(r.mesh_rate[d, j])
+        for c in range(cranks):
+            for k in range(rollers):
+                if r.roller_force_now[d, c, k] == 0.0:
+                    r.roller_impact_speed[d, c, k] = 0.0
+                elif r.roller_impact_speed[d, c, k] == 0.0:
+                    r.roller_impact_speed[d, c, k] = abs(r.roller_rate[d, c, k])
+
+
+@kernel
+def next_step_size(r, h, error):
+    """Second-order method: the error goes with the third power of the step."""
+    factor = 0.9 * max(error, 1e-6) ** (-1.0 / 3.0)
+    return h * min(2.0, max(0.2, factor))
+
+
+@kernel
+def kinetic_energy(r):
+    e = 0.0
+    for i in range(r.q.shape[0]):
+        e += 0.5 * r.mass[i] * r.v[i] * r.v[i]
+    return e
+
+

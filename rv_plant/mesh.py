@@ -1,0 +1,142 @@
+"""Contacts of the discs with the pins."""
+
+import math
+
+from fmu_src.kernel import kernel
+
+from rv_plant.contact import contact_force, damped_force, impact_speed
+from rv_plant.geometry import closest_distance
+
+
+@kernel
+def ring_coordinate(r):
+    """Index of the pin ring's turning among the coordinates, after discs, carrier and cranks."""
+    discs, cranks = r.roller_force.shape[:2]
+    return 3 * discs + 3 + 3 * cranks
+
+
+@kernel
+def mesh_contacts(r, d, ideal_output, axes, rate_weight):
+    """Contacts of disc d with the pins: adds to residual and tangent, fills the pin forces.
+
+    r.z holds the disc's departure from ideal kinematics, its shift along axes at the angle
+    ``axes`` [rad], r.v its velocity along the same axes.  The tangent is that of the
+    residual with respect to z plus ``rate_weight`` [1/s] times that with respect to v; with
+    0 nothing moves.
+    """
+    discs, pins = r.mesh_force.shape
+    lobes = r.lobe_pitch_error.shape[1]
+    circle = r.pin_circle_radius + r.shift_modification
+    radius = r.pin_radius + r.equidistant_modification
+    k1 = r.eccentricity * (lobes + 1) / circle
+    offset = 2.0 * math.pi * d / discs
+    # The profile of disc d is cut turned by -offset/lobes against its holes.
+    profile_turn = -offset / lobes
+    eccentric = -lobes * ideal_output + offset
+    ca, sa = math.cos(axes), math.sin(axes)
+    zx, zy = r.z[3 * d], r.z[3 * d + 1]
+    disc_x = r.eccentricity * math.cos(eccentric) + zx * ca - zy * sa
+    disc_y = r.eccentricity * math.sin(eccentric) + zx * sa + zy * ca
+    disc_angle = ideal_output + r.z[3 * d + 2] + profile_turn
+    cd, sd = math.cos(disc_angle), math.sin(disc_angle)
+    ring = ring_coordinate(r)
+    ring_cos, ring_sin = math.cos(r.z[ring]), math.sin(r.z[ring])
+    x, y, t = 3 * d, 3 * d + 1, 3 * d + 2
+    rx = ry = rt = rr = 0.0
+    kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
+    loaded = 0
+    for j in range(pins):
+        # Pin centre from the disc's centre, in the housing and in the profile's frame.
+        pin_x = ring_cos * r.pin_x[j] - ring_sin * r.pin_y[j]
+        pin_y = ring_cos * r.pin_y[j] + ring_sin * r.pin_x[j]
+        px, py = pin_x - disc_x, pin_y - disc_y
+        along_disc = lobes * (r.pin_angle[j] - ideal_output - profile_turn)
+        # The frame stands on the nearest root; the tooth lies between two roots.
+        root_number = math.floor(along_disc / (2.0 * math.pi) + 0.5)
+        root = int(root_number) % lobes
+        lobe = int(math.floor(along_disc / (2.0 * math.pi))) % lobes
+        cl, sl = r.root_cos[root], r.root_sin[root]
+        cr, sr = cd * cl - sd * sl, sd * cl + cd * sl
+        cx, cy = cr * px + sr * py, cr * py - sr * px
+        # A flank is displaced along the pitch with its tooth, and turned into it by angle modification.
+        ideal_phase = along_disc - 2.0 * math.pi * root_number
+        flank = 1.0 if ideal_phase >= 0.0 else -1.0
+        pitch = r.lobe_pitch_error[d, lobe] / r.pin_circle_radius + flank * r.angle_modification
+        cx, cy = cx + pitch * cy, cy - pitch * cx
+        phase, distance, nx, ny, bend = closest_distance(
+            cx, cy, ideal_phase + r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
+        )
+        r.phase_shift[d, j] = phase - ideal_phase
+        r.mesh_phase[d, j] = phase
+        r.centre_curvature[d, j] = bend
+        gap = distance + radius - r.pin_radius - r.pin_radius_error[j]
+        gap += r.lobe_profile_error[d, lobe] + r.mesh_profile_error[d, j]
+        if gap >= 0.0:
+            r.mesh_force_now[d, j] = 0.0
+            continue
+        # Gradient of the penetration: (N, arm about the disc, minus arm about the ring),
+        # with the normal turned back from the displaced flank.
+        nx, ny = nx - pitch * ny, ny + pitch * nx
+        nhx, nhy = cr * nx - sr * ny, sr * nx + cr * ny
+        gx, gy = ca * nhx + sa * nhy, ca * nhy - sa * nhx
+        gt = px * nhy - py * nhx
+        gr = pin_y * nhx - pin_x * nhy
+        if rate_weight == 0.0:
+            force, stiffness = contact_force(-gap, r.mesh_constant, r.mesh_exponent)
+        else:
+            rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
+            r.mesh_rate[d, j] = rate
+            force, stiffness, by_rate, elastic = damped_force(
+                -gap, rate, r.mesh_constant, r.mesh_exponent, r.damping_law, r.mesh_damping_now,
+                r.damping_depth, impact_speed(r.mesh_impact_speed[d, j], rate),
+            )
+            stiffness += rate_weight * by_rate
+            r.potential -= elastic * gap / (r.mesh_exponent + 1.0)
+            r.dissipation += (force - elastic) * rate
+        r.mesh_force_now[d, j] = force
+        loaded += 1
+        rx += force * gx
+        ry += force * gy
+        rt += force * gt
+        rr += force * gr
+        kxx += stiffness * gx * gx
+        kxy += stiffness * gx * gy
+        kxt += stiffness * gx * gt
+        kxr += stiffness * gx * gr
+        kyy += stiffness * gy * gy
+        kyt += stiffness * gy * gt
+        kyr += stiffness * gy * gr
+        ktt += stiffness * gt * gt
+        ktr += stiffness * gt * gr
+        krr += stiffness * gr * gr
+        # The normal turns with the disc, and along the flank by its curvature.
+        reach = px * nhx + py * nhy
+        bend /= 1.0 + bend * distance
+        turn = 1.0 - bend * reach
+        kxx -= force * bend * gy * gy
+        kxy += force * bend * gx * gy
+        kyy -= force * bend * gx * gx
+        kxt -= force * turn * gy
+        kyt += force * turn * gx
+        ktt += force * turn * reach
+        swing = pin_x * nhx + pin_y * nhy
+        kxr -= force * bend * swing * gy
+        kyr += force * bend * swing * gx
+        ktr -= force * turn * swing
+        krr += force * swing * (1.0 - bend * swing)
+    r.loaded_teeth[d] = loaded
+    r.residual_vector[x] += rx
+    r.residual_vector[y] += ry
+    r.residual_vector[t] += rt
+    r.residual_vector[ring] += rr
+    k = r.tangent
+    k[x, x] += kxx
+    k[x, y] += kxy
+    k[x, t] += kxt
+    k[x, ring] += kxr
+    k[y, y] += kyy
+    k[y, t] += kyt
+    k[y, ring] += kyr
+    k[t, t] += ktt
+    k[t, ring] += ktr
+    k[ring, ring] += krr

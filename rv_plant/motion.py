@@ -1,0 +1,223 @@
+"""The plant in motion: from the first equilibrium through communication steps.
+
+Keeps account of energy: work of the input, work done on the load, losses, and what is
+stored in motion and deformation.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
+from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
+from rv_plant.integrator import (
+    SHORTEST_STEP,
+    alpha_step,
+    back_to_start,
+    finish_step,
+    keep_start,
+    kinetic_energy,
+    next_step_size,
+    settle,
+)
+from rv_plant.mesh import ring_coordinate
+from rv_plant.outputs import publish_contacts
+from rv_plant.poses import disc_offset, seat
+
+# Deflection that tolerances are relative to [m].
+TYPICAL_DEFLECTION = 1e-6
+
+
+@kernel
+def set_masses(r):
+    """Mass or inertia, and the size of a small change, of every coordinate."""
+    discs, cranks = r.roller_force.shape[:2]
+    carrier, ring = 3 * discs, ring_coordinate(r)
+    for i in range(r.q.shape[0]):
+        r.length_scale[i] = TYPICAL_DEFLECTION
+    for d in range(discs):
+        r.mass[3 * d] = r.mass[3 * d + 1] = r.disc_mass
+        r.mass[3 * d + 2] = r.disc_inertia
+        r.length_scale[3 * d + 2] /= r.pin_circle_radius
+    r.mass[carrier] = r.carrier_inertia
+    r.mass[carrier + 1] = r.mass[carrier + 2] = r.carrier_mass
+    r.length_scale[carrier] /= r.crank_circle_radius
+    for c in range(cranks):
+        crank = carrier + 3 + 3 * c
+        r.mass[crank] = r.mass[crank + 1] = r.crank_mass
+        r.mass[crank + 2] = r.crank_inertia
+        r.length_scale[crank + 2] /= r.crank_circle_radius
+    r.mass[ring], r.mass[ring + 1], r.mass[ring + 2] = r.ring_inertia, r.sun_inertia, r.load_inertia
+    for i in range(3):
+        r.length_scale[ring + i] /= r.pin_circle_radius
+
+
+@kernel
+def start_motion(r):
+    """Bodies where the equilibrium r.z has put them, moving as ideal kinematics wants at input_speed."""
+    discs, cranks = r.roller_force.shape[:2]
+    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    carrier, ring = 3 * discs, ring_coordinate(r)
+    ratio = total_ratio(r.first_stage_ratio, pins, lobes)
+    speed = r.input_speed / ratio
+    crank_speed = -lobes * speed
+    ideal, z, q, v = r.ideal_output, r.z, r.q, r.v
+    set_masses(r)
+    for d in range(discs):
+        eccentric = -lobes * ideal + disc_offset(r, d)
+        ce, se = math.cos(eccentric), math.sin(eccentric)
+        q[3 * d] = r.eccentricity * ce + z[3 * d] * ce - z[3 * d + 1] * se
+        q[3 * d + 1] = r.eccentricity * se + z[3 * d] * se + z[3 * d + 1] * ce
+        q[3 * d + 2] = ideal + z[3 * d + 2]
+        v[3 * d], v[3 * d + 1] = -q[3 * d + 1] * crank_speed, q[3 * d] * crank_speed
+        v[3 * d + 2] = speed
+        r.acceleration[3 * d] = -q[3 * d] * crank_speed * crank_speed
+        r.acceleration[3 * d + 1] = -q[3 * d + 1] * crank_speed * crank_speed
+    q[carrier] = ideal + z[carrier]
+    q[carrier + 1], q[carrier + 2] = z[carrier + 1], z[carrier + 2]
+    v[carrier] = speed
+    side = 1.0 if r.load_torque >= 0.0 else -1.0
+    for c in range(cranks):
+        crank = carrier + 3 + 3 * c
+        ax, ay = seat(r, c, q[carrier])
+        shift_x, shift_y = z[carrier + 1] + z[crank], z[carrier + 2] + z[crank + 1]
+        per_x, per_y = crank_turn_per_shift(
+            math.atan2(ay, ax), r.crank_circle_radius, r.first_stage_ratio, r.pressure_angle, side
+        )
+        q[crank], q[crank + 1] = ax + shift_x, ay + shift_y
+        q[crank + 2] = (
+            -lobes * ideal + crank_turn_per_carrier_turn(r.first_stage_ratio) * z[carrier]
+            + per_x * shift_x + per_y * shift_y + z[crank + 2]
+        )
+        v[crank], v[crank + 1], v[crank + 2] = -q[crank + 1] * speed, q[crank] * speed, crank_speed
+        r.acceleration[crank], r.acceleration[crank + 1] = -q[crank] * speed * speed, -q[crank + 1] * speed * speed
+    q[ring] = z[ring]
+    q[ring + 1] = ratio * ideal
+    v[ring + 1] = r.input_speed
+    # The driving flanks touch: half the backlash ahead, and pressed on by the tooth force.
+    if r.first_stage_ratio > 0.0:
+        small = planet_radius(r.crank_circle_radius, r.first_stage_ratio) / r.first_stage_ratio
+        pressed = 0.0
+        for c in range(cranks):
+            pressed += abs(r.tooth_force[c]) / cranks * max(r.first_stage_compliance, RIGID_TOOTH)
+        ahead = 0.5 * r.backlash + pressed / math.cos(r.pressure_angle)
+        q[ring + 1] += side * ahead / (small * math.cos(r.pressure_angle))
+    q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
+    v[ring + 2] = speed
+    settled = settle(r)
+    for i in range(q.shape[0]):
+        r.smooth[i] = r.acceleration[i]
+    r.drive_speed = r.input_speed
+    r.internal_step = 1e-6
+    assemble_motion(r, 1.0)
+    r.stored_energy = r.potential + kinetic_energy(r)
+    r.drive_torque = r.residual_vector[ring + 1] + r.input_torque
+    clear_means(r)
+    add_means(r, 0.0)
+    return settled
+
+
+@kernel
+def advance(r, duration):
+    """Integrate over ``duration`` [s]; True if every step met the tolerance.
+
+    A driven sun goes from the last input speed to the present one along a ramp.
+    """
+    discs = r.roller_force.shape[0]
+    carrier, ring = 3 * discs, ring_coordinate(r)
+    sun, load = ring + 1, ring + 2
+    slope = (r.input_speed - r.drive_speed) / duration if duration > 0.0 else 0.0
+    first_speed = r.drive_speed
+    time = 0.0
+    r.assemblies = r.substeps = r.rejected = 0
+    clear_means(r)
+    lost = 0.0
+    cage_share = r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
+    while time < duration * (1.0 - 1e-12):
+        left = duration - time
+        h = r.internal_step
+        # No crumb at the end: two equal steps where one would leave little.
+        if h >= left:
+            h = left
+        elif 2.0 * h > left:
+            h = 0.5 * left
+        keep_start(r)
+        cage, loss, torque, speed = r.cage, r.dissipation, r.drive_torque, r.v[sun]
+        cage_power, load_speed = r.cage_power, r.v[load]
+        r.cage = cage + h * (r.v[carrier + 5] - r.v[carrier]) * cage_share
+        error = alpha_step(r, h, first_speed + slope * (time + h), slope)
+        if not 0.0 <= error <= 1.0:
+            back_to_start(r)
+            r.cage, r.dissipation, r.cage_power = cage, loss, cage_power
+            r.rejected += 1
+            r.internal_step = 0.25 * h if error < 0.0 else next_step_size(r, h, error)
+            if r.internal_step < SHORTEST_STEP:
+                return False
+            continue
+        time += h
+        r.substeps += 1
+        finish_step(r)
+        if r.drive == 0:
+            r.drive_torque = r.residual_vector[sun] + r.input_torque + r.mass[sun] * r.acceleration[sun]
+        else:
+            r.drive_torque = r.input_torque
+        add_means(r, 0.5 * h / duration)
+        r.input_energy += 0.5 * h * (torque * speed + r.drive_torque * r.v[sun])
+        r.output_energy += 0.5 * h * r.load_torque * (load_speed + r.v[load])
+        lost += 0.5 * h * (loss + r.dissipation)
+        r.cage_energy += 0.5 * h * (cage_power + r.cage_power)
+        if h < left:
+            r.internal_step = next_step_size(r, h, error)
+    r.lost_energy += lost
+    r.power_loss = lost / duration if duration > 0.0 else 0.0
+    r.drive_speed = r.input_speed
+    return True
+
+
+@kernel
+def publish_motion(r):
+    """Outputs from the present places and velocities."""
+    discs, cranks = r.roller_force.shape[:2]
+    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    carrier, ring = 3 * discs, ring_coordinate(r)
+    sun, load = ring + 1, ring + 2
+    crank_angle = crank_speed = 0.0
+    for c in range(cranks):
+        crank_angle += r.q[carrier + 5 + 3 * c] / cranks
+        crank_speed += r.v[carrier + 5 + 3 * c] / cranks
+    r.input_angle, r.crank_angle, r.crank_speed, r.cage_angle = r.q[sun], crank_angle, crank_speed, r.cage
+    r.output_angle, r.output_speed = r.q[load], r.v[load]
+    r.transmission_error = r.q[load] - r.q[sun] / total_ratio(r.first_stage_ratio, pins, lobes)
+    r.lag = -crank_angle / lobes - r.q[load]
+    r.reaction_torque = -r.q[ring] / max(r.housing_compliance, RIGID)
+    r.reducer_temperature = r.temperature
+    stored = r.potential + kinetic_energy(r) - r.stored_energy
+    balance = r.input_energy + r.cage_energy - r.output_energy - r.lost_energy - stored
+    turnover = abs(r.input_energy) + abs(r.output_energy) + abs(stored)
+    r.energy_error = 2.0 * balance / turnover if turnover > 0.0 else 0.0
+    publish_contacts(r)
+
+
+@kernel
+def clear_means(r):
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            r.mesh_force[d, j] = 0.0
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_force[d, c, k] = 0.0
+
+
+@kernel
+def add_means(r, weight):
+    """Trapezoidal rule: last step's forces and these."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            r.mesh_force[d, j] += weight * (r.mesh_force_before[d, j] + r.mesh_force_now[d, j])
+            r.mesh_force_before[d, j] = r.mesh_force_now[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_force[d, c, k] += weight * (r.roller_force_before[d, c, k] + r.roller_force_now[d, c, k])
+                r.roller_force_before[d, c, k] = r.roller_force_now[d, c, k]

@@ -1,0 +1,45 @@
+"""Where the parts of the cranks' joints are, part errors included."""
+
+import math
+
+from fmu_src.kernel import kernel
+
+
+@kernel
+def crank_position(r, c):
+    """Direction of crank c on the carrier [rad]."""
+    return 2.0 * math.pi * c / r.carrier_hole_error_radial.shape[0]
+
+
+@kernel
+def disc_offset(r, d):
+    """Angle by which the lobes of disc d stand ahead of those of disc 0 [rad]."""
+    return 2.0 * math.pi * d / r.disc_hole_error_radial.shape[0]
+
+
+@kernel
+def hole(r, d, c, disc_turn):
+    """Hole for crank c, from the centre of disc d (x, y) [m]."""
+    angle = disc_turn + crank_position(r, c)
+    radial = r.crank_circle_radius + r.disc_hole_error_radial[d, c]
+    tangential = r.disc_hole_error_tangential[d, c]
+    cs, sn = math.cos(angle), math.sin(angle)
+    return radial * cs - tangential * sn, radial * sn + tangential * cs
+
+
+@kernel
+def seat(r, c, carrier_turn):
+    """Seat of crank c, from the centre of the carrier (x, y) [m]."""
+    angle = carrier_turn + crank_position(r, c)
+    radial = r.crank_circle_radius + r.carrier_hole_error_radial[c]
+    tangential = r.carrier_hole_error_tangential[c]
+    cs, sn = math.cos(angle), math.sin(angle)
+    return radial * cs - tangential * sn, radial * sn + tangential * cs
+
+
+@kernel
+def lobe(r, d, c, crank_turn):
+    """Centre of the lobe for disc d, from the centre of crank c (x, y) [m]."""
+    angle = crank_turn + disc_offset(r, d) + r.crank_phase_error[d, c]
+    throw = r.eccentricity + r.crank_eccentricity_error[d, c]
+    return throw * math.cos(angle), throw * math.sin(angle)
