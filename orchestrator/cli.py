@@ -4,6 +4,7 @@ Exit codes: 0 done, 1 a run that failed, 2 bad input, 130 interrupted.
 """
 
 import argparse
+import os
 import sys
 
 from orchestrator import commands
@@ -21,6 +22,10 @@ def main(arguments: list[str] | None = None) -> int:
     except RunFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 1
+    except BrokenPipeError:
+        # The reader has seen enough (rvwear ... | head); keep Python from complaining at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except KeyboardInterrupt:
         print(f"rvwear {options.command}: interrupted", file=sys.stderr)
         return 130
@@ -49,6 +54,7 @@ def parser() -> argparse.ArgumentParser:
     add_reducer_options(life)
     add_coupling_options(life)
     life.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
+    life.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
     life.add_argument("--tolerance", type=float, default=0.01, help="error per jump over wear added (default 0.01)")
     life.add_argument("--first-jump", type=float, default=50.0, help="hours of the first jump (default 50)")
     life.add_argument("--largest-jump", type=float, default=2000.0, help="hours of the longest jump (default 2000)")
@@ -60,6 +66,18 @@ def parser() -> argparse.ArgumentParser:
     start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
     add_json(life)
     life.set_defaults(run=commands.life)
+
+    hysteresis = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
+    add_reducer_options(hysteresis)
+    hysteresis.add_argument("--steps", type=int, default=40, help="torques per quarter of the loop (default 40)")
+    hysteresis.add_argument("--angles", type=int, default=8, help="input angles averaged (default 8)")
+    add_json(hysteresis)
+    hysteresis.set_defaults(run=commands.hysteresis)
+
+    modes = sub.add_parser("modes", help="natural frequencies and mode shapes under load, input held")
+    add_reducer_options(modes)
+    add_json(modes)
+    modes.set_defaults(run=commands.modes)
 
     build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
     build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)

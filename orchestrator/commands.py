@@ -14,9 +14,12 @@ from fmu_src.source_hash import source_hash
 from orchestrator import results, screen
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
 from orchestrator.component import InProcess
+from orchestrator.duty import load_duty
 from orchestrator.faults import InputFault
+from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, as_arrays, live
 from orchestrator.master import Master
+from orchestrator.modes import modes as natural_modes
 from orchestrator.pair import Pair, crank_turn_time, make_pair
 from orchestrator.reducer import Reducer, load_reducer
 from orchestrator.scenario import load_scenario, run_scenario
@@ -122,9 +125,10 @@ def life(options: argparse.Namespace) -> int:
     settings = settings_of(options, reducer)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
     life_settings.check()
+    duty = load_duty(options.duty) if options.duty else ()
     inputs = {
         "reducer": reducer.name, "starts": reducer.starts, "settings": {s.name: s.value for s in settings},
-        "life": vars(life_settings).copy(), "scheme": options.scheme, "positions": positions,
+        "life": vars(life_settings).copy(), "duty": [vars(s) for s in duty], "scheme": options.scheme, "positions": positions,
         "units": "fmu" if options.fmus else "in process", "source_hash": source_hash(),
     }  # fmt: skip
     path = Path(options.output or f"results/{reducer.name}_life.nc")
@@ -135,7 +139,7 @@ def life(options: argparse.Namespace) -> int:
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
     with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
-        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty)
     lived = Life(life_settings)
     first_orders = results.order_spectrum(pair, 0.0)
     if resume:
@@ -192,6 +196,40 @@ def show_life(options: argparse.Namespace, dataset: xr.Dataset, path: Path) -> i
         print(f"result  {path}")
         if not options.no_report:
             print(f"report  {page}")
+    return 0
+
+
+def hysteresis(options: argparse.Namespace) -> int:
+    """``rvwear hysteresis``: the standard stiffness test."""
+    if options.steps < 4 or options.angles < 1:
+        raise InputFault(f"steps = {options.steps}, angles = {options.angles}: at least 4 and 1 are needed")
+    reducer = load_reducer(options.reducer)
+    with screen.busy("loading torques at locked input"):
+        loop = measure_hysteresis(reducer, settings_of(options, reducer), options.steps, options.angles)
+    figures = {
+        "rated_torque_Nm": float(loop.torque.max()),
+        "lost_motion_arcmin": loop.lost_motion_arcmin,
+        "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
+        "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,
+        "loop_area_Nm_arcmin": loop.loop_area_Nm_arcmin,
+    }
+    if options.json:
+        curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
+        print_json({"reducer": reducer.name} | figures | curve)
+    else:
+        screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
+    return 0
+
+
+def modes(options: argparse.Namespace) -> int:
+    """``rvwear modes``: natural frequencies about the loaded equilibrium."""
+    reducer = load_reducer(options.reducer)
+    with screen.busy("linearising the plant in motion"):
+        found = natural_modes(reducer, settings_of(options, reducer))
+    if options.json:
+        print_json({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+    else:
+        screen.modes(f"{reducer.name}: modes under load, input held", found)
     return 0
 
 

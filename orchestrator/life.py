@@ -122,7 +122,18 @@ def signed_degrees(angle: float) -> float:
 
 
 def run_cycle(pair: Pair, hours: float) -> None:
-    """One full meshing cycle that counts as ``hours``."""
+    """One full meshing cycle that counts as ``hours``; with a duty, one per segment by its share."""
+    if not pair.duty:
+        count_cycle(pair, hours)
+        return
+    for segment in pair.duty:
+        pair.set_operation(segment.speed, segment.torque)
+        count_cycle(pair, hours * segment.share)
+    pair.set_operation(pair.duty[0].speed, pair.duty[0].torque)
+
+
+def count_cycle(pair: Pair, hours: float) -> None:
+    """One full meshing cycle at the present speed and torque."""
     steps = pair.reducer.topology.lobes * pair.positions
     pair.wear.set("acceleration", hours * HOUR / (steps * pair.master.step_size))
     pair.master.run(steps)

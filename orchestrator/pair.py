@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from orchestrator.component import Component, InProcess
+from orchestrator.duty import Segment
 from orchestrator.faults import InputFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
@@ -32,6 +33,7 @@ class Pair:
     plant: Component
     wear: Component
     positions: int
+    duty: tuple[Segment, ...] = ()
 
     @property
     def turn_time(self) -> float:
@@ -42,6 +44,19 @@ class Pair:
         """Equilibria per crank turn from now on."""
         self.positions = positions
         self.master.rebase(self.turn_time / positions)
+
+
+    def set_operation(self, speed: float, torque: float) -> None:
+        """Other input speed [rad/s] and output torque [N m] from now on, the same positions per turn.
+
+        Two positions are run without wear, so that the profile errors exchanged are those of
+        the new step.
+        """
+        self.plant.set("input_speed", speed)
+        self.plant.set("load_torque", torque)
+        self.wear.set("acceleration", 0.0)
+        self.master.rebase(self.turn_time / self.positions)
+        self.master.run(2)
 
 
 def crank_turn_time(reducer: Reducer, plant: Component) -> float:
@@ -68,6 +83,7 @@ def make_pair(
     fmus: Path | None = None,
     scheme: str = "gauss-seidel",
     positions: int = POSITIONS_PER_TURN,
+    duty: tuple[Segment, ...] = (),
 ) -> Pair:
     """Initialised pair of a reducer: in this process, or as FMUs from the folder ``fmus``."""
     if fmus is None:
@@ -85,4 +101,7 @@ def make_pair(
         # Each unit then sees the other one step later than with Gauss-Seidel.
         wear.set("contact_lead", 2.0)
     master.initialise()
-    return Pair(reducer, master, plant, wear, positions)
+    pair = Pair(reducer, master, plant, wear, positions, duty)
+    if duty:
+        pair.set_operation(duty[0].speed, duty[0].torque)
+    return pair

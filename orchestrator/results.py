@@ -20,7 +20,7 @@ LIBRARIES = ("numba", "llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu
 # Unit and meaning of the figures' name endings.
 FIGURE_UNITS = {
     "_N": "N", "_Nm": "N.m", "_MPa": "MPa", "_arcsec": "arcsec", "_um": "um", "_deg": "deg", "_mm_s": "mm/s",
-    "_per_arcmin": "N.m/arcmin",
+    "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_Nm_arcmin": "N.m.arcmin",
 }  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 
 from orchestrator.life import Life
+from orchestrator.modes import Mode
 from orchestrator.results import figure_unit
 
 errors = Console(stderr=True)
@@ -108,3 +109,15 @@ def life_table(dataset: xr.Dataset) -> None:
         table.add_row(f"{hours:.0f}", *cells)
     # Wide enough for all columns, also where the output goes to a file.
     Console(width=max(Console().width, 130)).print(table)
+
+
+def modes(title: str, found: list[Mode]) -> None:
+    """Frequency, damping and the bodies that move."""
+    table = Table(title=title, title_justify="left")
+    for head in ("frequency Hz", "damping %", "kinetic energy in"):
+        table.add_column(head, justify="left" if "energy" in head else "right")
+    for mode in found:
+        shares = sorted(mode.energy_share.items(), key=lambda item: -item[1])
+        bodies = ", ".join(f"{body} {100 * share:.0f} %" for body, share in shares if share > 0.02)
+        table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", bodies)
+    Console().print(table)

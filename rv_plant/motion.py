@@ -221,3 +221,9 @@ def add_means(r, weight):
             for k in range(rollers):
                 r.roller_force[d, c, k] += weight * (r.roller_force_before[d, c, k] + r.roller_force_now[d, c, k])
                 r.roller_force_before[d, c, k] = r.roller_force_now[d, c, k]
+
+
+@kernel
+def linearise(records, rate_weight):
+    """Fill the tangent at the present places and velocities: stiffness + rate_weight damping."""
+    assemble_motion(records[0], rate_weight)

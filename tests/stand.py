@@ -93,3 +93,21 @@ def gradient(function, place, lengths):
         far = function(place + 2.0 * away) - function(place - 2.0 * away)
         rows.append((8.0 * near - far) / (12.0 * length))
     return np.array(rows)
+
+
+def in_motion(table, **values):
+    """The plant's records with fidelity = dynamic, initialised."""
+    records = records_of(table, fidelity=1, **values)
+    status = plant.initialise(records)
+    assert status == 0, plant.FAULTS[status]
+    return records
+
+
+def run_motion(records, duration, count):
+    """Copies of the record after each of ``count`` equal communication steps through ``duration`` [s]."""
+    series = []
+    for i in range(count):
+        status = plant.step(records, i * duration / count, duration / count)
+        assert status == 0, (i, plant.FAULTS[status])
+        series.append(only(records).copy())
+    return series
