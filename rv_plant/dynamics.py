@@ -20,6 +20,7 @@ import math
 from fmu_src.kernel import kernel
 
 from rv_plant.assembly import clear
+from rv_plant.constraints import COMPLIANT
 from rv_plant.gear_stage import planet_radius
 from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import roller_contacts
@@ -177,10 +178,30 @@ def tooth_contact(r, c, rate_weight):
 
 
 @kernel
+def joint_springs(r, rate_weight):
+    """Crank supports, main bearing, housing and output shaft."""
+    discs, cranks = r.roller_force.shape[:2]
+    carrier, ring = 3 * discs, ring_coordinate(r)
+    load = ring + 2
+    q, index, gradient = r.q, r.joint_index, r.joint_gradient
+    for c in range(cranks):
+        crank_support(r, c, rate_weight)
+    gradient[0] = 1.0
+    for i in range(2):
+        index[0] = carrier + 1 + i
+        spring(r, index, gradient, 1, q[carrier + 1 + i], r.main_bearing_compliance, rate_weight)
+    index[0] = ring
+    spring(r, index, gradient, 1, q[ring], r.housing_compliance, rate_weight)
+    index[0], index[1], gradient[1] = carrier, load, -1.0
+    spring(r, index, gradient, 2, q[carrier] - q[load], r.carrier_compliance, rate_weight)
+
+
+@kernel
 def assemble_motion(r, rate_weight):
     """Gradient and tangent at r.q, r.v; fills contact forces, potential energy and dissipation.
 
     The tangent is d(gradient)/dq + rate_weight d(gradient)/dv, upper triangle.
+    Joints add their springs unless constraints stand for them.
     """
     discs, cranks = r.roller_force.shape[:2]
     lobes = r.lobe_pitch_error.shape[1]
@@ -203,7 +224,6 @@ def assemble_motion(r, rate_weight):
         for c in range(cranks):
             bearing_in_motion(r, d, c, cage_speed, rate_weight)
     for c in range(cranks):
-        crank_support(r, c, rate_weight)
         if r.first_stage_ratio > 0.0:
             tooth_contact(r, c, rate_weight)
     index, gradient = r.joint_index, r.joint_gradient
@@ -214,12 +234,7 @@ def assemble_motion(r, rate_weight):
         for c in range(cranks):
             index[0], index[1] = carrier + 5 + 3 * c, sun
             spring(r, index, gradient, 2, q[index[0]] - q[sun], 0.0, rate_weight)
-    for i in range(2):
-        index[0] = carrier + 1 + i
-        spring(r, index, gradient, 1, q[carrier + 1 + i], r.main_bearing_compliance, rate_weight)
-    index[0] = ring
-    spring(r, index, gradient, 1, q[ring], r.housing_compliance, rate_weight)
-    index[0], index[1], gradient[1] = carrier, load, -1.0
-    spring(r, index, gradient, 2, q[carrier] - q[load], r.carrier_compliance, rate_weight)
+    if r.joints == COMPLIANT:
+        joint_springs(r, rate_weight)
     r.residual_vector[load] += r.load_torque
     r.residual_vector[sun] -= r.input_torque

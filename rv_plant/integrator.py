@@ -12,7 +12,8 @@ error and is repeated shorter.
 
 from fmu_src.kernel import kernel
 
-from rv_plant.dynamics import assemble_motion
+from rv_plant.constraints import COMPLIANT, CONSTRAINED, constrained_direction, start_multipliers
+from rv_plant.dynamics import RIGID, assemble_motion
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import ring_coordinate
 
@@ -29,6 +30,8 @@ def keep_start(r):
         r.v_start[i] = r.v[i]
         r.acceleration_start[i] = r.acceleration[i]
         r.smooth_start[i] = r.smooth[i]
+    for i in range(r.multiplier.shape[0]):
+        r.multiplier_start[i] = r.multiplier[i]
 
 
 @kernel
@@ -38,6 +41,8 @@ def back_to_start(r):
         r.v[i] = r.v_start[i]
         r.acceleration[i] = r.acceleration_start[i]
         r.smooth[i] = r.smooth_start[i]
+    for i in range(r.multiplier.shape[0]):
+        r.multiplier[i] = r.multiplier_start[i]
 
 
 @kernel
@@ -48,6 +53,18 @@ def driven_coordinate(r):
 
 @kernel
 def settle(r):
+    """Find the start of the motion; constraints start where very stiff joints would be."""
+    joints = r.joints
+    r.joints = COMPLIANT
+    settled = settle_on_springs(r)
+    r.joints = joints
+    if settled and joints == CONSTRAINED:
+        start_multipliers(r, RIGID)
+    return settled
+
+
+@kernel
+def settle_on_springs(r):
     """Move the bodies, sun held, to where all forces balance the given accelerations; True if found.
 
     Joints that statics takes as rigid get their small deflection here.
@@ -130,7 +147,11 @@ def alpha_step(r, h, drive_speed, drive_acceleration):
                 r.factor[a, b] = r.tangent[i, r.unknown[b]]
             r.factor[a, a] += r.mass[i] * q_weight
             r.factor_scale[a] = max(r.factor[a, a], 1e-30)
-        if not cholesky_solve(r.factor, r.direction, r.factor_scale, free, 0.0):
+        if r.joints == CONSTRAINED:
+            solved = constrained_direction(r, free, q_weight, v_weight)
+        else:
+            solved = cholesky_solve(r.factor, r.direction, r.factor_scale, free, 0.0)
+        if not solved:
             return -1.0
         for a in range(free):
             i = r.unknown[a]

@@ -8,6 +8,7 @@ import math
 
 from fmu_src.kernel import kernel
 
+from rv_plant.constraints import CONSTRAINED, largest_drift
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import (
@@ -189,7 +190,11 @@ def publish_motion(r):
     r.output_angle, r.output_speed = r.q[load], r.v[load]
     r.transmission_error = r.q[load] - r.q[sun] / total_ratio(r.first_stage_ratio, pins, lobes)
     r.lag = -crank_angle / lobes - r.q[load]
-    r.reaction_torque = -r.q[ring] / max(r.housing_compliance, RIGID)
+    if r.joints == CONSTRAINED:
+        r.reaction_torque = -r.multiplier[2 * cranks + 2]
+        r.constraint_drift = largest_drift(r)
+    else:
+        r.reaction_torque = -r.q[ring] / max(r.housing_compliance, RIGID)
     r.reducer_temperature = r.temperature
     stored = r.potential + kinetic_energy(r) - r.stored_energy
     balance = r.input_energy + r.cage_energy - r.output_energy - r.lost_energy - stored

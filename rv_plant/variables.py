@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fmu_src.variables import Table, Variable
 
 from rv_plant.assembly import coordinate_count
+from rv_plant.constraints import constraint_count
 from rv_plant.contact import DAMPINGS, LAWS, READINGS, STEP
 
 FILE = "reducer file"
@@ -28,7 +29,7 @@ def plant_table(topology: Topology) -> Table:
     mesh, bearing = (t.discs, t.pins), (t.discs, t.cranks)
     roller = (*bearing, t.rollers)
     mesh_axes, bearing_axes, roller_axes = ("disc", "pin"), ("disc", "crank"), ("disc", "crank", "roller")
-    z = coordinate_count(t.discs, t.cranks)
+    z, m = coordinate_count(t.discs, t.cranks), constraint_count(t.cranks)
 
     inputs = [
         Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
@@ -140,6 +141,10 @@ def plant_table(topology: Topology) -> Table:
         deviation("tooth_error", "profile error of the first stage, amplitude at mesh order", (), ()),
         Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
                  maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+        Variable("joints", "parameter", "1", "joints in motion: springs, or constraints with multipliers (then rigid)", 0,
+                 choices=("compliant", "constrained"), source="needle-bearing document has constraints"),
+        Variable("baumgarte_rate", "parameter", "1/s", "rate at which drift of a constraint is pulled back", 1e4,
+                 minimum=0.0, maximum=1e8, nominal=1e4, source="assumed: faster than the cranks, slower than a step"),
         Variable("spectral_radius", "parameter", "1", "what the integrator leaves of frequencies far above its step",
                  0.5, minimum=0.0, maximum=1.0, source="assumed: between none and all"),
         Variable("dynamic_tolerance", "parameter", "1", "local error of a step over a deflection of 1 um", 3e-3,
@@ -195,6 +200,7 @@ def plant_table(topology: Topology) -> Table:
         output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
         output("power_loss", "W", "mean power lost in the last communication step, in motion"),
         output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
+        output("constraint_drift", "m", "largest violation of a joint's constraint (turnings in rad)"),
         output("residual", "1", "out-of-balance force over load at the last equilibrium"),
         output("iterations", "1", "equilibrium iterations of the last angle", integer=True),
         output("substeps", "1", "equilibria in the last communication step", integer=True),
@@ -217,6 +223,7 @@ def plant_table(topology: Topology) -> Table:
         state("smooth", "1", "the integrator's acceleration", (z + 2,), ("coordinate",)),
         state("mass", "1", "mass or inertia of each coordinate", (z + 2,), ("coordinate",)),
         state("length_scale", "1", "small change of each coordinate", (z + 2,), ("coordinate",)),
+        state("multiplier", "N", "forces of the joints' constraints (moments in N m)", (m,), ("constraint",)),
         state("drive_speed", "rad/s", "input speed at the last communication point"),
         state("internal_step", "s", "next step of the integrator"),
         state("mesh_force_before", "N", "force one internal step earlier", mesh, mesh_axes),
@@ -257,6 +264,9 @@ def plant_table(topology: Topology) -> Table:
         scratch("factor_scale", (z + 2,)), scratch("direction", (z + 2,)),
         scratch("mesh_rate", mesh), scratch("roller_rate", roller), scratch("joint_index", (5,), integer=True),
         scratch("unknown", (z + 2,), integer=True),
+        scratch("constraint", (m,)), scratch("constraint_rate", (m,)), scratch("constraint_bias", (m,)),
+        scratch("constraint_jacobian", (m, z + 2)), scratch("multiplier_step", (m,)), scratch("multiplier_start", (m,)),
+        scratch("schur", (m, m)), scratch("schur_scale", (m,)), scratch("schur_columns", (m, z + 2)),
         scratch("joint_gradient", (5,)), scratch("q_start", (z + 2,)), scratch("v_start", (z + 2,)),
         scratch("acceleration_start", (z + 2,)), scratch("smooth_start", (z + 2,)),
         scratch("mesh_phase", mesh), scratch("centre_curvature", mesh),
