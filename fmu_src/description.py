@@ -6,6 +6,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from fmu_src.unit import LOG_CATEGORIES
 from fmu_src.units import fmi_base_unit
 from fmu_src.variables import Table, Variable
 
@@ -46,15 +47,6 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
     SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(72 * step_size), stepSize=repr(step_size))
     add_variables(root, table, variables)
     return root
-
-
-LOG_CATEGORIES = {
-    "logStatusWarning": "values that were accepted but are doubtful",
-    "logStatusDiscard": "steps that could not be done",
-    "logStatusError": "errors: which unit, when, and the remedy",
-    "logStatusFatal": "errors that end the unit",
-    "logAll": "all messages",
-}
 
 
 def add_units(root: Element, variables: list[Variable]) -> None:

@@ -15,6 +15,8 @@ from fmu_src.native import host_triple, object_code
 from fmu_src.slaves.kernel_slave import OBJECT_CODE, STAMP
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, source_hash
 
+# pythonfmu's builder writes its own defaults over the description unless told so.
+CAPABILITIES = ("--no-external-tool", "--handle-state", "--serialize-state")
 # The earliest time a zip archive can hold.
 EPOCH = (1980, 1, 1, 0, 0, 0)
 
@@ -45,7 +47,7 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         (folder / OBJECT_CODE).write_bytes(object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
         # In a process of its own: pythonfmu imports the slave and leaves it in sys.modules.
-        command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *contents]
+        command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *CAPABILITIES, *contents]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")

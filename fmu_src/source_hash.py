@@ -20,3 +20,8 @@ def source_hash(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) 
         digest.update(path.relative_to(root).as_posix().encode() + b"\0")
         digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()
+
+
+# Of the modules that this process runs; taken now, because an importer may delete the
+# folder that they came from.
+LOADED_HASH = source_hash()

@@ -13,6 +13,14 @@ import numpy as np
 
 from fmu_src.variables import Table
 
+LOG_CATEGORIES = {
+    "logStatusWarning": "values that were accepted but are doubtful",
+    "logStatusDiscard": "steps that could not be done",
+    "logStatusError": "errors: which unit, when, and the remedy",
+    "logStatusFatal": "errors that end the unit",
+    "logAll": "all messages",
+}
+
 
 class UnitFault(RuntimeError):
     """A unit that refused to initialise or to step; the text says what, where and the remedy."""

@@ -143,6 +143,22 @@ class Table:
                 lowest[cells], highest[cells] = 0, len(v.choices) - 1
         return lowest, highest
 
+    @cached_property
+    def integer_cells(self) -> np.ndarray:
+        """Which interface cells hold integers."""
+        mask = np.zeros(self.interface_cells, bool)
+        for v in self.interface():
+            mask[self.cell_range(v.name)] = v.is_integer
+        return mask
+
+    @cached_property
+    def fixed_cells(self) -> np.ndarray:
+        """Which interface cells may not be set once the unit is initialised."""
+        mask = np.zeros(self.interface_cells, bool)
+        for v in self.of_role("parameter"):
+            mask[self.cell_range(v.name)] = not v.tunable
+        return mask
+
     def of_role(self, *roles: str) -> list[Variable]:
         return [v for v in self.variables if v.role in roles]
 

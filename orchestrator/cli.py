@@ -7,6 +7,8 @@ import argparse
 import os
 import sys
 
+from fmu_src.native import NativeFault
+from fmu_src.package import PackageFault
 from orchestrator import commands
 from orchestrator.faults import InputFault, RunFault
 from orchestrator.reducer import available
@@ -19,13 +21,16 @@ def main(arguments: list[str] | None = None) -> int:
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
-    except RunFault as fault:
+    except (RunFault, PackageFault, NativeFault) as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 1
     except BrokenPipeError:
         # The reader has seen enough (rvwear ... | head); keep Python from complaining at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as problem:
+        print(f"rvwear {options.command}: {problem}; choose another place for input or output", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print(f"rvwear {options.command}: interrupted", file=sys.stderr)
         return 130

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -77,7 +78,9 @@ def solve(options: argparse.Namespace) -> int:
 def run(options: argparse.Namespace) -> int:
     """``rvwear run``: a scenario file, or the pair of a reducer."""
     if options.scenario:
+        refuse_pair_options(options)
         scenario = load_scenario(options.scenario)
+        path = result_path(options.output, scenario.name)
         with screen.Progress(scenario.steps, "steps") as progress:
             series = run_scenario(scenario, progress.advance)
         units = {f"{name}.{signal}": scenario.master.components[name].signal(signal).unit
@@ -88,6 +91,9 @@ def run(options: argparse.Namespace) -> int:
         positions = require_positions(options.positions)
         reducer = load_reducer(options.reducer)
         settings = settings_of(options, reducer)
+        path = result_path(options.output, f"{reducer.name}_run")
+        if not 0.0 < options.turns <= 1e5:
+            raise InputFault(f"turns = {options.turns}: between one position ({1 / positions:.3g} turns) and 100,000")
         pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
         pair.wear.set("acceleration", options.acceleration)
         steps = round(options.turns * positions)
@@ -103,7 +109,6 @@ def run(options: argparse.Namespace) -> int:
                   "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
                   "parameters": {"plant": results.parameters_of(pair.plant), "wear": results.parameters_of(pair.wear)}}
         pair.master.close()
-    path = Path(options.output or f"results/{name}.nc")
     results.write(results.series_dataset(series, units, inputs), path)
     summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
     summary |= {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
@@ -112,6 +117,28 @@ def run(options: argparse.Namespace) -> int:
     else:
         screen.figures(f"{name}: values at the end (largest of an array)", summary)
     return 0
+
+
+def result_path(text: str | None, name: str) -> Path:
+    """Where a result goes; checked before the work, so that none is lost."""
+    path = Path(text or f"results/{name}.nc")
+    if path.suffix != ".nc":
+        raise InputFault(f"--output {path}: a result is a NetCDF file; give a name that ends in .nc")
+    if path.is_dir():
+        raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not os.access(path.parent, os.W_OK):
+        raise InputFault(f"--output {path}: the folder {path.parent} cannot be written to")
+    return path
+
+
+def refuse_pair_options(options: argparse.Namespace) -> None:
+    """A scenario file says all: options of the pair beside it would be ignored."""
+    given = [f"--{name.replace('_', '-')}" for name in (*SHORTHANDS, "set", "fmus") if getattr(options, name)]
+    given += [f"--{name}" for name, usual in (("turns", 1.0), ("acceleration", 1.0), ("positions", 72),
+                                              ("scheme", "gauss-seidel")) if getattr(options, name) != usual]
+    if given:
+        raise InputFault(f"{', '.join(given)} with a scenario file: set it in the file, or leave the file out")
 
 
 def folder(text: str | None) -> Path | None:
@@ -131,7 +158,9 @@ def life(options: argparse.Namespace) -> int:
         "life": vars(life_settings).copy(), "duty": [vars(s) for s in duty], "scheme": options.scheme, "positions": positions,
         "units": "fmu" if options.fmus else "in process", "source_hash": source_hash(),
     }  # fmt: skip
-    path = Path(options.output or f"results/{reducer.name}_life.nc")
+    path = result_path(options.output, f"{reducer.name}_life")
+    if any(setting.name == "acceleration" for setting in settings):
+        raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
     checkpoint = path.with_suffix(".checkpoint")
     if options.reuse and (known := known_result(path, inputs)) is not None:
         return show_life(options, known, path)
@@ -272,7 +301,11 @@ def report(options: argparse.Namespace) -> int:
     if not path.is_file():
         raise InputFault(f"no result file at {path}; rvwear life writes one")
     page = Path(options.output) if options.output else path.with_suffix(".html")
-    write_report(results.read(path), page)
+    try:
+        dataset = results.read(path)
+    except (OSError, ValueError) as problem:
+        raise InputFault(f"{path} is not a result of rvwear life: {problem}") from None
+    write_report(dataset, page)
     print(page)
     return 0
 

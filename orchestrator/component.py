@@ -67,7 +67,10 @@ class Component(ABC):
         """Set a parameter or input; a scalar given for an array fills it."""
         signal = self.signal(name)
         buffer = np.empty(len(signal.references), "i8" if signal.is_integer else "f8")
-        buffer[:] = np.broadcast_to(value, signal.shape).ravel() if signal.shape else value
+        try:
+            buffer[:] = np.broadcast_to(value, signal.shape).ravel() if signal.shape else value
+        except (ValueError, OverflowError) as problem:
+            raise InputFault(f"{self.name}.{name} = {value!r}: {problem}") from None
         self.writer(signal.references, buffer)()
 
     @abstractmethod

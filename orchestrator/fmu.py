@@ -22,7 +22,7 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
-from fmu_src.slaves.kernel_slave import STAMP, STATE_MARK
+from fmu_src.slaves.kernel_slave import STAMP, state_mark
 from fmu_src.source_hash import source_hash
 from fmu_src.unit import make_unit
 from orchestrator.component import Component, Signal
@@ -37,7 +37,10 @@ class Fmu(Component):
         self.path = Path(path)
         if not self.path.is_file():
             raise InputFault(f"no FMU at {self.path}; build it with: rvwear build")
-        self.description = fmpy.read_model_description(str(self.path))
+        try:
+            self.description = fmpy.read_model_description(str(self.path))
+        except Exception as problem:
+            raise InputFault(f"{self.path} is not an FMU: {problem}") from None
         if self.description.coSimulation is None or self.description.fmiVersion != "2.0":
             raise InputFault(f"{self.path}: only FMI 2.0 co-simulation units can be stepped")
         self.folder = Path(fmpy.extract(str(self.path)))
@@ -162,7 +165,9 @@ class Fmu(Component):
     def record(self):
         table = make_unit(self.specification()).table
         records = table.new_records()
-        table.cells(records)[: table.state_cells] = np.frombuffer(self.save(), "f8", offset=len(STATE_MARK))
+        table.cells(records)[: table.state_cells] = np.frombuffer(
+            self.save(), "f8", offset=len(state_mark(self.description.guid))
+        )
         return records
 
     def close(self):

@@ -158,8 +158,8 @@ def jump(pair: Pair, hours: float) -> float:
     run_cycle(pair, 0.5 * hours)
     halves = depths(pair)
     added = halves - before
-    worn = added > 0.0
-    return float(np.max(np.abs(whole - halves)[worn] / added[worn], initial=0.0))
+    # Wear below a picometre is rounding, no wear.
+    return float(np.max(np.abs(whole - halves) / np.maximum(added, 1e-6)))
 
 
 def controlled_jump(pair: Pair, life: Life, hours: float) -> tuple[float, float, float]:
@@ -193,7 +193,7 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
     settings = life.settings
     if not life.hours:
         life.note(pair, 0.0)
-        life.next_jump = settings.first_jump
+        life.next_jump = min(settings.first_jump, settings.largest_jump)
         keep(life)
     while life.hours[-1] < settings.hours * (1.0 - 1e-9):
         left = settings.hours - life.hours[-1]

@@ -94,6 +94,10 @@ def make_pair(
         require_built_from(reducer, plant, "rv_plant")
         require_built_from(reducer, wear, "wear_fmu")
     components = {"plant": plant, "wear": wear}
+    connected = {target.partition(".")[2] for _, target in CONNECTIONS} - {"temperature"}
+    for setting in settings:
+        if setting.name.partition("[")[0] in connected:
+            raise InputFault(f"{setting.name} is exchanged by the two units; a setting of it would have no effect")
     apply(list(settings), components)
     step = crank_turn_time(reducer, plant) / positions
     master = Master(components, CONNECTIONS, step, scheme=scheme)

@@ -18,7 +18,7 @@ import rv_plant
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from orchestrator.faults import InputFault
-from rv_plant.variables import Topology, plant_table
+from rv_plant.variables import FILE, Topology, plant_table
 from wear_fmu.variables import Resolution, wear_table
 
 LIBRARY = Path(rv_plant.__file__).parent / "reducers"
@@ -36,8 +36,12 @@ class Entry(Strict):
     source: str = Field(min_length=1)
 
 
+# A name becomes part of file names.
+NAME = r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$"
+
+
 class Head(Strict):
-    name: str = Field(min_length=1)
+    name: str = Field(pattern=NAME)
     description: str = ""
 
 
@@ -121,6 +125,9 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
                 raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
             starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
             sources[key] = entry.source
+    missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
+    if missing:
+        raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     return Reducer(head.name, head.description, topology, starts, sources, path)
 
 

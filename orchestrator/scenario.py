@@ -32,7 +32,7 @@ from orchestrator.component import Component, InProcess
 from orchestrator.faults import InputFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
-from orchestrator.reducer import Strict, load_reducer
+from orchestrator.reducer import NAME, Strict, load_reducer
 from orchestrator.settings import parse_value
 
 
@@ -42,7 +42,7 @@ class Quantity(Strict):
 
 
 class ScenarioHead(Strict):
-    name: str = Field(min_length=1)
+    name: str = Field(pattern=NAME)
     step: Quantity
     duration: Quantity
     start: Quantity = Quantity(value=0.0, unit="s")
@@ -85,10 +85,10 @@ def load_scenario(path: str | Path) -> Scenario:
     path = Path(path)
     if not path.is_file():
         raise InputFault(f"no scenario file at {path}")
-    text = path.read_text(encoding="utf-8")
     try:
+        text = path.read_text(encoding="utf-8")
         content = ScenarioFile(**tomllib.loads(text))
-    except tomllib.TOMLDecodeError as problem:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}") from None
     except ValidationError as problem:
         first = problem.errors()[0]
@@ -98,8 +98,10 @@ def load_scenario(path: str | Path) -> Scenario:
     step, duration, start = (
         seconds(getattr(head, key), f"{path}: scenario.{key}") for key in ("step", "duration", "start")
     )
-    if not step > 0.0 or not duration >= step:
-        raise InputFault(f"{path}: step = {step} s, duration = {duration} s: both positive, duration not below step")
+    if not step > 0.0 or not step <= duration <= 1e7 * step:
+        raise InputFault(
+            f"{path}: step = {step} s, duration = {duration} s: both positive, from one to ten million steps"
+        )
     components = {
         name: make_component(name, entry, path) for name, entry in content.components.items()
     }

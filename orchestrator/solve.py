@@ -114,6 +114,6 @@ def sliding_speeds(reducer: Reducer, plant: Component) -> tuple[float, float]:
 
 def require_positions(positions: int) -> int:
     """A turn needs at least eight positions to be averaged."""
-    if positions < 8:
-        raise InputFault(f"positions = {positions}: at least 8 per crank turn are needed; 72 is usual")
+    if not 8 <= positions <= 100_000:
+        raise InputFault(f"positions = {positions}: at least 8 per crank turn are needed (72 is usual), at most 100000")
     return positions

@@ -15,7 +15,7 @@ from rv_plant.linear import cholesky_apply, cholesky_factor
 from rv_plant.mesh import ring_coordinate
 from rv_plant.poses import seat
 
-COMPLIANT, CONSTRAINED = 0, 1
+COMPLIANT, CONSTRAINED, SETTLING = range(3)
 
 
 def constraint_count(cranks: int) -> int:

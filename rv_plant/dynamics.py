@@ -20,14 +20,14 @@ import math
 from fmu_src.kernel import kernel
 
 from rv_plant.assembly import clear
-from rv_plant.constraints import COMPLIANT
+from rv_plant.constraints import CONSTRAINED, SETTLING
 from rv_plant.gear_stage import planet_radius
 from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
 
-# Stand for rigid: joints [m/N, rad/(N m)], a thousandth of the stiffest contact's
-# compliance; teeth [m/N], whose small force would make a stiffer contact chatter.
+# Stand for rigid: joints [m/N, rad/(N m)], below a thousandth of the stiffest
+# contact's compliance; teeth [m/N], whose small force would make a stiffer contact chatter.
 RIGID = 1e-12
 RIGID_TOOTH = 1e-10
 
@@ -100,7 +100,7 @@ def bearing_in_motion(r, d, c, cage_speed, rate_weight):
 
 
 @kernel
-def crank_support(r, c, rate_weight):
+def crank_support(r, c, compliance, rate_weight):
     """Bearings of crank c in the carrier: the same spring along x and y."""
     carrier = 3 * r.roller_force.shape[0]
     crank = carrier + 3 + 3 * c
@@ -110,10 +110,10 @@ def crank_support(r, c, rate_weight):
     # Carrier turning, x or y, crank x or y.
     index[0], index[1], index[2] = carrier, carrier + 1, crank
     gradient[0], gradient[1], gradient[2] = ay, -1.0, 1.0
-    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, r.crank_support_compliance, rate_weight)
+    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, compliance, rate_weight)
     index[1], index[2] = carrier + 2, crank + 1
     gradient[0] = -ax
-    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, r.crank_support_compliance, rate_weight)
+    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, compliance, rate_weight)
     r.tangent[carrier, carrier] += pull_x * ax + pull_y * ay
 
 
@@ -184,16 +184,18 @@ def joint_springs(r, rate_weight):
     carrier, ring = 3 * discs, ring_coordinate(r)
     load = ring + 2
     q, index, gradient = r.q, r.joint_index, r.joint_gradient
+    # Constraints start from where joints stand that are as good as rigid.
+    soft = 0.0 if r.joints == SETTLING else 1.0
     for c in range(cranks):
-        crank_support(r, c, rate_weight)
+        crank_support(r, c, soft * r.crank_support_compliance, rate_weight)
     gradient[0] = 1.0
     for i in range(2):
         index[0] = carrier + 1 + i
-        spring(r, index, gradient, 1, q[carrier + 1 + i], r.main_bearing_compliance, rate_weight)
+        spring(r, index, gradient, 1, q[carrier + 1 + i], soft * r.main_bearing_compliance, rate_weight)
     index[0] = ring
-    spring(r, index, gradient, 1, q[ring], r.housing_compliance, rate_weight)
+    spring(r, index, gradient, 1, q[ring], soft * r.housing_compliance, rate_weight)
     index[0], index[1], gradient[1] = carrier, load, -1.0
-    spring(r, index, gradient, 2, q[carrier] - q[load], r.carrier_compliance, rate_weight)
+    spring(r, index, gradient, 2, q[carrier] - q[load], soft * r.carrier_compliance, rate_weight)
 
 
 @kernel
@@ -234,7 +236,7 @@ def assemble_motion(r, rate_weight):
         for c in range(cranks):
             index[0], index[1] = carrier + 5 + 3 * c, sun
             spring(r, index, gradient, 2, q[index[0]] - q[sun], 0.0, rate_weight)
-    if r.joints == COMPLIANT:
+    if r.joints != CONSTRAINED:
         joint_springs(r, rate_weight)
     r.residual_vector[load] += r.load_torque
     r.residual_vector[sun] -= r.input_torque

@@ -12,7 +12,7 @@ error and is repeated shorter.
 
 from fmu_src.kernel import kernel
 
-from rv_plant.constraints import COMPLIANT, CONSTRAINED, constrained_direction, start_multipliers
+from rv_plant.constraints import CONSTRAINED, SETTLING, constrained_direction, start_multipliers
 from rv_plant.dynamics import RIGID, assemble_motion
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import ring_coordinate
@@ -55,7 +55,8 @@ def driven_coordinate(r):
 def settle(r):
     """Find the start of the motion; constraints start where very stiff joints would be."""
     joints = r.joints
-    r.joints = COMPLIANT
+    if joints == CONSTRAINED:
+        r.joints = SETTLING
     settled = settle_on_springs(r)
     r.joints = joints
     if settled and joints == CONSTRAINED:

@@ -101,7 +101,8 @@ def start_motion(r):
         pressed = 0.0
         for c in range(cranks):
             pressed += abs(r.tooth_force[c]) / cranks * max(r.first_stage_compliance, RIGID_TOOTH)
-        ahead = 0.5 * r.backlash + pressed / math.cos(r.pressure_angle)
+        error = r.tooth_error * math.cos(r.sun_teeth * (q[ring + 1] - q[carrier]))
+        ahead = 0.5 * r.backlash + error + pressed / math.cos(r.pressure_angle)
         q[ring + 1] += side * ahead / (small * math.cos(r.pressure_angle))
     q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
     v[ring + 2] = speed
@@ -194,7 +195,7 @@ def publish_motion(r):
         r.reaction_torque = -r.multiplier[2 * cranks + 2]
         r.constraint_drift = largest_drift(r)
     else:
-        r.reaction_torque = -r.q[ring] / max(r.housing_compliance, RIGID)
+        r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.housing_compliance, RIGID)
     r.reducer_temperature = r.temperature
     stored = r.potential + kinetic_energy(r) - r.stored_energy
     balance = r.input_energy + r.cage_energy - r.output_energy - r.lost_energy - stored

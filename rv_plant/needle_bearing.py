@@ -60,7 +60,7 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
                 r.potential += elastic * approach / (r.roller_exponent + 1.0)
                 r.dissipation += (f - elastic) * rate
                 # The rollers go with the cage, whose drive is not modelled: its work is accounted for.
-                r.cage_power += elastic * twist * turn_rate
+                r.cage_power += f * twist * turn_rate
             total[0] += f * ex
             total[1] += f * ey
             total[2] += f * twist

@@ -12,11 +12,12 @@ from fmu_src.kernel import kernel
 
 from rv_plant.contact import HYSTERETIC, MODAL, law_constants
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
-from rv_plant.gear_stage import crank_turn_per_carrier_turn, planet_radius, total_ratio
+from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.geometry import centre_curve_curvature
 from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import publish_contacts
+from rv_plant.poses import crank_position
 
 QUASI_STATIC, DYNAMIC = 0, 1
 
@@ -120,8 +121,15 @@ def publish(r, output_speed):
     turning = r.z[carrier]
     crank_turning = crank_turn_per_carrier_turn(r.first_stage_ratio) * turning
     moment = 0.0
+    side = 1.0 if r.load_torque >= 0.0 else -1.0
     for c in range(cranks):
-        crank_turning += r.z[carrier + 3 + 3 * c + 2] / cranks
+        crank = carrier + 3 + 3 * c
+        per_x, per_y = crank_turn_per_shift(
+            r.ideal_output + turning + crank_position(r, c), r.crank_circle_radius, r.first_stage_ratio,
+            r.pressure_angle, side,
+        )
+        shift_x, shift_y = r.z[carrier + 1] + r.z[crank], r.z[carrier + 2] + r.z[crank + 1]
+        crank_turning += (r.z[crank + 2] + per_x * shift_x + per_y * shift_y) / cranks
         moment += r.crank_moment[c]
         lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio)
         r.tooth_force[c] = r.crank_moment[c] / lever if lever > 0.0 else 0.0

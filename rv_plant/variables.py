@@ -34,7 +34,8 @@ def plant_table(topology: Topology) -> Table:
     inputs = [
         Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
                  1.0, source=FILE),
-        Variable("input_torque", "input", "N.m", "torque on the sun if drive is torque", 0.0, source=FILE),
+        Variable("input_torque", "input", "N.m", "torque on the sun if drive is torque", 0.0,
+                 source="as the system model has it"),
         Variable("load_torque", "input", "N.m", "torque on the carrier, positive against positive rotation",
                  0.0, nominal=100.0, source=FILE),
         Variable("temperature", "input", "K", "temperature of the reducer's surroundings", 293.15,
@@ -71,7 +72,7 @@ def plant_table(topology: Topology) -> Table:
         length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
                -1e-3, maximum=1e-3),
         Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
-                 0.0, minimum=-1e-2, maximum=1e-2, source=FILE),
+                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none"),
         length("crank_circle_radius", "radius of the circle of the cranks' centres", 1e-4, 28e-3),
         length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
         length("outer_race_radius", "radius of the hole in the disc", 1e-4, 13.25e-3),

@@ -67,6 +67,12 @@ def test_stiffness_reading_and_contact_law(capsys):
     (("run", "--scheme", "newton", "--output", "unused.nc"), "gauss-seidel, jacobi"),
     (("report", "nowhere.nc"), "no result file"),
     (("life", "--fmus", "nowhere"), "rvwear build"),
+    (("life", "--output", "x.html"), "ends in .nc"),
+    (("life", "--set", "acceleration=3"), "chosen by the life run"),
+    (("life", "--set", "crank_angle=3"), "exchanged by the two units"),
+    (("run", "--turns", "nan"), "turns = nan"),
+    (("run", "examples/pair.toml", "--torque", "5"), "--torque with a scenario file"),
+    (("report", "README.md"), "is not a result"),
 ])  # fmt: skip
 def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
     assert main(list(arguments)) == 2

@@ -1,6 +1,8 @@
 """The FMUs: description, bytes, state, instances, refusals, and the same trajectories as in process."""
 
 import math
+import subprocess
+import sys
 import zipfile
 from xml.etree import ElementTree
 
@@ -148,6 +150,47 @@ def test_reset_gives_a_new_unit(fmus):
     unit.close()
 
 
+def test_capabilities_are_declared(path):
+    declared = description(path).find("CoSimulation").attrib
+    assert declared["canGetAndSetFMUstate"] == declared["canSerializeFMUstate"] == "true"
+    assert declared["needsExecutionTool"] == "false"
+
+
+ALONE = """
+import sys
+sys.path = [p for p in sys.path if "editable" not in p.lower()]
+sys.meta_path = [f for f in sys.meta_path if "editable" not in repr(f).lower()]
+import fmpy
+for name in ("RvPlant", "RvWear", "RvPlant"):
+    assert len(fmpy.simulate_fmu(f"{sys.argv[1]}/{name}.fmu", stop_time=0.005, output_interval=1e-3)) == 6
+assert "orchestrator" not in sys.modules
+import fmu_src
+assert fmu_src.__file__.startswith(__import__("tempfile").gettempdir())
+"""
+
+
+def test_units_run_where_the_project_is_not_installed(fmus, tmp_path):
+    """One after the other in one process; fmpy deletes the folder of each when it is done."""
+    done = subprocess.run([sys.executable, "-I", "-c", ALONE, fmus], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_wrong_type_and_late_parameter_are_refused(fmus):
+    unit = Fmu("plant", fmus / "RvPlant.fmu")
+    torque, fidelity = unit.signal("load_torque").references[0], unit.signal("fidelity").references[0]
+    with pytest.raises(RunFault, match="load_torque is a real"):
+        unit.attempt(unit.slave.setInteger, [torque], [167])
+    with pytest.raises(RunFault, match="fidelity is an integer"):
+        unit.attempt(unit.slave.setReal, [fidelity], [1.0])
+    with pytest.raises(RunFault, match="before initialisation"):
+        unit.step(0.0, 1e-3)
+    unit.enter_initialisation(0.0)
+    unit.exit_initialisation()
+    with pytest.raises(RunFault, match="pin_radius is fixed"):
+        unit.set("pin_radius", 2.1e-3)
+    unit.close()
+
+
 @pytest.mark.parametrize("name, value, said", [
     ("load_torque", math.nan, "load_torque = nan N.m is not a finite number"),
     ("mesh_profile_error[1,7]", math.inf, r"mesh_profile_error\[1,7\] = inf m is not a finite number"),
@@ -173,7 +216,8 @@ def test_impossible_geometry_is_named_at_initialisation(fmus):
     unit.close()
 
 
-@pytest.mark.parametrize("spoil", [lambda s: s[:-8], lambda s: b"x" * len(s), lambda s: s[:100]])
+@pytest.mark.parametrize("spoil", [lambda s: s[:-8], lambda s: b"x" * len(s), lambda s: s[:100],
+                                   lambda s: s[:32] + b"\xff" * (len(s) - 32)])
 def test_foreign_state_is_refused(fmus, spoil):
     unit = Fmu("wear", fmus / "RvWear.fmu")
     unit.enter_initialisation(0.0)

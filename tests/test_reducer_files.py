@@ -33,6 +33,8 @@ def test_numbers_are_converted_to_si():
     ('value = 2.0, unit = "mm"', 'value = nan, unit = "mm"', "not a finite number"),
     ('value = 2.0, unit = "mm"', 'value = "two", unit = "mm"', "is not a number"),
     ("pins = 40", "pins = 41", r"pins = 41, lobes = 39: the pins do not close the ring.*set pins = 40"),
+    ("load_torque =", "# load_torque =", "load_torque: missing"),
+    ('name = "RV20E-121"', 'name = "../x"', "reducer.name"),
     ("discs = 2", "discs = 0", "topology.discs = 0"),
     ("[topology]", "[topologie]", r"section \[topology\] is missing"),
     ("[cycloid]", "[cycloid", "not a TOML file"),

@@ -15,16 +15,19 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 import fmu_src
-from fmu_src.description import LOG_CATEGORIES, model_description
-from fmu_src.source_hash import source_hash
-from fmu_src.unit import UnitFault, make_unit
+from fmu_src.native import host_triple, load_object
+from fmu_src.source_hash import LOADED_HASH, source_hash
+from fmu_src.unit import LOG_CATEGORIES, UnitFault, make_unit
 from fmu_src.variables import ValueFault
 
 STAMP = "unit.json"
 OBJECT_CODE = "unit.o"
-# Leads every serialised state: a foreign or truncated one is refused.
-STATE_MARK = b"RVstate1"
 
+
+
+def state_mark(guid: str) -> bytes:
+    """Leads every state: one of another unit, build or reducer is refused, as is one cut off."""
+    return b"RVstate2" + guid.strip("{}").replace("-", "")[:16].encode()
 
 
 def add_reference(held: object) -> None:
@@ -49,13 +52,15 @@ class KernelSlave(Fmi2Slave):
         self.cells = self.table.cells(self.records)
         self.integers = self.cells.view("i8")
         self.lowest, self.highest = self.table.bounds
-        self.lists: dict[tuple[int, int], tuple[list[int], np.ndarray]] = {}
+        self.initialised = False
+        self.state_mark = state_mark(self.stamp["guid"])
+        self.lists: dict[tuple[bool, int, int], tuple[list[int], np.ndarray]] = {}
         self.initialise, self.step = self.entry_points(folder)
 
     def check_sources(self, folder: Path) -> None:
         """Two FMUs in one process share imported modules: they must be of one source."""
         imported = Path(fmu_src.__file__).resolve().parents[1]
-        if imported != folder.resolve() and source_hash(root=imported) != self.stamp["source_hash"]:
+        if imported != folder.resolve() and LOADED_HASH != self.stamp["source_hash"]:
             raise UnitFault(
                 f"this process already runs another version of fmu_src, from {imported}."
                 " Use FMUs of one build in one process, or start a fresh process"
@@ -63,8 +68,6 @@ class KernelSlave(Fmi2Slave):
 
     def entry_points(self, folder: Path):
         """Carried object code if it fits machine and sources, else compiled in this process."""
-        from fmu_src.native import host_triple, load_object
-
         code = folder / OBJECT_CODE
         fits = code.exists() and self.stamp["triple"] == host_triple()
         if not fits or source_hash(root=folder) != self.stamp["source_hash"]:
@@ -80,6 +83,9 @@ class KernelSlave(Fmi2Slave):
         )
 
     def to_xml(self, model_options=None):
+        # Only a build describes the unit; an importer needs no unit library.
+        from fmu_src.description import model_description
+
         return model_description(
             self.table, self.stamp["guid"], self.stamp["source_hash"], self.stamp["step_size"], self.stamp["tool"]
         )
@@ -99,8 +105,11 @@ class KernelSlave(Fmi2Slave):
 
     def exit_initialization_mode(self):
         self.require_success(self.initialise(), 0.0)
+        self.initialised = True
 
     def do_step(self, current_time, step_size):
+        if not self.initialised:
+            self.fail(f"{self.table.name}: a step before initialisation; enter and exit initialisation mode first")
         if not 0.0 <= step_size < np.inf:
             self.fail(f"{self.table.name}: communication step of {step_size} s: give a finite one that is not negative")
         self.require_success(self.step(current_time, step_size), current_time)
@@ -112,20 +121,25 @@ class KernelSlave(Fmi2Slave):
 
     # values
 
-    def index(self, vrs: list[int]) -> np.ndarray:
+    def index(self, vrs: list[int], integer: bool) -> np.ndarray:
         """The cells of value references; an importer asks for the same few lists all the time."""
-        known = self.lists.get((vrs[0], len(vrs)))
+        known = self.lists.get((integer, vrs[0], len(vrs)))
         if known is None or known[0] != vrs:
             if not all(0 <= vr < self.table.interface_cells for vr in vrs):
                 self.fail(f"{self.table.name}: not all of the value references {vrs[:5]}... are its own")
-            known = self.lists[vrs[0], len(vrs)] = (vrs, np.array(vrs))
+            cells = np.array(vrs)
+            if (self.table.integer_cells[cells] != integer).any():
+                wrong = int(cells[self.table.integer_cells[cells] != integer][0])
+                kind = "a real" if integer else "an integer or enumeration"
+                self.fail(f"{self.table.name}: {self.table.element_at(wrong)[1]} is {kind}: use the functions of its type")
+            known = self.lists[integer, vrs[0], len(vrs)] = (vrs, cells)
         return known[1]
 
     def get_real(self, vrs):
-        return self.cells[self.index(vrs)].tolist() if vrs else []
+        return self.cells[self.index(vrs, False)].tolist() if vrs else []
 
     def get_integer(self, vrs):
-        return self.integers[self.index(vrs)].tolist() if vrs else []
+        return self.integers[self.index(vrs, True)].tolist() if vrs else []
 
     def set_real(self, vrs, values):
         self.set_cells(self.cells, vrs, values)
@@ -136,25 +150,33 @@ class KernelSlave(Fmi2Slave):
     def set_cells(self, cells, vrs, values):
         if not vrs:
             return
-        index, given = self.index(vrs), np.array(values, cells.dtype)
+        index, given = self.index(vrs, cells is self.integers), np.array(values, cells.dtype)
         # A NaN fails both comparisons, as does a cell that may not be set.
         if not ((given >= self.lowest[index]) & (given <= self.highest[index])).all():
             try:
                 self.table.check_values(vrs, values)
             except ValueFault as fault:
                 self.fail(f"{self.table.name}: {fault}")
+        if self.initialised and self.table.fixed_cells[index].any():
+            fixed = self.table.element_at(int(index[self.table.fixed_cells[index]][0]))[1]
+            self.fail(f"{self.table.name}: {fixed} is fixed once the unit is initialised; reset the unit to change it")
         cells[index] = given
 
-    # state: bytes that begin with STATE_MARK, the same in memory and serialised
+    # state: bytes that begin with the unit's mark, the same in memory and serialised
 
     def _get_fmu_state(self):
-        return STATE_MARK + self.cells[: self.table.state_cells].tobytes()
+        return self.state_mark + self.cells[: self.table.state_cells].tobytes()
 
     def _set_fmu_state(self, state):
-        expected = len(STATE_MARK) + 8 * self.table.state_cells
-        if not state.startswith(STATE_MARK) or len(state) != expected:
+        expected = len(self.state_mark) + 8 * self.table.state_cells
+        if not state.startswith(self.state_mark) or len(state) != expected:
             self.fail(f"{self.table.name}: {len(state)} bytes that are not a state of this unit ({expected} bytes)")
-        self.cells[: self.table.state_cells] = np.frombuffer(state, "f8", offset=len(STATE_MARK))
+        cells = np.frombuffer(state, "f8", offset=len(self.state_mark))
+        real = cells[: self.table.interface_cells][~self.table.integer_cells]
+        if not np.isfinite(real).all():
+            self.fail(f"{self.table.name}: this state holds values that are not finite")
+        self.cells[: self.table.state_cells] = cells
+        self.initialised = True
 
     @staticmethod
     def _fmu_state_to_bytes(state):

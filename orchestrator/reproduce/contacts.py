@@ -129,6 +129,8 @@ def contacts_of(pair: Pair, positions: int = 72) -> Contacts:
         phases.append(np.degrees(record["mesh_phase"][0]))
         forces.append(record["mesh_force_now"][0].copy())
 
+    # The profile errors at hand are those for the end of a step of the old length.
+    pair.master.step()
     turn = record_turn(pair, positions, note)
     pair.master.restore(saved)
     pair.positions = before

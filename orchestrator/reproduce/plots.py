@@ -67,7 +67,8 @@ def picture(name, title, caption, curves, columns=6, height=340):
     y = np.concatenate([c.y for c in curves])
     plain = look.drawing(look.padded(x), look.padded(y))
     plain |= {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": -0.02, "yanchor": "top"}}
-    return Figure(name, title, caption, traces, plain | {"margin": {"l": 4, "r": 4, "t": 4, "b": 30}}, columns, height)
+    return Figure(name, title, caption, traces, plain | {"margin": {"l": 4, "r": 4, "t": 4, "b": 30}}, columns,
+                  height)
 
 
 def polar(name, title, caption, curves, columns=6, height=360):

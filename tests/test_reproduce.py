@@ -1,0 +1,152 @@
+"""The claims of the sources: complete, judged from live numbers, and shown truthfully."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from orchestrator.faults import InputFault
+from orchestrator.reproduce import as_json, available_claims, print_table, run, write_page
+from orchestrator.reproduce import printed_forms as printed
+from orchestrator.reproduce.claim import CONDITIONAL, SOURCES, VERDICTS, Number
+from orchestrator.reproduce.page import page_of
+
+# Claims that need no life run.
+QUICK = ["T01", "T02", "T03", "T04", "T05", "T06", "T07", "T08", "T09", "T10", "T11", "T13", "T14", "T17", "T18",
+         "T19", "T20",
+         "T22", "T23", "T24", "T35", "T36", "T37", "N01", "N02", "N03", "N04", "N05", "N06", "N07", "N08", "N09",
+         "N14",
+         "L07", "L09", "L10", "L11", "L12", "C01", "C02", "C03"]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def claims():
+    return run(QUICK)
+
+
+@pytest.fixture(scope="module")
+def page(claims):
+    return page_of(claims)
+
+
+def check_complete(claims):
+    for claim in claims:
+        assert claim.id and claim.title and claim.says and claim.why
+        assert claim.source in SOURCES and claim.verdict in VERDICTS
+        assert bool(claim.condition) == (claim.verdict == CONDITIONAL), claim.id
+        assert claim.grounds, claim.id
+        assert claim.stands, (claim.id, [text for text, holds in claim.grounds if not holds])
+        for number in claim.numbers:
+            assert number.value is not None or number.printed is not None, (claim.id, number.label)
+            assert all(np.isfinite(v) for v in (number.value, number.printed) if v is not None), (claim.id,
+                number.label)
+        for figure in claim.figures:
+            assert figure.data and figure.layout
+
+
+def number_of(claims, identity, label):
+    (claim,) = [c for c in claims if c.id == identity]
+    (number,) = [n for n in claim.numbers if n.label == label]
+    return number
+
+
+def test_every_claim_has_all_its_parts_and_its_grounds_hold(claims):
+    check_complete(claims)
+    assert [c.id for c in claims] == QUICK
+
+
+def test_both_sources_the_literature_and_the_catalogue_are_covered():
+    ids = available_claims()
+    counts = {letter: sum(i.startswith(letter) for i in ids) for letter in "TNLC"}
+    assert counts["T"] >= 35 and counts["N"] >= 18 and counts["L"] >= 12 and counts["C"] >= 3
+
+
+@pytest.mark.parametrize("identity, label, right, printed_value", [
+    ("T01", "K1", 0.7482, None),
+    ("T05", "BX-40E: the printed form's largest miss", None, 23.8),
+    ("T05", "RV20E-121: the printed form's largest miss", None, 13.0),
+    ("T08", "BX-40E: smallest convex radius", 2.7, None),
+    ("T08", "BX-40E: the same, printed", None, 8.7),
+    ("T23", "at the root", 0.372, -3.83),
+    ("T23", "at the tip", 3.04, 0.59),
+    ("N07", "largest pin force", 311.2, 319.9),
+    ("N08", "k", 4.6e-19, 5.6e-22),
+    ("N06", "largest load over the turn", 2.7, None),
+    ("C01", "RV20E-121, literal: stiffness of each crank's supports that closes the gap", 1.4e8, None),
+])
+def test_key_numbers_agree_with_the_independent_check(claims, identity, label, right, printed_value):
+    number = number_of(claims, identity, label)
+    for found, expected in ((number.value, right), (number.printed, printed_value)):
+        if expected is not None:
+            assert found == pytest.approx(expected, rel=0.02, abs=0)
+
+
+def test_force_follows_the_sine_only_with_rigid_bearings(claims):
+    assert number_of(claims, "T10", "R² of F = C sin α, rigid bearings").value > 0.99
+    assert number_of(claims, "T10", "R² of F = C sin α, clearance 10 µm").value < 0.5
+
+
+def test_a_number_tells_whether_it_confirms_the_check():
+    assert Number("a", "1", 1.02, None, 1.0, 0.03).agrees
+    assert not Number("a", "1", 1.05, None, 1.0, 0.03).agrees
+    assert Number("a", "1", None, 2.0, 2.0).agrees
+    assert Number("a", "1", 5.0, None, (4.0, 6.0)).agrees and not Number("a", "1", 7.0, None, (4.0, 6.0)).agrees
+    assert Number("a", "1", 5.0).agrees is None
+
+
+def test_linear_forces_balance_the_moment():
+    phase = np.radians(np.arange(40) * 360.0 * 39 / 40)
+    force = printed.linear_forces(phase, 80.0, 0.9e-3, 39, 36 / 52)
+    lever = 0.9e-3 * 39 * printed.sine_of_pressure_angle(phase, 36 / 52)
+    assert force @ lever == pytest.approx(80.0, rel=1e-12, abs=0)
+    assert (force >= 0.0).all()
+
+
+def test_unknown_claim_is_refused():
+    with pytest.raises(InputFault, match="X9"):
+        run(["X9"])
+
+
+def test_progress_is_told():
+    lines = []
+    run(["T01", "T04"], lines.append)
+    assert [line.split()[1] for line in lines] == ["T01", "T04"]
+
+
+def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):
+    assert page == page_of(run(QUICK))
+    shown = re.sub(r"<script.*?</script>", "", page, flags=re.S)
+    assert not re.search(r"(src|href)=[\"'](?!#)", shown) and "@import" not in shown and "url(" not in shown
+    for claim in claims:
+        assert f'<article id="{claim.id}"' in page
+    content = json.loads(re.search(r'id="content">(.*?)</script>', page, re.S)[1])
+    assert {f["name"] for f in content} == {f.name for c in claims for f in c.figures}
+    assert all(f'id="plot-{f["name"]}"' in shown for f in content)
+    path = write_page(claims, tmp_path / "new" / "claims.html")
+    assert path.read_text(encoding="utf-8") == page
+
+
+def test_json_carries_everything_but_the_figures(claims):
+    content = json.loads(json.dumps(as_json(claims), allow_nan=False))
+    assert [c["id"] for c in content["claims"]] == QUICK
+    assert sum(content["verdicts"].values()) == len(QUICK)
+    assert all({"source", "says", "verdict", "why", "numbers", "grounds",
+                "stands"} <= set(c) for c in content["claims"])
+
+
+def test_table_names_every_claim(claims, capsys):
+    print_table(claims)
+    out = capsys.readouterr().out
+    assert all(claim.id in out for claim in claims)
+
+
+@pytest.mark.campaign
+def test_the_whole_run_stands():
+    claims = run()
+    check_complete(claims)
+    assert [c.id for c in claims] == available_claims()
+    assert page_of(claims)
+    inner = number_of(claims, "N10", "inner raceway, 10,000 h (printed: 2,000 h segments)")
+    assert inner.value == pytest.approx(3.01, rel=0.02, abs=0)
+    assert number_of(claims, "T28", "RV20E-121, ideal: after 10,000 h").value == pytest.approx(56.0, abs=3.0)
