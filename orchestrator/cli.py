@@ -84,6 +84,12 @@ def parser() -> argparse.ArgumentParser:
     add_json(modes)
     modes.set_defaults(run=commands.modes)
 
+    reproduce = sub.add_parser("reproduce", help="every claim of the sources held against the computation")
+    reproduce.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
+    reproduce.add_argument("--output", default="results/reproduce.html", help="the page")
+    add_json(reproduce)
+    reproduce.set_defaults(run=commands.reproduce)
+
     build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
     build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
     build.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")

@@ -262,6 +262,21 @@ def modes(options: argparse.Namespace) -> int:
     return 0
 
 
+def reproduce(options: argparse.Namespace) -> int:
+    """``rvwear reproduce``: the sources' claims, judged."""
+    from orchestrator.reproduce import as_json, print_table, write_page
+    from orchestrator.reproduce import run as judge
+
+    claims = judge(options.claims or None, lambda text: print(text, file=sys.stderr, flush=True))
+    page = write_page(claims, Path(options.output))
+    if options.json:
+        print_json(as_json(claims) | {"page": str(page)})
+    else:
+        print_table(claims)
+        print(f"page  {page}")
+    return 0 if all(claim.stands for claim in claims) else 1
+
+
 def build(options: argparse.Namespace) -> int:
     """``rvwear build``: both FMUs, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)

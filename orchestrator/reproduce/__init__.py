@@ -14,10 +14,9 @@ from pathlib import Path
 
 from orchestrator.faults import InputFault
 from orchestrator.reproduce import (  # noqa: F401  each registers its claims
-    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, pressure_claims,
-    raceway_claims,
-    literature_claims, raceway_law_claims, sliding_claims, stiffness_claims,
-)
+    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, literature_claims,
+    pin_wear_claims, pressure_claims, raceway_claims, raceway_law_claims, sliding_claims, stiffness_claims,
+)  # fmt: skip
 from orchestrator.reproduce.claim import REGISTRY, Claim
 from orchestrator.reproduce.context import Context
 from orchestrator.reproduce.page import page_of
