@@ -18,10 +18,10 @@ from orchestrator.component import InProcess
 from orchestrator.duty import load_duty
 from orchestrator.faults import InputFault
 from orchestrator.hysteresis import hysteresis as measure_hysteresis
-from orchestrator.life import Life, LifeSettings, as_arrays, live
+from orchestrator.life import Life, LifeSettings, live
 from orchestrator.master import Master
 from orchestrator.modes import modes as natural_modes
-from orchestrator.pair import Pair, crank_turn_time, make_pair
+from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, make_pair
 from orchestrator.reducer import Reducer, load_reducer
 from orchestrator.scenario import load_scenario, run_scenario
 from orchestrator.settings import Setting, apply, parse_setting
@@ -281,10 +281,10 @@ def build(options: argparse.Namespace) -> int:
     """``rvwear build``: both FMUs, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
     built = []
+    plant = InProcess("plant", reducer.specification("rv_plant"))
+    step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
         specification = reducer.specification(unit)
-        plant = InProcess("plant", reducer.specification("rv_plant"))
-        step = crank_turn_time(reducer, plant) / 72
         path = Path(options.output) / f"{name}.fmu"
         fresh = is_current(path, guid(specification, source_hash()))
         if not fresh:

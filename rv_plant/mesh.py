@@ -5,7 +5,7 @@ import math
 from fmu_src.kernel import kernel
 
 from rv_plant.contact import contact_force, damped_force, impact_speed
-from rv_plant.geometry import closest_distance
+from rv_plant.geometry import closest_distance, shortening
 
 
 @kernel
@@ -28,7 +28,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     lobes = r.lobe_pitch_error.shape[1]
     circle = r.pin_circle_radius + r.shift_modification
     radius = r.pin_radius + r.equidistant_modification
-    k1 = r.eccentricity * (lobes + 1) / circle
+    k1 = shortening(r.eccentricity, lobes, circle)
     offset = 2.0 * math.pi * d / discs
     # The profile of disc d is cut turned by -offset/lobes against its holes.
     profile_turn = -offset / lobes

@@ -1,6 +1,5 @@
 """Tooth-profile document: sliding of flank on pin, and how wear changes it."""
 
-import math
 
 import numpy as np
 
