@@ -1,0 +1,1 @@
+"""Model against measurement: compare, localise, diagnose, extend, propose the next experiment."""

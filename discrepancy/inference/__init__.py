@@ -1,0 +1,1 @@
+"""Statistics of the comparison: knows records and predictions, neither files nor reducers."""

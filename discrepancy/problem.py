@@ -1,0 +1,95 @@
+"""What the statistics sees: measured series, and a model that predicts them.
+
+The campaign turns files into ``Record``s, the physics turns parameter values into
+predictions; between them the statistics knows neither files nor reducers.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Record:
+    """One measured series: a signal over its axis, or the numbers of one inspection.
+
+    ``values`` (n,) in ``unit``; ``axes`` maps the names of axes (``angle`` [rad],
+    ``time`` [s], ``torque`` [N.m], ``hours`` [s], ``depth_angle`` [rad] ...) to arrays of
+    the same length.  ``factors`` are the condition's numbers (``speed`` [rad/s] of the
+    input, ``load`` [N.m], ``temperature`` [K], ``hours`` [s] ..., ``direction`` +1 or -1).
+    Runs with one ``condition`` and different ``replicate`` repeat each other; runs with one
+    ``mounting`` share its phases.  ``held_out`` runs are never used for fitting.
+    ``stated_noise`` is the standard deviation that the campaign states, if it does.
+    ``tags`` say what is meant (surface, disc, crank, lobe ...).
+    """
+
+    name: str
+    quantity: str
+    unit: str
+    condition: str
+    replicate: int
+    values: np.ndarray
+    axes: Mapping[str, np.ndarray]
+    factors: Mapping[str, float]
+    mounting: str = "1"
+    held_out: bool = False
+    stated_noise: float | None = None
+    tags: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that may be estimated.
+
+    ``off`` is its value in the base model (for an effect's amplitude the value at which the
+    effect vanishes); ``scale`` a typical size, for steps and for reports; ``sign`` is +1 or
+    -1 where physics allows only values above or below ``off``, else 0.  ``prior`` is a
+    standard deviation around ``off`` known from elsewhere (None: nothing is known).
+    """
+
+    name: str
+    unit: str
+    off: float
+    lower: float
+    upper: float
+    scale: float
+    sign: int = 0
+    prior: float | None = None
+    description: str = ""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An effect that the model may lack.
+
+    ``amplitudes`` are the parameters that are ``off`` in the base model: with all of them off
+    the effect vanishes exactly, whatever its ``shapes``.  ``shape_grid`` lists the values of
+    the shape parameters at which the screening looks; empty without shape parameters.
+    ``signals`` names the quantities that the effect can touch (empty: any).
+    """
+
+    name: str
+    title: str
+    amplitudes: tuple[Parameter, ...]
+    shapes: tuple[Parameter, ...] = ()
+    shape_grid: tuple[Mapping[str, float], ...] = ()
+    signals: tuple[str, ...] = ()
+    part: str = "plant"
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        return self.amplitudes + self.shapes
+
+
+class Model(Protocol):
+    """Predicts all records.  Names of parameters are unique over nuisances and candidates."""
+
+    records: Sequence[Record]
+    nuisances: tuple[Parameter, ...]
+    candidates: tuple[Candidate, ...]
+
+    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
+        """Predicted ``values`` of the records ``which`` (all by default), parameters not named being off."""
+        ...
