@@ -12,8 +12,8 @@ import fmpy.validation
 
 from fmu_src.description import guid
 from fmu_src.native import host_triple, object_code
-from fmu_src.slaves.kernel_slave import OBJECT_CODE, STAMP
-from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, source_hash
+from fmu_src.slaves.kernel_slave import OBJECT_CODE
+from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
 
 # pythonfmu's builder writes its own defaults over the description unless told so.
 CAPABILITIES = ("--no-external-tool", "--handle-state", "--serialize-state")
@@ -43,6 +43,8 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         shutil.copy(ROOT / "fmu_src" / "slaves" / script.name, script)
         for package in KERNEL_PACKAGES:
             shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
+            for name, file in user_effect_files(package):
+                shutil.copy(file, folder / name)
         (folder / STAMP).write_text(json.dumps(stamp, sort_keys=True, indent=1), encoding="utf-8")
         (folder / OBJECT_CODE).write_bytes(object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]

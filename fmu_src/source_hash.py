@@ -1,23 +1,39 @@
 """A fingerprint of the code that decides the numbers."""
 
 import hashlib
+import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 KERNEL_PACKAGES = ("fmu_src", "rv_plant", "wear_fmu")
 
+# Folder with a user's own effects: DIR/rv_plant/*.py and DIR/wear_fmu/*.py.
+USER_EFFECTS = "RVWEAR_EFFECTS"
+# Lies beside the sources inside an FMU, which has its effects with it and takes no others.
+STAMP = "unit.json"
 
-def source_files(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> list[Path]:
-    """Every source and reducer file of the packages, in a fixed order."""
-    found = (p for name in packages for p in (root / name).rglob("*") if p.suffix in (".py", ".toml"))
-    return sorted(found, key=lambda p: p.relative_to(root).as_posix())
+
+def user_effect_files(package: str) -> list[tuple[str, Path]]:
+    """(name inside the project, file) of the user's effects of a package, in a fixed order."""
+    folder = None if (ROOT / STAMP).is_file() else os.environ.get(USER_EFFECTS)
+    files = sorted((Path(folder).resolve() / package).glob("*.py")) if folder else []
+    return [(f"{package}/effects/{file.name}", file) for file in files]
+
+
+def source_files(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> list[tuple[str, Path]]:
+    """(name, file) of every source and reducer file of the packages, in a fixed order."""
+    found = [(p.relative_to(root).as_posix(), p) for name in packages
+             for p in (root / name).rglob("*") if p.suffix in (".py", ".toml")]
+    for name in packages:
+        found += user_effect_files(name)
+    return sorted(found)
 
 
 def source_hash(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> str:
     """SHA-256 over names and contents: equal code gives an equal hash on every machine."""
     digest = hashlib.sha256()
-    for path in source_files(packages, root):
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0")
+    for name, path in source_files(packages, root):
+        digest.update(name.encode() + b"\0")
         digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()
 

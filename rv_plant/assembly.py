@@ -17,12 +17,16 @@ coordinate is not among the unknowns.
 
 import math
 
+from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
+from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift
 from rv_plant.mesh import mesh_contacts
 from rv_plant.needle_bearing import roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
+
+hold_effects = compose("rv_plant.effects", HOOKS).hold
 
 
 def coordinate_count(discs: int, cranks: int) -> int:
@@ -35,6 +39,7 @@ def clear(r):
     """Empty residual, tangent and what is summed over the contacts."""
     n = r.residual_vector.shape[0]
     r.potential = r.dissipation = r.cage_power = 0.0
+    r.housing_force_x = r.housing_force_y = 0.0
     for i in range(n):
         r.residual_vector[i] = 0.0
         for j in range(n):
@@ -64,6 +69,7 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
     )
     crank_turn = (
         -lobes * ideal_output + per_turn * z[carrier] + per_x * shift_x + per_y * shift_y + z[crank + 2]
+        + r.crank_turn_added[c]
     )
     # The teeth's direction turns with the carrier.
     per_turn += per_x * shift_y - per_y * shift_x
@@ -145,3 +151,4 @@ def assemble(r, ideal_output, cage_angle, load_torque):
         if r.compliance[i] > 0.0:
             r.residual_vector[i] += r.z[i] / r.compliance[i]
             r.tangent[i, i] += 1.0 / r.compliance[i]
+    hold_effects(r)

@@ -23,13 +23,15 @@ from rv_plant.assembly import clear
 from rv_plant.constraints import CONSTRAINED, SETTLING
 from rv_plant.gear_stage import planet_radius
 from rv_plant.mesh import mesh_contacts, ring_coordinate
-from rv_plant.needle_bearing import roller_contacts
+from rv_plant.needle_bearing import cage_rate, roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
 
 # Stand for rigid: joints [m/N, rad/(N m)], below a thousandth of the stiffest
 # contact's compliance; teeth [m/N], whose small force would make a stiffer contact chatter.
 RIGID = 1e-12
 RIGID_TOOTH = 1e-10
+# Input speed below which friction fades [rad/s].
+STANDSTILL = 0.1
 
 
 @kernel
@@ -140,7 +142,7 @@ def tooth_contact(r, c, rate_weight):
     turned = q[carrier] + math.atan2(y * cs - x * sn, x * cs + y * sn)
     rolled = small * (q[sun] - turned) + planet * (q[crank + 2] - turned)
     ca, sa = math.cos(r.pressure_angle), math.sin(r.pressure_angle)
-    mesh_phase = r.sun_teeth * (q[sun] - q[carrier])
+    mesh_phase = r.sun_teeth * (q[sun] - q[carrier] + r.first_stage_phase)
     compliance = max(r.first_stage_compliance, RIGID_TOOTH)
     swing = r.tooth_stiffness_variation
     stiffness = (1.0 + swing * math.cos(mesh_phase)) / compliance
@@ -150,7 +152,7 @@ def tooth_contact(r, c, rate_weight):
     index, gradient = r.joint_index, r.joint_gradient
     for flank in range(2):
         s = 1.0 if flank == 0 else -1.0
-        approach = s * rolled * ca - (distance - r.crank_circle_radius) * sa - 0.5 * r.backlash - error
+        approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - 0.5 * r.backlash - error
         if approach <= 0.0:
             continue
         # d(turned)/d(x, y) is (-y, x)/distance^2.
@@ -214,7 +216,7 @@ def assemble_motion(r, rate_weight):
     turn = 2.0 * math.pi
     ideal = q[carrier] - turn * math.floor(q[carrier] / turn + 0.5)
     z[ring] = q[ring]
-    cage_speed = (v[carrier + 5] - v[carrier]) * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
+    cage_speed = r.cage_share * cage_rate(v[carrier + 5], v[carrier], r.inner_race_radius, r.outer_race_radius)
     for c in range(cranks):
         r.tooth_force[c] = 0.0
     for d in range(discs):
@@ -240,3 +242,9 @@ def assemble_motion(r, rate_weight):
         joint_springs(r, rate_weight)
     r.residual_vector[load] += r.load_torque
     r.residual_vector[sun] -= r.input_torque
+    # Friction and drag resist the sun; smooth through standstill.
+    if r.friction_load > 0.0:
+        slow = math.sqrt(v[sun] * v[sun] + STANDSTILL * STANDSTILL)
+        r.residual_vector[sun] += r.friction_load * v[sun] / slow
+        r.tangent[sun, sun] += rate_weight * r.friction_load * STANDSTILL * STANDSTILL / (slow * slow * slow)
+        r.dissipation += r.friction_load * v[sun] * v[sun] / slow

@@ -27,6 +27,12 @@ def shortening(eccentricity, lobes, generating_circle):
 
 
 @kernel
+def sliding_per_crank_angle(phi, lobes, pin_circle_radius, pin_radius, k1):
+    """Sliding of flank on pin per turning of the cranks [m/rad]: (R sqrt(S) - r)/z_c."""
+    return (pin_circle_radius * math.sqrt(1.0 + k1 * k1 - 2.0 * k1 * math.cos(phi)) - pin_radius) / lobes
+
+
+@kernel
 def centre_curve_curvature(phi, lobes, generating_circle, k1):
     """Curvature of the centre curve [1/m], positive where the lobe is convex."""
     s = 1.0 + k1 * k1 - 2.0 * k1 * math.cos(phi)

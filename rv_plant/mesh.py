@@ -26,8 +26,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     """
     discs, pins = r.mesh_force.shape
     lobes = r.lobe_pitch_error.shape[1]
-    circle = r.pin_circle_radius + r.shift_modification
-    radius = r.pin_radius + r.equidistant_modification
+    circle = r.pin_circle_radius + r.shift_modification + r.profile_circle_added
+    radius = r.pin_radius + r.equidistant_modification + r.profile_radius_added
     k1 = shortening(r.eccentricity, lobes, circle)
     offset = 2.0 * math.pi * d / discs
     # The profile of disc d is cut turned by -offset/lobes against its holes.
@@ -40,7 +40,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     disc_angle = ideal_output + r.z[3 * d + 2] + profile_turn
     cd, sd = math.cos(disc_angle), math.sin(disc_angle)
     ring = ring_coordinate(r)
-    ring_cos, ring_sin = math.cos(r.z[ring]), math.sin(r.z[ring])
+    ring_cos, ring_sin = r.ring_scale * math.cos(r.z[ring]), r.ring_scale * math.sin(r.z[ring])
     x, y, t = 3 * d, 3 * d + 1, 3 * d + 2
     rx = ry = rt = rr = 0.0
     kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
@@ -61,7 +61,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         # A flank is displaced along the pitch with its tooth, and turned into it by angle modification.
         ideal_phase = along_disc - 2.0 * math.pi * root_number
         flank = 1.0 if ideal_phase >= 0.0 else -1.0
-        pitch = r.lobe_pitch_error[d, lobe] / r.pin_circle_radius + flank * r.angle_modification
+        pitch = (r.lobe_pitch_error[d, lobe] + r.lobe_pitch_added[d, lobe]) / r.pin_circle_radius
+        pitch += flank * r.angle_modification
         cx, cy = cx + pitch * cy, cy - pitch * cx
         phase, distance, nx, ny, bend = closest_distance(
             cx, cy, ideal_phase + r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
@@ -69,8 +70,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         r.phase_shift[d, j] = phase - ideal_phase
         r.mesh_phase[d, j] = phase
         r.centre_curvature[d, j] = bend
-        gap = distance + radius - r.pin_radius - r.pin_radius_error[j]
-        gap += r.lobe_profile_error[d, lobe] + r.mesh_profile_error[d, j]
+        gap = distance + radius - r.pin_radius - r.pin_radius_error[j] - r.pin_radius_added[j]
+        gap += r.lobe_profile_error[d, lobe] + r.lobe_gap_added[d, lobe] + r.mesh_profile_error[d, j]
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
             continue
@@ -95,6 +96,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
             r.dissipation += (force - elastic) * rate
         r.mesh_force_now[d, j] = force
         loaded += 1
+        r.housing_force_x += force * nhx
+        r.housing_force_y += force * nhy
         rx += force * gx
         ry += force * gy
         rt += force * gt

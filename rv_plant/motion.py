@@ -22,7 +22,8 @@ from rv_plant.integrator import (
     settle,
 )
 from rv_plant.mesh import ring_coordinate
-from rv_plant.outputs import publish_contacts
+from rv_plant.needle_bearing import cage_rate
+from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import disc_offset, seat
 
 # Deflection that tolerances are relative to [m].
@@ -88,22 +89,20 @@ def start_motion(r):
         q[crank], q[crank + 1] = ax + shift_x, ay + shift_y
         q[crank + 2] = (
             -lobes * ideal + crank_turn_per_carrier_turn(r.first_stage_ratio) * z[carrier]
-            + per_x * shift_x + per_y * shift_y + z[crank + 2]
+            + per_x * shift_x + per_y * shift_y + z[crank + 2] + r.crank_turn_added[c]
         )
         v[crank], v[crank + 1], v[crank + 2] = -q[crank + 1] * speed, q[crank] * speed, crank_speed
         r.acceleration[crank], r.acceleration[crank + 1] = -q[crank] * speed * speed, -q[crank + 1] * speed * speed
     q[ring] = z[ring]
     q[ring + 1] = ratio * ideal
     v[ring + 1] = r.input_speed
-    # The driving flanks touch: half the backlash ahead, and pressed on by the tooth force.
+    # The driving flanks touch, pressed on by the tooth force.
     if r.first_stage_ratio > 0.0:
         small = planet_radius(r.crank_circle_radius, r.first_stage_ratio) / r.first_stage_ratio
         pressed = 0.0
         for c in range(cranks):
             pressed += abs(r.tooth_force[c]) / cranks * max(r.first_stage_compliance, RIGID_TOOTH)
-        error = r.tooth_error * math.cos(r.sun_teeth * (q[ring + 1] - q[carrier]))
-        ahead = 0.5 * r.backlash + error + pressed / math.cos(r.pressure_angle)
-        q[ring + 1] += side * ahead / (small * math.cos(r.pressure_angle))
+        q[ring + 1] += side * pressed / (small * r.pressure_cosine * r.pressure_cosine)
     q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
     v[ring + 2] = speed
     settled = settle(r)
@@ -134,7 +133,7 @@ def advance(r, duration):
     r.assemblies = r.substeps = r.rejected = 0
     clear_means(r)
     lost = 0.0
-    cage_share = r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
+    cage_share = r.cage_share * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
     while time < duration * (1.0 - 1e-12):
         left = duration - time
         h = r.internal_step
@@ -143,6 +142,8 @@ def advance(r, duration):
             h = left
         elif 2.0 * h > left:
             h = 0.5 * left
+        r.ideal_output = r.q[carrier]
+        prepare_position(r)
         keep_start(r)
         cage, loss, torque, speed = r.cage, r.dissipation, r.drive_torque, r.v[sun]
         cage_power, load_speed = r.cage_power, r.v[load]
@@ -196,7 +197,8 @@ def publish_motion(r):
         r.constraint_drift = largest_drift(r)
     else:
         r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.housing_compliance, RIGID)
-    r.reducer_temperature = r.temperature
+    r.cage_speed = r.cage_share * cage_rate(crank_speed, r.v[carrier], r.inner_race_radius, r.outer_race_radius)
+    r.friction_load = abs(publish_losses(r, r.v[sun]))
     stored = r.potential + kinetic_energy(r) - r.stored_energy
     balance = r.input_energy + r.cage_energy - r.output_energy - r.lost_energy - stored
     turnover = abs(r.input_energy) + abs(r.output_energy) + abs(stored)

@@ -39,11 +39,12 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
         for j in range(3):
             tangent[i, j] = 0.0
     n = force.shape[0]
+    gap = r.roller_gap_now[d, c]
     # Directions by rotation: one sine and cosine a bearing instead of one a roller.
     ex, ey = math.cos(first_angle), math.sin(first_angle)
     step_c, step_s = math.cos(2.0 * math.pi / n), math.sin(2.0 * math.pi / n)
     for i in range(n):
-        approach = ux * ex + uy * ey - r.bearing_clearance - r.roller_profile_error[d, c, i]
+        approach = ux * ex + uy * ey - r.bearing_clearance - gap[i] - r.roller_profile_error[d, c, i]
         f = 0.0
         if approach > 0.0:
             twist = uy * ex - ux * ey

@@ -1,8 +1,32 @@
-"""Outputs that follow from the contacts, at rest or in motion."""
+"""What is the same at rest and in motion before and after the contacts are solved."""
 
+from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
 from rv_plant.contact import hertz_peak_pressure
+from rv_plant.effects import HOOKS
+
+effects = compose("rv_plant.effects", HOOKS)
+before_effects, after_effects = effects.before, effects.after
+
+
+@kernel
+def prepare_position(r):
+    """What effects add at the present angle."""
+    discs, cranks, rollers = r.roller_gap_now.shape
+    for d in range(discs):
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_gap_now[d, c, k] = r.roller_gap_added[d, c, k]
+    before_effects(r)
+
+
+@kernel
+def publish_losses(r, input_speed):
+    """Power of friction and drag; returns the torque that they ask of the input turning so [rad/s]."""
+    r.friction_power = 0.0
+    after_effects(r)
+    return r.friction_power / input_speed if abs(input_speed) > 1e-6 else 0.0
 
 
 @kernel
@@ -10,8 +34,7 @@ def publish_contacts(r):
     """Largest forces and contact pressure at the present angle."""
     discs, cranks, rollers = r.roller_force.shape
     pins = r.mesh_force.shape[1]
-    circle = r.pin_circle_radius + r.shift_modification
-    radius = r.pin_radius + r.equidistant_modification
+    radius = r.pin_radius + r.equidistant_modification + r.profile_radius_added
     modulus = 0.5 * r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
     worst = 0.0
     r.largest_pin_force = r.largest_roller_force = 0.0

@@ -8,18 +8,23 @@ code, 0 or a key of ``FAULTS``.
 
 import math
 
+from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
 from rv_plant.contact import HYSTERETIC, MODAL, law_constants
+from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.geometry import centre_curve_curvature
 from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
-from rv_plant.outputs import publish_contacts
+from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import crank_position
 
 QUASI_STATIC, DYNAMIC = 0, 1
+
+effects = compose("rv_plant.effects", HOOKS)
+prepare_effects, advance_effects = effects.prepare, effects.advance
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
 NO_MOTION, TORQUE_AT_REST = range(8, 10)
@@ -74,7 +79,6 @@ def geometry_fault(r):
 @kernel
 def prepare(r):
     """Everything that follows from the parameters alone."""
-    discs, cranks = r.roller_force.shape[:2]
     for j in range(r.pin_x.shape[0]):
         angle = 2.0 * math.pi * j / r.pin_x.shape[0]
         radial = r.pin_circle_radius + r.pin_position_error_radial[j]
@@ -99,16 +103,30 @@ def prepare(r):
         r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
         r.exponent_lankarani, r.roller_length,
     )
-    carrier = 3 * discs
-    r.compliance[carrier + 1] = r.compliance[carrier + 2] = r.main_bearing_compliance
-    for c in range(cranks):
-        crank = carrier + 3 + 3 * c
-        r.compliance[crank] = r.compliance[crank + 1] = r.crank_support_compliance
-        # A tooth contact of compliance c along its normal turns the crank by c M/(r2 cos alpha)^2.
-        lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * math.cos(r.pressure_angle)
-        r.compliance[crank + 2] = r.first_stage_compliance / (lever * lever) if lever > 0.0 else 0.0
-    r.compliance[r.z.shape[0] - 1] = r.housing_compliance
+    r.pressure_cosine = math.cos(r.pressure_angle)
+    clear_added(r)
+    prepare_effects(r)
     list_free_coordinates(r)
+
+
+@kernel
+def clear_added(r):
+    """No effect adds anything to the ideal parts."""
+    discs, cranks, rollers = r.roller_gap_added.shape
+    for d in range(discs):
+        for c in range(cranks):
+            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = 0.0
+            for k in range(rollers):
+                r.roller_gap_added[d, c, k] = 0.0
+        for lobe in range(r.lobe_gap_added.shape[1]):
+            r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
+    for c in range(cranks):
+        r.seat_tangential_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
+    for j in range(r.pin_x.shape[0]):
+        r.pin_radius_added[j] = 0.0
+    r.profile_radius_added = r.profile_circle_added = 0.0
+    r.ring_scale = r.grease_thinning = r.cage_share = 1.0
+    r.friction_power = 0.0
 
 
 @kernel
@@ -129,7 +147,7 @@ def publish(r, output_speed):
             r.pressure_angle, side,
         )
         shift_x, shift_y = r.z[carrier + 1] + r.z[crank], r.z[carrier + 2] + r.z[crank + 1]
-        crank_turning += (r.z[crank + 2] + per_x * shift_x + per_y * shift_y) / cranks
+        crank_turning += (r.z[crank + 2] + r.crank_turn_added[c] + per_x * shift_x + per_y * shift_y) / cranks
         moment += r.crank_moment[c]
         lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio)
         r.tooth_force[c] = r.crank_moment[c] / lever if lever > 0.0 else 0.0
@@ -137,14 +155,16 @@ def publish(r, output_speed):
     r.crank_angle = -lobes * r.ideal_output + crank_turning
     r.crank_speed = -lobes * output_speed
     r.cage_angle = r.cage
+    r.cage_speed = r.cage_share * cage_rate(r.crank_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
     twist = r.carrier_compliance * r.load_torque
     r.output_angle = r.ideal_output + turning - twist
     r.output_speed = output_speed
     r.transmission_error = turning - twist
     r.lag = -crank_turning / lobes - turning + twist
     r.drive_torque = moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment
+    r.drive_torque += publish_losses(r, r.input_speed)
+    r.power_loss = r.friction_power
     r.reaction_torque = r.load_torque - r.drive_torque
-    r.reducer_temperature = r.temperature
     publish_contacts(r)
 
 
@@ -169,6 +189,7 @@ def solve(r):
     Everything repeats with the output's turn, so the angle is taken within one turn:
     rounding of a large angle would move parts against each other.
     """
+    prepare_position(r)
     turn = 2.0 * math.pi
     angle = r.ideal_output - turn * math.floor(r.ideal_output / turn + 0.5)
     return equilibrium(r, angle, r.cage - turn * math.floor(r.cage / turn), r.load_torque)
@@ -215,6 +236,7 @@ def step(records, time, duration):
     if r.fidelity == DYNAMIC:
         moved = advance(r, duration)
         publish_motion(r)
+        advance_effects(r, duration)
         return 0 if moved else NO_MOTION
     return step_through_equilibria(r, duration)
 
@@ -227,7 +249,7 @@ def step_through_equilibria(r, duration):
     """
     pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
     output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
-    cage_speed = cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
+    cage_speed = r.cage_share * cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
     crank_advance = abs(lobes * output_speed * duration)
     n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
     output_before, cage_before = r.ideal_output, r.cage
@@ -243,4 +265,5 @@ def step_through_equilibria(r, duration):
         copy_means(r, 1.0, 1.0 / n if i < n - 1 else 0.5 / n)
     r.substeps = n
     publish(r, output_speed)
+    advance_effects(r, duration)
     return 0

@@ -22,7 +22,7 @@ def hole(r, d, c, disc_turn):
     """Hole for crank c, from the centre of disc d (x, y) [m]."""
     angle = disc_turn + crank_position(r, c)
     radial = r.crank_circle_radius + r.disc_hole_error_radial[d, c]
-    tangential = r.disc_hole_error_tangential[d, c]
+    tangential = r.disc_hole_error_tangential[d, c] + r.hole_tangential_added[d, c]
     cs, sn = math.cos(angle), math.sin(angle)
     return radial * cs - tangential * sn, radial * sn + tangential * cs
 
@@ -32,7 +32,7 @@ def seat(r, c, carrier_turn):
     """Seat of crank c, from the centre of the carrier (x, y) [m]."""
     angle = carrier_turn + crank_position(r, c)
     radial = r.crank_circle_radius + r.carrier_hole_error_radial[c]
-    tangential = r.carrier_hole_error_tangential[c]
+    tangential = r.carrier_hole_error_tangential[c] + r.seat_tangential_added[c]
     cs, sn = math.cos(angle), math.sin(angle)
     return radial * cs - tangential * sn, radial * sn + tangential * cs
 
@@ -40,6 +40,6 @@ def seat(r, c, carrier_turn):
 @kernel
 def lobe(r, d, c, crank_turn):
     """Centre of the lobe for disc d, from the centre of crank c (x, y) [m]."""
-    angle = crank_turn + disc_offset(r, d) + r.crank_phase_error[d, c]
-    throw = r.eccentricity + r.crank_eccentricity_error[d, c]
+    angle = crank_turn + disc_offset(r, d) + r.crank_phase_error[d, c] + r.lobe_turn_added[d, c]
+    throw = r.eccentricity + r.crank_eccentricity_error[d, c] + r.throw_added[d, c]
     return throw * math.cos(angle), throw * math.sin(angle)

@@ -8,6 +8,7 @@ from fmu_src.variables import Table, Variable
 from rv_plant.assembly import coordinate_count
 from rv_plant.constraints import constraint_count
 from rv_plant.contact import DAMPINGS, LAWS, READINGS, STEP
+from rv_plant.effects import EFFECTS
 
 FILE = "reducer file"
 
@@ -53,10 +54,6 @@ def plant_table(topology: Topology) -> Table:
     def deviation(name, text, shape, axes, source="ideal part"):
         return Variable(name, "parameter", "m", text, 0.0, shape, axes, minimum=-1e-3, maximum=1e-3,
                         nominal=1e-6, source=source)
-
-    def compliance(name, unit, text):
-        return Variable(name, "parameter", unit, text + " (0 is rigid)", 0.0, minimum=0.0,
-                        source="assumed: rigid, as in both sources")
 
     def mass(name, unit, text, start):
         return Variable(name, "parameter", unit, f"mass or inertia of {text}", start, minimum=1e-9,
@@ -117,11 +114,6 @@ def plant_table(topology: Topology) -> Table:
         deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", (t.cranks,), ("crank",)),
         deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", (t.cranks,),
                   ("crank",)),
-        compliance("crank_support_compliance", "m/N", "bearings of one crank in the carrier"),
-        compliance("main_bearing_compliance", "m/N", "bearings of the carrier in the housing"),
-        compliance("first_stage_compliance", "m/N", "one tooth contact of sun and planet, along its normal"),
-        compliance("housing_compliance", "rad/(N.m)", "turning of the pin ring under its torque"),
-        compliance("carrier_compliance", "rad/(N.m)", "twist between crank seats and output flange"),
         Variable("fidelity", "parameter", "1", "equilibrium at each angle, or bodies in motion", 0,
                  choices=("quasi-static", "dynamic"), source="as the system model needs it"),
         Variable("drive", "parameter", "1", "what moves the input in motion", 0, choices=("speed", "torque"),
@@ -135,11 +127,8 @@ def plant_table(topology: Topology) -> Table:
         mass("load_inertia", "kg.m^2", "what the output flange carries", 5.0),
         Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
                  source="assumed: usual for a ratio of 3"),
-        length("backlash", "play between the flanks of the first stage, along the normal", 0.0, maximum=1e-3,
-               source="assumed: none, as in both sources"),
         Variable("tooth_stiffness_variation", "parameter", "1", "first-stage tooth stiffness over its mean, amplitude"
                  " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant"),
-        deviation("tooth_error", "profile error of the first stage, amplitude at mesh order", (), ()),
         Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
                  maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
         Variable("joints", "parameter", "1", "joints in motion: springs, or constraints with multipliers (then rigid)", 0,
@@ -199,7 +188,10 @@ def plant_table(topology: Topology) -> Table:
         output("tooth_force", "N", "tangential force of the sun on a planet", (t.cranks,), ("crank",),
                nominal=100.0),
         output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
-        output("power_loss", "W", "mean power lost in the last communication step, in motion"),
+        output("power_loss", "W", "power lost: friction and drag, and in motion damping (mean of the last step)"),
+        output("housing_force_x", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        output("housing_force_y", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        output("cage_speed", "rad/s", "speed of the roller cages against the discs"),
         output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
         output("constraint_drift", "m", "largest violation of a joint's constraint (turnings in rad)"),
         output("residual", "1", "out-of-balance force over load at the last equilibrium"),
@@ -211,6 +203,26 @@ def plant_table(topology: Topology) -> Table:
         return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
 
     states = [
+        # What effects add to the ideal parts, made in ``prepare``.
+        state("pin_radius_added", "m", "added to the pins' radius", (t.pins,), ("pin",)),
+        state("lobe_gap_added", "m", "material missing on a lobe", (t.discs, t.lobes), ("disc", "lobe")),
+        state("lobe_pitch_added", "m", "lobe displaced along the pitch", (t.discs, t.lobes), ("disc", "lobe")),
+        state("profile_radius_added", "m", "added to the pin radius that generates the profile"),
+        state("profile_circle_added", "m", "added to the circle radius that generates the profile"),
+        state("roller_gap_added", "m", "added to a bearing's clearance", roller, roller_axes),
+        state("roller_gap_now", "m", "the same at the present angle, with what depends on it", roller, roller_axes),
+        state("throw_added", "m", "added to a lobe's throw", bearing, bearing_axes),
+        state("lobe_turn_added", "rad", "added to a lobe's direction", bearing, bearing_axes),
+        state("hole_tangential_added", "m", "hole in the disc displaced along its circle", bearing, bearing_axes),
+        state("seat_tangential_added", "m", "crank's seat displaced along its circle", (t.cranks,), ("crank",)),
+        state("tooth_gap", "m", "what sun and planet lack along the line of action", (t.cranks,), ("crank",)),
+        state("crank_turn_added", "rad", "a crank's turning by what its teeth lack", (t.cranks,), ("crank",)),
+        state("ring_scale", "1", "pin circle radius over that at the reference temperature"),
+        state("grease_thinning", "1", "viscosity of the grease over that of new grease"),
+        state("friction_power", "W", "power lost by friction and drag at the last equilibrium"),
+        state("friction_load", "N.m", "torque of friction and drag at the input, in motion"),
+        state("cage_share", "1", "speed of the cages over that of pure rolling"),
+        state("pressure_cosine", "1", "cosine of the first stage's pressure angle"),
         state("ideal_output", "rad", "output angle of ideal kinematics"),
         state("cage", "rad", "angle of the cages"),
         state("z", "1", "departures from ideal kinematics, see assembly", (z,), ("coordinate",)),
@@ -274,5 +286,6 @@ def plant_table(topology: Topology) -> Table:
         scratch("crank_force", (t.cranks, 2)), scratch("crank_moment", (t.cranks,)),
         scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 4)),
     ]
-    return Table("RvPlant", "RV reducer: quasi-static equilibrium of discs, pins, needle bearings and cranks",
-                 inputs + parameters + outputs + states + work)
+    effects = [v for effect in EFFECTS.values() for v in effect.variables()]
+    return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",
+                 inputs + parameters + effects + outputs + states + work)

@@ -35,7 +35,8 @@ def imperfect(table, seed, size=1.5e-6):
     """Random values of every error of a part, up to ``size`` [m] (angles as at the crank circle)."""
     random, values = np.random.default_rng(seed), {}
     for variable in table.of_role("parameter"):
-        if variable.name.endswith(("_error", "_error_radial", "_error_tangential")):
+        # Effects have scalars; errors of single parts are arrays.
+        if variable.shape and variable.name.endswith(("_error", "_error_radial", "_error_tangential")):
             largest = size / 28e-3 if variable.unit == "rad" else size
             values[variable.name] = random.uniform(-largest, largest, variable.shape)
     return values

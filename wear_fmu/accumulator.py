@@ -7,8 +7,10 @@ takes off material between them.  All entry points take a one-element record arr
 
 import math
 
+from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
+from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
     PRINTED,
     equivalent_curvature,
@@ -26,7 +28,10 @@ from wear_fmu.surfaces import (
 )
 from wear_fmu.wear_laws import run_in_factor, wear_coefficient
 
-TURN, STAND = 0, 1
+FLANK, INNER, OUTER = 0, 1, 2
+
+effects = compose("wear_fmu.effects", HOOKS)
+prepare_effects, advance_effects, effect_factor = effects.prepare, effects.advance, effects.factor
 
 PRIMED, UNDERCUT, LONG_STEP = range(1, 4)
 FAULTS = {
@@ -86,6 +91,8 @@ def initialise(records):
     if fault != 0:
         return fault
     prepare(r)
+    r.effects_on = 0
+    prepare_effects(r)
     r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
     return 0
 
@@ -142,6 +149,13 @@ def wear_meshes(r, modulus, viscosity, run_in):
                 r.reference_line_load, r.roughness, viscosity, modulus, line_load, 1.0 / curvature,
             )
             amount = r.acceleration * k * line_load
+            if r.effects_on:
+                middle = 0.5 * (start + end)
+                speed = abs(r.crank_speed) * sliding_per_crank_angle(
+                    2.0 * math.pi * middle / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
+                )
+                depth = interpolate_closed(r.disc_wear[d], middle)
+                amount *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth)
             deepest, place, worn = add_flank_pass(
                 r.disc_wear[d], start, end, amount, r.slide, r.slide_before, r.arc
             )
@@ -152,12 +166,13 @@ def wear_meshes(r, modulus, viscosity, run_in):
                 r.flank_phase[d] = 2.0 * math.pi * (place % bins + 0.5) / bins
             # The pin loses the same area, all round or where it is touched.
             r.pin_volume += worn * r.mesh_width
-            if r.pins == TURN:
-                r.pin_even_wear[d, j] += worn / (2.0 * math.pi * r.pin_radius)
+            round_share = 1.0 - r.standing
+            r.pin_even_wear[d, j] += round_share * worn / (2.0 * math.pi * r.pin_radius)
+            if r.standing == 0.0:
                 r.pin_depth[d, j] = r.pin_even_wear[d, j]
             else:
-                deepest = wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, worn)
-                r.pin_depth[d, j] = max(r.pin_depth[d, j], deepest)
+                deepest = wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, r.standing * worn)
+                r.pin_depth[d, j] = max(r.pin_depth[d, j], r.pin_even_wear[d, j] + deepest)
 
 
 @kernel
@@ -196,6 +211,7 @@ def wear_raceways(r, modulus, viscosity, run_in):
     bin_angle = 2.0 * math.pi / bins
     inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
     outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)
+    race_speed = abs(r.crank_speed) * 0.5
     for d in range(discs):
         for c in range(cranks):
             inner_start, outer_start = first_roller(
@@ -217,6 +233,10 @@ def wear_raceways(r, modulus, viscosity, run_in):
                     r.reference_line_load, r.roughness, viscosity, modulus, line_load, outer_radius,
                 )
                 amount = r.acceleration * k_inner * line_load * r.slip_ratio_inner
+                if r.effects_on:
+                    speed = race_speed * r.slip_ratio_inner * r.inner_race_radius
+                    depth = interpolate_closed(r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle)
+                    amount *= effect_factor(r, INNER, line_load, inner_radius, speed, depth)
                 deepest, place = add_pass(
                     r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle, (inner_end + ahead) / bin_angle, amount
                 )
@@ -226,6 +246,10 @@ def wear_raceways(r, modulus, viscosity, run_in):
                 swept = abs(inner_end - inner_start) * r.inner_race_radius
                 r.inner_race_volume += amount * swept * r.roller_length
                 amount = r.acceleration * k_outer * line_load * r.slip_ratio_outer
+                if r.effects_on:
+                    speed = race_speed * r.slip_ratio_outer * r.outer_race_radius
+                    depth = interpolate_closed(r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle)
+                    amount *= effect_factor(r, OUTER, line_load, outer_radius, speed, depth)
                 deepest, place = add_pass(
                     r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle, (outer_end + ahead) / bin_angle, amount
                 )
@@ -251,7 +275,7 @@ def publish_profile_errors(r, lead_time):
         for j in range(pins):
             place = flank_position(r, d, j, crank_angle)
             error = interpolate_closed(r.disc_wear[d], place) + r.pin_even_wear[d, j]
-            if r.pins == STAND:
+            if r.standing > 0.0:
                 error += interpolate_open(r.pin_wear[d, j], pin_position(r, place))
             r.mesh_profile_error[d, j] = error
         for c in range(cranks):
@@ -281,6 +305,7 @@ def step(records, time, duration):
         wear_raceways(r, modulus, viscosity, run_in)
     r.operating_time += r.acceleration * duration
     r.crank_travel += r.acceleration * moved
+    advance_effects(r, r.acceleration * duration)
     r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
     publish_profile_errors(r, r.contact_lead * duration)
     return 0

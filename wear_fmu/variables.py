@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from fmu_src.variables import Table, Variable
 
+from wear_fmu.effects import EFFECTS
 from wear_fmu.kinematics import SLIDING_FORMS
 from wear_fmu.wear_laws import LAWS
 
@@ -116,6 +117,8 @@ def wear_table(topology, resolution: Resolution = Resolution()) -> Table:
         return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
 
     states = [
+        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
+        state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
         state("cage_angle_before", "rad", "cage angle at the last step"),
@@ -130,7 +133,8 @@ def wear_table(topology, resolution: Resolution = Resolution()) -> Table:
         state("slide_before", "m", "its sum up to the bin", (bins.flank,), ("bin",)),
         state("arc", "m", "flank length of a bin", (bins.flank,), ("bin",)),
     ]
+    effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways",
-                 inputs + parameters + outputs + states, starts_from_nothing=True)
+                 inputs + parameters + effects + outputs + states, starts_from_nothing=True)
 
 

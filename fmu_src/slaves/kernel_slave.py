@@ -16,11 +16,10 @@ from pythonfmu.enums import Fmi2Status
 
 import fmu_src
 from fmu_src.native import host_triple, load_object
-from fmu_src.source_hash import LOADED_HASH, source_hash
+from fmu_src.source_hash import LOADED_HASH, STAMP, source_hash
 from fmu_src.unit import LOG_CATEGORIES, UnitFault, make_unit
 from fmu_src.variables import ValueFault
 
-STAMP = "unit.json"
 OBJECT_CODE = "unit.o"
 
 

@@ -1,0 +1,48 @@
+"""Numbers with units as a campaign file states them."""
+
+from fmu_src.units import UnitError, conversion
+from orchestrator.faults import InputFault
+from orchestrator.settings import NUMBER
+
+# Ways of writing that benches use and pint reads otherwise ("Nm" would be a count times a metre).
+SPELLINGS = {
+    "Nm": "N.m", "mNm": "mN.m", "kNm": "kN.m", "Nm/arcmin": "N.m/arcmin", "Nm/rad": "N.m/rad", "Nm/deg": "N.m/deg",
+    "rev": "turn", "rev/s": "turn/s", "rev/min": "rpm", "1/min": "rpm", "m/s2": "m/s^2", "m/s²": "m/s^2",
+}  # fmt: skip
+
+
+def to_si(unit: str, target: str, place: str) -> tuple[float, float]:
+    """(factor, offset) from the stated unit to ``target``."""
+    try:
+        return conversion(SPELLINGS.get(unit.strip(), unit.strip()), target)
+    except UnitError as problem:
+        raise InputFault(f"{place}: {problem}") from None
+
+
+def split(given, target: str, place: str) -> tuple[float, str]:
+    """Number and unit of ``"15 rpm"`` or ``{ value = 15, unit = "rpm" }``."""
+    if isinstance(given, dict) and given.keys() == {"value", "unit"} and is_number(given["value"]):
+        return float(given["value"]), str(given["unit"])
+    if target == "1" and is_number(given):
+        return float(given), "1"
+    match = NUMBER.match(given) if isinstance(given, str) else None
+    if match and (match[2] or target == "1"):
+        return float(match[1]), match[2] or "1"
+    raise InputFault(
+        f'{place} = {given!r} is not a number with a unit: write "15 {target}" or {{ value = 15, unit = "{target}" }},'
+        f" in any unit of the kind of {target}"
+    )
+
+
+def is_number(value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def amount(given, target: str, place: str) -> float:
+    """The stated number in the unit ``target``; finite."""
+    number, unit = split(given, target, place)
+    factor, offset = to_si(unit, target, f"{place} = {number:g} {unit}")
+    value = factor * number + offset
+    if not abs(value) < float("inf"):
+        raise InputFault(f"{place} = {given!r}: not a finite number in {target}; give one")
+    return value

@@ -1,0 +1,215 @@
+"""``load_campaign``: a folder with campaign.toml becomes records."""
+
+from pathlib import Path
+
+import numpy as np
+
+from discrepancy.campaign.amount import split, to_si
+from discrepancy.campaign.file_format import FILE, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
+from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows
+from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
+from discrepancy.campaign.readers import Options, read_columns
+from discrepancy.campaign.scales import Scales, make_scales
+from discrepancy.campaign.series import Series, complete, series_of
+from discrepancy.problem import Parameter, Record
+from fmu_src.units import parse, registry
+from orchestrator.faults import InputFault
+
+DIRECTIONS = {"forward": 1, "reverse": -1, 1: 1, -1: -1}
+
+
+def load_campaign(folder: str | Path, data: str | Path | None = None) -> Campaign:
+    """Read a campaign; ``data`` is where its files are if not where the file says."""
+    folder = Path(folder)
+    path = folder / FILE
+    content, text = read_campaign_file(path)
+    scales = make_scales(content.campaign, folder, path)
+    conditions = {
+        name: condition_of(name, entry, scales, f"{path}: conditions.{name}") for name, entry in content.conditions.items()
+    }
+    records, rows, unfilled = [], {}, {}
+    files = Files(Path(data) if data is not None else folder / content.campaign.data)
+    places = [f"{path}: runs[{i + 1}] ({run.id})" for i, run in enumerate(content.runs)]
+    require_distinct(content.runs, conditions, places)
+    for run, place in zip(content.runs, places):
+        series, rows[run.id] = measured(run, scales, files, place)
+        if rows[run.id].used == 0:
+            unfilled[run.id] = run.file or "table"
+        else:
+            records.append(record_of(run, conditions[run.condition], series, scales, place))
+    return Campaign(
+        folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
+        conditions, tuple(records), rows, unfilled,
+        tuple(nuisance_of(name, entry, scales, f"{path}: nuisances.{name}") for name, entry in content.nuisances.items()),
+        rig_of(content.rig, scales, f"{path}: rig") if content.rig else None,
+        text, content.campaign.seal, tuple(dict.fromkeys(run.quantity for run in content.runs)),
+    )  # fmt: skip
+
+
+class Files:
+    """Columns of the files, read once for all runs that take the same ones (repetitions in one file)."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.read: dict[tuple, Series] = {}
+
+    def columns(self, run: Run, place: str) -> Series:
+        options = Options(**{name: getattr(run, name) for name in Options.__dataclass_fields__})
+        names = frozenset(str(column.column) for column in run.columns.values()) | frozenset(run.where)
+        key = (run.file, options, names)
+        if key not in self.read:
+            self.read[key] = read_columns(self.folder / run.file, set(names), options, place)
+        return self.read[key]
+
+
+def require_distinct(runs: list[Run], conditions: dict[str, Condition], places: list[str]) -> None:
+    """Every run is named once, belongs to a condition, and repeats no replicate."""
+    ids, replicates = {}, {}
+    for run, place in zip(runs, places):
+        if run.id in ids:
+            raise InputFault(f"{place}: id = {run.id!r} is used twice, first in {ids[run.id]}; give every run its own")
+        ids[run.id] = place.split(": ", 1)[1]
+        if run.condition not in conditions:
+            raise InputFault(
+                f"{place}: condition = {run.condition!r}: there is no such condition ({', '.join(conditions)}); add"
+                f" [conditions.{run.condition}]"
+            )
+        same = (run.quantity, run.condition, run.replicate, str(run.mounting), run.direction, *sorted(run.tags.items()))
+        if same in replicates:
+            raise InputFault(
+                f"{place}: replicate = {run.replicate}: {replicates[same]} is replicate {run.replicate} of {run.quantity}"
+                f" in {run.condition} already; count replicates on, or name what differs by tags"
+            )
+        replicates[same] = run.id
+
+
+def condition_of(name: str, entry: ConditionEntry, scales: Scales, place: str) -> Condition:
+    stated = {key: getattr(entry, key) for key in FACTOR_KEYS if getattr(entry, key) is not None}
+    factors = scales.factors(stated, place)
+    factors["direction"] = float(DIRECTIONS[entry.direction or "forward"])
+    return Condition(
+        name, factors, str(entry.mounting or "1"), entry.held_out, entry.direction is not None, tuple(entry.interventions)
+    )
+
+
+def measured(run: Run, scales: Scales, files: Files, place: str) -> tuple[Series, Rows]:
+    """The run's numbers, from a file, a table written in the campaign, or one value."""
+    given = [name for name in ("file", "table", "value") if getattr(run, name) or name == "value" and run.value is not None]
+    if len(given) != 1:
+        raise InputFault(
+            f"{place}: has {' and '.join(given) or 'no numbers'}: give exactly one of file (with columns), table, or value"
+        )
+    quantity = QUANTITIES[run.quantity]
+    roles = roles_of(quantity)
+    if run.value is not None:
+        require_roles([VALUE], quantity, f"{place}.value = {run.value!r}")
+        return complete({VALUE: np.array([scales.number(roles[VALUE], run.value, f"{place}.value")])}, run, 1, place)
+    stated = run.columns if run.file is not None else run.table
+    kind = "columns" if run.file is not None else "table"
+    require_roles(list(stated), quantity, f"{place}.{kind}")
+    if run.file is not None:
+        return series_of(run, roles, files.columns(run, place), scales, place)
+    series = {}
+    for role, entry in run.table.items():
+        factor, offset = scales.conversion(roles[role], entry.unit, f"{place}.table.{role}.unit = {entry.unit!r}")
+        series[roles[role].name] = factor * np.array(entry.values, float) + offset
+    lengths = {role: len(entry.values) for role, entry in run.table.items()}
+    if len(set(lengths.values())) > 1:
+        raise InputFault(f"{place}.table: columns of different length {lengths}; give every row all its numbers")
+    return complete(series, run, lengths[VALUE], place)
+
+
+def require_roles(given: list[str], quantity: Quantity, place: str) -> None:
+    """Value and axes are there, nothing is unknown or given twice."""
+    roles = roles_of(quantity)
+    for role in given:
+        if role not in roles:
+            raise InputFault(f"{place}.{role}: {quantity.name} has no such column; possible: {', '.join(roles)}")
+    if quantity.name == "transmission_error" and ENCODERS <= set(given) and VALUE not in given:
+        return
+    names = [roles[role].name for role in given]
+    if twice := {name for name in names if names.count(name) > 1}:
+        raise InputFault(f"{place}: {twice.pop()} is given twice; keep one of {', '.join(given)}")
+    for name in (VALUE, *quantity.axes):
+        if name not in names:
+            keys = " or ".join(keys_for(name)) or VALUE
+            raise InputFault(f"{place}: {quantity.name} needs {keys}; add {keys} = {{ column = ..., unit = ... }}")
+
+
+def record_of(run: Run, condition: Condition, series: Series, scales: Scales, place: str) -> Record:
+    quantity = QUANTITIES[run.quantity]
+    # What a row says of itself is nearer to the truth than the condition's nominal number.
+    factors = condition.factors | scales.factors(run.actual, f"{place}.actual")
+    factors = {name: number for name, number in factors.items() if name not in series}
+    if run.direction is not None:
+        factors["direction"] = float(DIRECTIONS[run.direction])
+    return Record(
+        run.id, run.quantity, quantity.unit, run.condition, run.replicate, series[VALUE],
+        {name: column for name, column in series.items() if name != VALUE}, factors,
+        str(run.mounting or condition.mounting), condition.held_out if run.held_out is None else run.held_out,
+        noise_of(run, quantity, place), tags_of(run, condition, quantity, place),
+    )  # fmt: skip
+
+
+def noise_of(run: Run, quantity: Quantity, place: str) -> float | None:
+    if run.noise is None:
+        return None
+    number, unit = split(run.noise, quantity.usual_unit, f"{place}.noise")
+    # A standard deviation is a difference: degC has its zero, a noise has not.
+    noise = to_si(unit, quantity.unit, f"{place}.noise = {number:g} {unit}")[0] * number
+    if not 0.0 < noise < float("inf"):
+        raise InputFault(f"{place}.noise = {number:g} {unit}: a standard deviation must be positive; leave it out if unknown")
+    return noise
+
+
+def tags_of(run: Run, condition: Condition, quantity: Quantity, place: str) -> dict[str, str]:
+    tags = {name: str(word) for name, word in run.tags.items()}
+    for name, word in tags.items():
+        if name in TAGS and TAGS[name].choices and word not in TAGS[name].choices:
+            raise InputFault(f"{place}.tags.{name} = {word!r}: choose one of {', '.join(TAGS[name].choices)}")
+        if name not in TAGS:
+            raise InputFault(f"{place}.tags.{name} = {word!r} is not a tag; possible: {', '.join(TAGS)}")
+    for name in quantity.tags:
+        if name not in tags:
+            choices = ", ".join(TAGS[name].choices) or TAGS[name].description
+            raise InputFault(f"{place}: {quantity.name} needs tags.{name} ({choices})")
+    if condition.interventions:
+        tags["interventions"] = ",".join(condition.interventions)
+    return tags
+
+
+def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> Nuisance:
+    """In the unit of the parameter of that name, else in SI base units."""
+    tables = (scales.reducer.plant, scales.reducer.wear) if scales.reducer else ()
+    unit = next((t.by_name[name].unit for t in tables if name in t.by_name), None)
+    if unit is None:
+        to_si(entry.unit, entry.unit, f"{place}.unit = {entry.unit!r}")
+        unit = f"{registry.Quantity(1.0, parse(entry.unit)).to_base_units().units:~C}" or "1"
+    factor, offset = to_si(entry.unit, unit, f"{place}.unit = {entry.unit!r}")
+    if not entry.lower < entry.upper or not entry.lower <= entry.start <= entry.upper:
+        raise InputFault(
+            f"{place}: lower = {entry.lower:g}, start = {entry.start:g}, upper = {entry.upper:g} {entry.unit}: must rise in"
+            " this order"
+        )
+    prior = None if entry.prior is None else factor * entry.prior
+    lower, start, upper = (factor * number + offset for number in (entry.lower, entry.start, entry.upper))
+    parameter = Parameter(name, unit, start, lower, upper, prior or 0.1 * (upper - lower), 0, prior, entry.description)
+    return Nuisance(parameter, entry.per)
+
+
+def rig_of(entry: RigEntry, scales: Scales, place: str) -> Rig:
+    ranges = {}
+    for name in ("input_speed", "output_speed", "load_torque", "temperature", "hours"):
+        if (limits := getattr(entry, name)) is None:
+            continue
+        key = FACTOR_KEYS[name]
+        if key.name in ranges:
+            raise InputFault(f"{place}.{name}: the {key.name} is given twice, at input and output; keep one")
+        low, high = (scales.number(key, limit, f"{place}.{name}[{i + 1}]") for i, limit in enumerate(limits))
+        if not low <= high:
+            raise InputFault(f"{place}.{name} = {limits!r}: give the lowest first")
+        ranges[key.name] = (low, high)
+    return Rig(
+        ranges, tuple(DIRECTIONS[d] for d in entry.directions), tuple(entry.quantities), tuple(entry.interventions),
+        entry.cost_per_run, entry.cost_per_hour, entry.cost_per_intervention, entry.currency,
+    )  # fmt: skip

@@ -1,0 +1,91 @@
+"""A campaign in memory: records in SI units, and what stands beside them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from discrepancy.problem import Parameter, Record
+from orchestrator.reducer import Reducer
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One state of the rig; ``factors`` in SI units, as in ``Record``."""
+
+    name: str
+    factors: Mapping[str, float]
+    mounting: str
+    held_out: bool
+    direction_stated: bool
+    interventions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Rows:
+    """How many rows of a run's file came into its record."""
+
+    selected: int
+    dropped: int
+    used: int
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """A parameter that may be calibrated; one value for the whole campaign, or one per mounting, condition or run."""
+
+    parameter: Parameter
+    per: str = "campaign"
+
+
+@dataclass(frozen=True)
+class Rig:
+    """What the rig can do and what it costs: the limits of a proposed experiment.
+
+    ``ranges`` maps factors to (lowest, highest) in SI units; a factor that is not there cannot be set.
+    """
+
+    ranges: Mapping[str, tuple[float, float]]
+    directions: tuple[int, ...]
+    quantities: tuple[str, ...]
+    interventions: tuple[str, ...]
+    cost_per_run: float
+    cost_per_hour: float
+    cost_per_intervention: float
+    currency: str
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A checked campaign.
+
+    ``records`` hold every run that has rows; ``unfilled`` names the runs whose file has none
+    yet, with the file.  ``rows`` counts, by run, what was selected, dropped and used.
+    ``ratio`` and ``rated_torque`` [N.m] are the reducer's where the file does not state them.
+    """
+
+    folder: Path
+    name: str
+    description: str
+    reducer: Reducer | None
+    ratio: float | None
+    rated_torque: float | None
+    conditions: Mapping[str, Condition]
+    records: tuple[Record, ...]
+    rows: Mapping[str, Rows]
+    unfilled: Mapping[str, str]
+    nuisances: tuple[Nuisance, ...]
+    rig: Rig | None
+    text: str
+    seal: str = ""
+    quantities: tuple[str, ...] = field(default=())
+
+    @property
+    def training(self) -> tuple[Record, ...]:
+        return tuple(record for record in self.records if not record.held_out)
+
+    @property
+    def held_out(self) -> tuple[Record, ...]:
+        return tuple(record for record in self.records if record.held_out)
+
+    def of(self, quantity: str) -> tuple[Record, ...]:
+        return tuple(record for record in self.records if record.quantity == quantity)

@@ -1,0 +1,108 @@
+"""Columns out of measurement files, one reader a format, each through the library made for it.
+
+A reader is ``read(path, names, options) -> {name: array}``.  It gives what stands in the file:
+no units, no selection.  Text columns come as objects, so that rows can be selected by them.
+"""
+
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+
+from orchestrator.faults import InputFault
+
+# Ending of the file's name -> reader's module.  The modules import their libraries themselves:
+# a campaign of CSV files needs none of the others.
+ENDINGS = {
+    ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".parquet": "parquet", ".mat": "mat", ".mf4": "mdf",
+    ".mdf": "mdf", ".tdms": "tdms",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a file is read; see docs/campaigns.md."""
+
+    format: str | None = None
+    delimiter: str | None = None
+    decimal: str | None = None
+    header: bool = True
+    units_line: bool = False
+    skip_lines: int = 0
+    group: str | None = None
+    align: str | None = None
+
+
+def read_columns(path: Path, names: set[str], options: Options, place: str) -> dict[str, np.ndarray]:
+    """The named columns; ``place`` is the run, for the errors."""
+    if not path.is_file():
+        raise InputFault(f"{place}: file = {str(path)!r}: there is no such file; correct the name or add the file")
+    endings = [s.lower() for s in path.suffixes if s.lower() != ".gz"]
+    kind = options.format or (ENDINGS.get(endings[-1]) if endings else None)
+    if kind is None:
+        raise InputFault(
+            f"{place}: file = {path.name!r}: the ending does not tell the format; name it {', '.join(ENDINGS)},"
+            ' or state format = "csv" | "parquet" | "mat" | "mdf" | "tdms"'
+        )
+    try:
+        reader = import_module(f"discrepancy.campaign.readers.{kind}")
+    except ModuleNotFoundError as problem:
+        raise InputFault(
+            f"{place}: file = {path.name!r}: reading {kind} needs the package {problem.name}:"
+            ' pip install "rvwear[measurements]"'
+        ) from None
+    try:
+        columns = reader.read(path, names, options)
+    except ReadFault as problem:
+        raise InputFault(f"{place}: {path}: {problem}") from None
+    except InputFault:
+        raise
+    # The libraries' own exceptions on broken files are of every kind (struct, key, value, runtime errors).
+    except Exception as problem:
+        raise InputFault(
+            f"{place}: {path}: not readable as {kind}: {type(problem).__name__}: {problem}; check the file, or state its"
+            " format"
+        ) from None
+    lengths = {name: len(column) for name, column in columns.items()}
+    if len(set(lengths.values())) > 1:
+        raise InputFault(
+            f"{place}: {path}: columns of different length ({', '.join(f'{k}: {n}' for k, n in lengths.items())});"
+            " take columns that were sampled together, or export them so"
+        )
+    return columns
+
+
+class ReadFault(ValueError):
+    """What is wrong with a file and how to mend it; the place is added by the caller."""
+
+
+def missing_column(name: str, available) -> ReadFault:
+    """No such column, with what there is."""
+    names = [str(n) for n in available]
+    shown = ", ".join(names[:30]) + (f", ... ({len(names)} in all)" if len(names) > 30 else "")
+    return ReadFault(f"column {name!r}: the file has no such column; it has {shown}")
+
+
+def aligned(signals: dict[str, tuple[np.ndarray, np.ndarray | None]], align: str | None) -> dict[str, np.ndarray]:
+    """Signals (values, own time or None) on one time base.
+
+    Loggers sample channels at different rates.  Nothing is interpolated unless the run says
+    onto which channel's times.
+    """
+    times = {name: time for name, (_, time) in signals.items() if time is not None}
+    if align is None:
+        first = next(iter(times.values()), None)
+        apart = [n for n, t in times.items() if len(t) != len(first) or not np.array_equal(t, first)]
+        if apart:
+            raise ReadFault(
+                f"columns {', '.join(signals)} were not sampled at the same times ({apart[0]} differs from"
+                f" {next(iter(times))}); state align = \"{next(iter(times))}\" to interpolate the others linearly onto its times"
+            )
+        return {name: values for name, (values, _) in signals.items()}
+    if align not in times:
+        raise ReadFault(f"align = {align!r}: not a column of this run with its own times; choose from {', '.join(times)}")
+    base = times[align]
+    lowest, highest = max(t[0] for t in times.values()), min(t[-1] for t in times.values())
+    base = base[(base >= lowest) & (base <= highest)]
+    return {name: values if time is None else np.interp(base, time, values) for name, (values, time) in signals.items()}

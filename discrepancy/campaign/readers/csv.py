@@ -1,0 +1,109 @@
+"""Delimited text, plain or gzipped; delimiter and decimal sign are found if they are not stated."""
+
+import codecs
+import csv
+import gzip
+import re
+import warnings
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from discrepancy.campaign.readers import Options, ReadFault, missing_column
+
+# In this order: a comma may be the decimal sign, so it is tried last.
+DELIMITERS = (";", "\t", "|", ",")
+DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*$")
+SNIFFED_LINES = 30
+COMMENT = "#"
+
+
+def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]:
+    encoding = encoding_of(path)
+    lines = first_lines(path, encoding, options.skip_lines)
+    if not lines:
+        raise ReadFault("the file is empty; it needs a line of column names")
+    delimiter = options.delimiter or sniff_delimiter(lines)
+    decimal = options.decimal or sniff_decimal(lines, delimiter)
+    with warnings.catch_warnings():
+        # pandas would cut off fields beyond the header's with a mere warning: half of every "1,5" for instance.
+        warnings.simplefilter("error", pd.errors.ParserWarning)
+        try:
+            frame = pd.read_csv(
+                path, sep=r"\s+" if delimiter == " " else delimiter, decimal=decimal, comment=COMMENT,
+                header=0 if options.header else None, skiprows=options.skip_lines, encoding=encoding,
+                skipinitialspace=True, compression="gzip" if path.suffix.lower() == ".gz" else None, low_memory=False,
+                index_col=False,
+            )  # fmt: skip
+        except (pd.errors.ParserError, pd.errors.ParserWarning) as problem:
+            raise ReadFault(
+                f"rows and header differ in their number of fields, read with delimiter {delimiter!r} and decimal"
+                f" {decimal!r} ({str(problem).strip()}); state delimiter and decimal, or skip_lines"
+            ) from None
+    # Without a header the columns are called 1, 2, 3 ...
+    frame.columns = [str(c).strip() if options.header else str(c + 1) for c in frame.columns]
+    if options.units_line:
+        frame = frame.iloc[1:]
+    names_in_file = [field.strip() for field in next(csv.reader(lines, delimiter=delimiter))] if options.header else []
+    columns = {}
+    for name in sorted(names):
+        if name not in frame.columns:
+            raise missing_column(name, frame.columns)
+        if names_in_file.count(name) > 1:
+            raise ReadFault(f"column {name!r}: the file has {names_in_file.count(name)} columns of this name; rename one")
+        column = frame[name]
+        if options.units_line:
+            text = column.astype(str).str.strip()
+            column = pd.to_numeric(text.str.replace(",", ".") if decimal == "," else text, errors="coerce").where(
+                text != "nan"
+            )
+        columns[name] = column.to_numpy()
+    return columns
+
+
+def encoding_of(path: Path) -> str:
+    """UTF-8 where the file is; else what Windows programs write (micro and degree signs, "Unicode text")."""
+    with (gzip.open if path.suffix.lower() == ".gz" else open)(path, "rb") as file:
+        if file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+            return "utf-16"
+    with opened(path, "utf-8-sig") as file:
+        try:
+            for _ in iter(lambda: file.read(1 << 20), ""):
+                pass
+        except UnicodeDecodeError:
+            return "cp1252"
+    return "utf-8-sig"
+
+
+def opened(path: Path, encoding: str):
+    opener = gzip.open if path.suffix.lower() == ".gz" else open
+    return opener(path, "rt", encoding=encoding, newline="")
+
+
+def first_lines(path: Path, encoding: str, skip: int) -> list[str]:
+    with opened(path, encoding) as file:
+        lines = (line.rstrip("\r\n") for line in islice(file, skip, None))
+        return list(islice((line for line in lines if line.strip() and not line.startswith(COMMENT)), SNIFFED_LINES))
+
+
+def sniff_delimiter(lines: list[str]) -> str:
+    """The first that cuts all lines into the same number of fields, at least two."""
+    for delimiter in DELIMITERS:
+        counts = {len(fields) for fields in csv.reader(lines, delimiter=delimiter)}
+        if len(counts) == 1 and counts.pop() > 1:
+            return delimiter
+    if len(lines) > 1 and all(DECIMAL_COMMA.match(line) for line in lines[1:]):
+        # A single column; any delimiter but the comma.
+        return ";"
+    # Blanks, or a single column; a lone header does not tell, its names may hold blanks.
+    blanks = len(lines) > 1 and {len(line.split()) for line in lines} == {len(lines[-1].split())}
+    return " " if blanks and len(lines[-1].split()) > 1 else ","
+
+
+def sniff_decimal(lines: list[str], delimiter: str) -> str:
+    if delimiter == ",":
+        return "."
+    fields = [field for row in csv.reader(lines, delimiter=delimiter) for field in row]
+    return "," if any(DECIMAL_COMMA.match(field) for field in fields) else "."

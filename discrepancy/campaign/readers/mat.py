@@ -1,0 +1,66 @@
+"""MATLAB files: up to version 7 through scipy, 7.3 (HDF5) through h5py.
+
+A column is a variable that is a vector (``te``), a field of a structure (``data.te``), or a
+column of a matrix, counted from 1 (``data[2]``).
+"""
+
+import re
+from pathlib import Path
+
+import h5py
+import numpy as np
+import scipy.io
+
+from discrepancy.campaign.readers import Options, ReadFault, missing_column
+
+COLUMN_OF_MATRIX = re.compile(r"(.+)\[(\d+)\]$")
+
+
+def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]:
+    arrays = hdf_arrays(path) if h5py.is_hdf5(path) else scipy_arrays(path)
+    return {name: vector(arrays, name) for name in sorted(names)}
+
+
+def scipy_arrays(path: Path) -> dict[str, np.ndarray]:
+    found: dict[str, np.ndarray] = {}
+
+    def add(name: str, item) -> None:
+        if isinstance(item, scipy.io.matlab.mat_struct):
+            for field in item._fieldnames:
+                add(f"{name}.{field}", getattr(item, field))
+        else:
+            found[name] = np.asarray(item)
+
+    for name, item in scipy.io.loadmat(path, struct_as_record=False, squeeze_me=True).items():
+        if not name.startswith("__"):
+            add(name, item)
+    return found
+
+
+def hdf_arrays(path: Path) -> dict[str, np.ndarray]:
+    found: dict[str, np.ndarray] = {}
+
+    def add(name: str, item) -> None:
+        if isinstance(item, h5py.Dataset) and not name.startswith("#"):
+            # MATLAB stores column by column: its arrays appear transposed.
+            found[name.replace("/", ".")] = item[()].T
+
+    with h5py.File(path) as file:
+        file.visititems(add)
+    return found
+
+
+def vector(arrays: dict[str, np.ndarray], name: str) -> np.ndarray:
+    match = COLUMN_OF_MATRIX.match(name)
+    base = match[1] if match else name
+    if base not in arrays:
+        raise missing_column(name, arrays)
+    array = np.squeeze(arrays[base])
+    if match:
+        number = int(match[2])
+        if array.ndim != 2 or not 1 <= number <= array.shape[1]:
+            raise ReadFault(f"column {name!r}: {base} has the shape {array.shape}; columns count from 1")
+        return array[:, number - 1]
+    if array.ndim > 1:
+        raise ReadFault(f"column {name!r}: a matrix of shape {array.shape}; name one column of it, {name}[1]")
+    return np.atleast_1d(array)

@@ -1,0 +1,13 @@
+"""Effects of the measuring chain, one a file: what the sensors add to what the reducer does.
+
+``EFFECT`` says what they are, as for the reducer's own effects; a parameter with ``{}`` in
+its name exists once per quantity (or mounting, where its ``per`` says so).
+``change(values, record, at)`` returns the changed values of a record; ``at(name)`` gives a
+parameter's present value for the record.  They act in the order of STAGES.
+"""
+
+from fmu_src.effect import Effect, effect_modules
+
+STAGES = ("clock_slip", "encoder_eccentricity", "sensor_gain", "sensor_offset", "sensor_drift")
+MODULES = {name: effect_modules(__name__)[name] for name in STAGES}
+EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in MODULES.items()}

@@ -1,0 +1,249 @@
+"""The diagnosis: base fit, localisation, screening, refits, rivals, verdict."""
+
+import time
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.inference.confusable import canonical_correlation, confusable_set, penalised
+from discrepancy.inference.consistency import lack_of_fit
+from discrepancy.inference.features import ORDERS
+from discrepancy.inference.fit import Workspace
+from discrepancy.inference.held_out import HeldOutJudge
+from discrepancy.inference.localise import Localisation, Localiser
+from discrepancy.inference.refit import Refit, estimates, leave_condition_out, refit
+from discrepancy.inference.screen import Score, candidate_columns, screen
+from discrepancy.inference.verdict import INCOMPLETE, NONE, SET, UNKNOWN, Diagnosis, Effect, Settings, decide
+from discrepancy.problem import Candidate, Model
+
+
+def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
+    """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
+    return Diagnostician(model, settings, orders).run()
+
+
+class Diagnostician:
+    """One diagnosis; the steps can be called one by one."""
+
+    def __init__(self, model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS):
+        self.model, self.settings, self.orders = model, settings, orders
+        self.started = time.perf_counter()
+        self.space = Workspace(model)
+        self.candidates = list(model.candidates)
+        self.by_name = {c.name: c for c in self.candidates}
+        self.fitted: dict[frozenset[str], Refit] = {}
+
+    # steps --------------------------------------------------------------------------------
+    def prepare(self) -> Localisation:
+        """Base fit with the noise, and localisation of its misfit."""
+        self.space.fit_base()
+        self.localiser = Localiser(self.space, self.orders)
+        self.localisation = self.localiser.test(self.space.base, self.settings.localise_level)
+        return self.localisation
+
+    def screened(self):
+        """Score tests of all candidates against the base fit."""
+        self.columns = candidate_columns(self.space, self.candidates, self.space.base.values)
+        self.screening = screen(self.space, self.candidates, self.columns, self.space.base, self.settings.seed, self.settings.draws)
+        self.scores = {s.name: s for s in self.screening.scores}
+        return self.screening
+
+    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None) -> Refit:
+        """Joint refit of the named effects, remembered."""
+        key = frozenset(names)
+        if key not in self.fitted:
+            found = [s for s in (scores or [self.scores[n] for n in names if n in self.scores])]
+            self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
+        return self.fitted[key]
+
+    def singles(self) -> list[Refit]:
+        """Refits of the candidates that may win alone."""
+        scores = [s for s in self.screening.scores if s.p_single < 0.05]
+        if not scores:
+            return []
+        top = scores[0].statistic
+        chosen = [s for s in scores if s.statistic >= 0.35 * top][: self.settings.shortlist]
+        for s in sorted(scores, key=lambda s: s.p_single)[:2]:
+            if s not in chosen:
+                chosen.append(s)
+        fits = [self.fit([s.name]) for s in chosen]
+        return sorted(fits, key=penalised)
+
+    def several(self, best: Refit) -> Refit:
+        """Forward selection with a backward check."""
+        settings, current = self.settings, best
+        first = best.gain
+        while len(current.candidates) < settings.most_effects:
+            names = [c.name for c in current.candidates]
+            more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
+            promising = [s for s in more.scores if s.p_adjusted < settings.second_level][:4]
+            if not promising:
+                break
+            own = {p.name: current.fit.values[p.name] for p in current.own}
+            trials = [self.fit([*names, s.name], own, [s]) for s in promising]
+            # exchange of an earlier member: the first choice was made without the second
+            challenger = min(trials, key=penalised)
+            newest = challenger.candidates[-1].name
+            if len(names) == 1:
+                for other in self.screening.scores[:5]:
+                    if other.name not in (names[0], newest) and frozenset([other.name, newest]) not in self.fitted:
+                        trials.append(self.fit([other.name, newest]))
+            challenger = min(trials, key=penalised)
+            extra = current.fit.chi2 - challenger.fit.chi2
+            if extra < settings.second_gain * first or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
+                break
+            current = self._backward(challenger, first)
+            if len(current.candidates) <= len(names):
+                break
+        return current
+
+    def _backward(self, joint: Refit, first: float) -> Refit:
+        """Drops members without which the fit is hardly worse."""
+        names = [c.name for c in joint.candidates]
+        for name in names:
+            rest = [n for n in names if n != name]
+            if not rest:
+                continue
+            without = self.fit(rest)
+            if without.fit.chi2 - joint.fit.chi2 < max(self.settings.second_gain * first, 12.0):
+                return self._backward(without, first)
+        return joint
+
+    # judgement ----------------------------------------------------------------------------
+    def leftover(self, result: Refit) -> tuple[bool, float, dict, float]:
+        """Whether ``result`` leaves a significant misfit, its size, what it is, and its inflation."""
+        local = self.localiser.test(result.fit, self.settings.leftover_level)
+        shape = lack_of_fit(self.space, result)
+        worst = {}
+        inflation = 1.0
+        for g in local.findings:
+            worst[g.signal] = max(worst.get(g.signal, 0.0), g.statistic - g.width)
+            inflation = max(inflation, g.statistic / g.width)
+        failing = {k: v for k, v in shape.items() if v[2] < self.settings.leftover_level}
+        size = max(sum(worst.values()), max((s - w for s, w, _ in failing.values()), default=0.0))
+        inflation = max([inflation, *(s / w for s, w, _ in failing.values())])
+        text = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
+                "dependence": {k: {"statistic": s, "width": w, "p": p} for k, (s, w, p) in shape.items()}}
+        return bool(worst or failing), size, text, inflation
+
+    def run(self) -> Diagnosis:
+        settings = self.settings
+        local = self.prepare()
+        self.screened()
+        p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
+        p_local = min((g.p for g in local.groups), default=1.0)
+        by_candidate, by_place = p_screen < settings.screen_level, bool(local.findings)
+        if not by_candidate:
+            verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
+            rivals = self.singles() if by_place else []
+            return self._answer(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, [])
+        rivals = self.singles()
+        final = self.several(rivals[0])
+        over, size, text, inflation = self.leftover(final)
+        captured = final.gain / max(final.gain + size, 1e-300)
+        dof = self._dof(final)
+        alternatives = {}
+        if len(final.candidates) == 1:
+            members = confusable_set(rivals, inflation if over else 1.0, dof, settings.margin)
+            if final not in members:
+                members.insert(0, final)
+        else:
+            members = [final]
+            for c in final.candidates:
+                stand_ins = self._stand_ins(final, c, inflation if over else 1.0, dof)
+                if stand_ins:
+                    alternatives[c.name] = stand_ins
+        judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
+        judged = judge.judge(final)
+        if judged is not None and judged.p_after < 0.001 and judged.after > 1.5:
+            over = True
+            text["held_out"] = {"error": judged.after, "p": judged.p_after}
+        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings)
+        if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
+            reason += "; some have alternatives that this campaign cannot separate"
+        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, [judge], inflation if over else 1.0)
+
+    def _dof(self, result):
+        dofs = [e.dof for e in estimates(self.space, result)]
+        return min(dofs) if dofs else 1e6
+
+    def _stand_ins(self, final, member, inflation, dof):
+        """Effects that could replace ``member`` beside the others."""
+        rest = [c.name for c in final.candidates if c is not member]
+        result = []
+        rest_fit = self.fit(rest)
+        more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
+        own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
+        for s in more.scores[:4]:
+            if s.name == member.name:
+                continue
+            rival = self.fit([*rest, s.name], own, [s])
+            if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2:
+                result.append(s.name)
+        return result
+
+    def _answer(self, verdict, reason, members, rivals, captured, leftover, p_screen, p_local, alternatives, judges, inflation=1.0):
+        judge = judges[0] if judges else None
+        effects, held_out = [], {}
+        several = bool(members) and len(members[0].candidates) > 1
+        warnings = list(self.space.noise.warnings)
+        for member in members:
+            before, after = self._errors(judge, member, captured, held_out)
+            numbers = {e.name: e for e in estimates(self.space, member, self.settings.coverage, np.sqrt(min(inflation, 4.0)))}
+            for c in member.candidates:
+                gain = member.gain if not several else self.fit([o.name for o in member.candidates if o is not c]).fit.chi2 - member.fit.chi2
+                bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
+                if bounds:
+                    warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
+                share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
+                    captured * member.gain / max(members[0].gain, 1e-300)
+                effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() for p in c.parameters},
+                                      float(min(share, 1.0)), float(gain), before, after, bounds,
+                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
+                if before is not None and after is not None and after > before:
+                    warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
+        if several:
+            effects.sort(key=lambda e: -e.gain)
+        if self.space.held_out == []:
+            warnings.append("no runs are held out: the errors given are by leaving out one condition at a time")
+        names = {e.name for e in effects}
+        rejected = []
+        least = min((r.fit.chi2 for r in rivals), default=0.0)
+        for r in rivals:
+            if r.name not in names:
+                worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
+                rejected.append({"name": r.name, "chi2_difference": float(worse),
+                                 "reason": f"fits worse by {worse:.1f} in chi-square" if members else
+                                 "not significant after correction for multiplicity"})
+        for s in self.screening.scores:
+            if s.name not in names and not any(x["name"] == s.name for x in rejected):
+                rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: p = {s.p_adjusted:.2g} over all effects, "
+                                 f"explains {s.statistic:.1f} of chi-square alone"})
+        correlations = {}
+        if len(members) > 1 and not several:
+            for k, a in enumerate(members):
+                for b in members[k + 1:]:
+                    correlations[f"{a.name} ~ {b.name}"] = canonical_correlation(self.space, a, b)
+        confusable = [m.name for m in members] if not several and len(members) > 1 else []
+        base = self.space.base
+        return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
+                         float(captured), float(p_screen), float(p_local), held_out, {p.name: base.values[p.name] for p in base.parameters},
+                         {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
+                         time.perf_counter() - self.started, reason,
+                         {"space": self.space, "members": members, "rivals": rivals, "localiser": self.localiser})
+
+    def _errors(self, judge, member, captured, held_out):
+        if judge is not None and self.space.held_out:
+            judged = judge.judge(member)
+            if judged is not None:
+                held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after,
+                                         "unit": "noise"}
+                return judged.before, judged.after
+        base = sum(leave_condition_out(self.space, self.space.base).values())
+        left = sum(leave_condition_out(self.space, member.fit).values())
+        whole = member.gain / max(captured, 0.05)
+        conditions = len({self.space.records[i].condition for i in self.space.training})
+        before = np.sqrt(1 + whole / conditions)
+        after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
+        held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}
+        return float(before), float(after)

@@ -1,0 +1,323 @@
+"""Least squares on whitened residuals: the model's predictions, cached, and fits of its parameters.
+
+Nuisances are close to linear around the base fit, so a candidate is first fitted with their
+sensitivities frozen, and the result is then polished with full predictions.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.optimize import least_squares, lsq_linear
+
+from discrepancy.inference.noise import Noise, estimate
+from discrepancy.problem import Candidate, Model, Parameter
+
+STEP = 0.01
+"""Step of a finite difference in units of ``Parameter.scale``."""
+
+
+class Predictions:
+    """Predictions of a model by values and record, each computed once."""
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.off = {p.name: p.off for p in model.nuisances}
+        for c in model.candidates:
+            self.off.update({p.name: p.off for p in c.amplitudes})
+        self.store: dict[tuple, dict[int, np.ndarray]] = {}
+        self.calls = 0
+
+    def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
+        for c in self.model.candidates:
+            if not any(p.name in active for p in c.amplitudes):
+                for p in c.shapes:
+                    active.pop(p.name, None)
+        known = self.store.setdefault(tuple(sorted(active.items())), {})
+        missing = [i for i in which if i not in known]
+        if missing:
+            self.calls += 1
+            for i, y in zip(missing, self.model.predict(active, missing)):
+                known[i] = np.asarray(y, dtype=float)
+        return [known[i] for i in which]
+
+    def forget(self, values: Mapping[str, float]) -> None:
+        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
+        self.store.pop(tuple(sorted(active.items())), None)
+
+
+@dataclass
+class Fit:
+    """A fitted model: ``residual`` (N,) whitened, ``jacobian`` (N, p) of -residual by ``names``; ``chi2`` with priors."""
+
+    parameters: tuple[Parameter, ...]
+    values: dict[str, float]
+    residual: np.ndarray
+    jacobian: np.ndarray
+    chi2: float
+    candidates: tuple[str, ...] = ()
+    at_bounds: tuple[str, ...] = ()
+    converged: bool = True
+    normal: np.ndarray = field(default=None, repr=False)
+
+    @property
+    def names(self) -> list[str]:
+        return [p.name for p in self.parameters]
+
+
+class Workspace:
+    """Records, noise and whitening; columns of parameters are stacked over the training records."""
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.records = list(model.records)
+        self.predictions = Predictions(model)
+        self.training = [i for i, r in enumerate(self.records) if not r.held_out]
+        self.held_out = [i for i, r in enumerate(self.records) if r.held_out]
+        if not self.training:
+            raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
+        self.noise: Noise | None = None
+        self.base: Fit | None = None
+
+    # rows ---------------------------------------------------------------------------------
+    def _layout(self) -> None:
+        self.rows, start = {}, 0
+        for i in self.training:
+            size = self.noise.whiteners[i].size
+            self.rows[i] = slice(start, start + size)
+            start += size
+        self.size = start
+
+    def whiten(self, arrays: Mapping[int, np.ndarray]) -> np.ndarray:
+        """Whitened stack over the training records; records not given are zero."""
+        width = next((a.shape[1] for a in arrays.values() if a.ndim == 2), None)
+        result = np.zeros(self.size if width is None else (self.size, width))
+        for i, a in arrays.items():
+            result[self.rows[i]] = self.noise.whiteners[i](a)
+        return result
+
+    def touched(self, candidate: Candidate | None) -> list[int]:
+        if candidate is None or not candidate.signals:
+            return list(range(len(self.records)))
+        return [i for i, r in enumerate(self.records) if r.quantity in candidate.signals]
+
+    def residual(self, values: Mapping[str, float]) -> np.ndarray:
+        ys = self.predictions(values, self.training)
+        return self.whiten({i: self.records[i].values - y for i, y in zip(self.training, ys)})
+
+    def raw_residuals(self, values: Mapping[str, float]) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        every = list(range(len(self.records)))
+        ys = self.predictions(values, every)
+        return [np.asarray(r.values, dtype=float) - y for r, y in zip(self.records, ys)], ys
+
+    def column(self, values: Mapping[str, float], parameter: Parameter, which: Sequence[int], step: float | None = None,
+               at: float | None = None) -> dict[int, np.ndarray]:
+        """Finite difference by one parameter, by record, per unit of the parameter."""
+        at = values.get(parameter.name, parameter.off) if at is None else at
+        step = STEP * parameter.scale if step is None else step
+        if not parameter.lower <= at + step <= parameter.upper:
+            step = -step
+        high = self.predictions({**values, parameter.name: at + step}, which)
+        low = self.predictions({**values, parameter.name: at}, which)
+        return {i: (a - b) / step for i, a, b in zip(which, high, low)}
+
+    # fits ---------------------------------------------------------------------------------
+    def prior_rows(self, parameters: Sequence[Parameter]) -> np.ndarray:
+        """Diagonal of the prior's precision."""
+        return np.array([0.0 if p.prior is None else p.prior**-2 for p in parameters])
+
+    def fit_base(self, passes: int = 2) -> Fit:
+        """Nuisances fitted and noise estimated in turn: the differences of replicates need the phases of their mountings."""
+        nuisances = self.model.nuisances
+        values = {p.name: p.off for p in nuisances}
+        sensitivities = None
+        for turn in range(passes):
+            self.noise = estimate(self.records, *self.raw_residuals(values))
+            self._layout()
+            if not nuisances:
+                break
+            if sensitivities is None or turn == 0:
+                sensitivities = self._sensitivities(nuisances, values)
+            values = self._solve_nuisances(nuisances, values, sensitivities)
+        self.noise = estimate(self.records, *self.raw_residuals(values))
+        self._layout()
+        raw = self._sensitivities(nuisances, values)
+        self.raw_nuisance = raw
+        jacobian = self._stack(raw, len(nuisances))
+        residual = self.residual(values)
+        self.base = self._finish(nuisances, values, residual, jacobian, ())
+        # nuisances that no training record can see (mounting phases of held-out runs)
+        self.blind = [k for k in range(len(nuisances)) if not np.any(jacobian[:, k])]
+        return self.base
+
+    def _sensitivities(self, nuisances, values):
+        every = list(range(len(self.records)))
+        return [{i: c for i, c in self.column(values, p, every).items() if np.any(c)} for p in nuisances]
+
+    def _stack(self, raw, width):
+        jacobian = np.zeros((self.size, width))
+        for k, columns in enumerate(raw):
+            for i, c in columns.items():
+                if i in self.rows:
+                    jacobian[self.rows[i], k] = self.noise.whiteners[i](c)
+        return jacobian
+
+    def _solve_nuisances(self, nuisances, values, raw):
+        scale = np.array([p.scale for p in nuisances])
+        precision = np.sqrt(self.prior_rows(nuisances))
+        off = np.array([p.off for p in nuisances])
+        lower = np.array([p.lower for p in nuisances])
+        upper = np.array([p.upper for p in nuisances])
+        start = np.clip([values[p.name] for p in nuisances], lower + 1e-9 * scale, upper - 1e-9 * scale)
+        columns = {"x": start, "j": self._stack(raw, len(nuisances))}
+
+        def residual(x):
+            r = self.residual(dict(zip((p.name for p in nuisances), x)))
+            return np.concatenate([r, (x - off) * precision])
+
+        def jacobian(x):
+            moved = np.max(np.abs(x - columns["x"]) / scale) if len(x) else 0.0
+            if moved > 0.3:
+                at = dict(zip((p.name for p in nuisances), x))
+                columns.update(x=x.copy(), j=self._stack(self._sensitivities(nuisances, at), len(nuisances)))
+            return np.vstack([-columns["j"], np.diag(precision)])
+
+        # residuals spoilt by samples left out are zero there: whitening drops them
+        solution = least_squares(residual, start, jacobian, bounds=(lower, upper), x_scale=scale, xtol=1e-6, ftol=1e-7, max_nfev=12)
+        return dict(zip((p.name for p in nuisances), (float(v) for v in solution.x)))
+
+    def _finish(self, parameters, values, residual, jacobian, candidates, converged=True) -> Fit:
+        precision = self.prior_rows(parameters)
+        normal = jacobian.T @ jacobian + np.diag(precision)
+        shift = np.array([values[p.name] - p.off for p in parameters])
+        chi2 = float(residual @ residual + np.sum(precision * shift**2))
+        at_bounds = tuple(p.name for p in parameters if values[p.name] - p.lower < 1e-3 * p.scale * (p.lower != p.off) + 1e-12 * p.scale
+                          or p.upper - values[p.name] < 1e-3 * p.scale)
+        return Fit(tuple(parameters), dict(values), residual, jacobian, chi2, candidates, at_bounds, converged, normal)
+
+    def fit_effects(self, candidates: Sequence[Candidate], start: Mapping[str, float], iterations: int = 12) -> Fit:
+        """Nuisances and the parameters of ``candidates``, from ``start``."""
+        own = tuple(p for c in candidates for p in c.parameters)
+        nuisances = self.model.nuisances
+        which = [i for i in self.training if any(i in self.touched(c) for c in candidates)]
+        theta = dict(self.base.values)
+        values = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
+        inverse = np.linalg.pinv(self.base.normal, hermitian=True)
+        frozen = self.base.jacobian
+        base = dict(zip(self.training, self.predictions(theta, self.training)))
+
+        def project(columns):
+            return columns - frozen @ (inverse @ (frozen.T @ columns))
+
+        def difference(v):
+            ys = self.predictions({**theta, **v}, which)
+            return self.whiten({i: y - base[i] for i, y in zip(which, ys)})
+
+        def cost_of(v):
+            # nuisances are projected out with their priors: generalised least squares
+            r = self.base.residual - difference(v)
+            g = frozen.T @ r - self._prior_gradient(theta)
+            return float(r @ r - g @ inverse @ g), r
+
+        def columns_of(v):
+            return np.column_stack([self.whiten(self.column({**theta, **v}, p, which)) for p in own])
+
+        values, converged = self._descend(own, values, cost_of, columns_of, inverse, frozen, theta, iterations)
+        # nuisances that go with it, then full predictions
+        r = self.base.residual - difference(values)
+        shift = inverse @ (frozen.T @ r - self._prior_gradient(theta))
+        full = {**{p.name: float(np.clip(theta[p.name] + s, p.lower, p.upper)) for p, s in zip(nuisances, shift)}, **values}
+        parameters = tuple(nuisances) + own
+        columns = np.column_stack([frozen, columns_of(values)])
+        return self._polish(parameters, full, columns, tuple(c.name for c in candidates), converged)
+
+    def _prior_gradient(self, theta):
+        nuisances = self.model.nuisances
+        return self.prior_rows(nuisances) * np.array([theta[p.name] - p.off for p in nuisances])
+
+    def _descend(self, own, values, cost_of, columns_of, inverse, frozen, theta, iterations):
+        """Levenberg-Marquardt within bounds over the effect's parameters, nuisances projected out."""
+        scale = np.array([p.scale for p in own])
+        lower = np.array([p.lower for p in own])
+        upper = np.array([p.upper for p in own])
+        precision = self.prior_rows(own)
+        off = np.array([p.off for p in own])
+        x = np.array([values[p.name] for p in own])
+
+        def named(z):
+            return dict(zip((p.name for p in own), (float(v) for v in z)))
+
+        def total(z):
+            cost, r = cost_of(named(z))
+            return cost + np.sum(precision * (z - off) ** 2), r
+
+        cost, r = total(x)
+        damping, converged = 1e-3, False
+        for _ in range(iterations):
+            c = columns_of(named(x))
+            cross = frozen.T @ c
+            normal = c.T @ c - cross.T @ inverse @ cross + np.diag(precision)
+            gradient = c.T @ r - cross.T @ inverse @ (frozen.T @ r - self._prior_gradient(theta)) - precision * (x - off)
+            better = False
+            for _ in range(6):
+                scaled = normal * np.outer(scale, scale)
+                scaled = scaled + damping * np.diag(np.maximum(np.diag(scaled), 1e-9 * (np.max(np.diag(scaled)) + 1e-300)))
+                step = scale * _bounded_step(scaled, gradient * scale, (lower - x) / scale, (upper - x) / scale)
+                trial = np.clip(x + step, lower, upper)
+                new, new_r = total(trial)
+                if np.isfinite(new) and new < cost:
+                    better = True
+                    break
+                damping = max(damping * 8, 1e-3)
+                if np.max(np.abs(step) / scale) < 1e-4:
+                    break
+            if not better:
+                converged = True
+                break
+            gain, x, cost, r = cost - new, trial, new, new_r
+            damping = max(damping / 5, 1e-6)
+            if gain < 0.02:
+                converged = True
+                break
+        return named(x), converged
+
+    def _polish(self, parameters, values, columns, candidates, converged, rounds: int = 3) -> Fit:
+        """Full predictions with frozen sensitivities until the chi-square stands still."""
+        scale = np.array([p.scale for p in parameters])
+        lower = np.array([p.lower for p in parameters])
+        upper = np.array([p.upper for p in parameters])
+        off = np.array([p.off for p in parameters])
+        precision = self.prior_rows(parameters)
+        x = np.array([values[p.name] for p in parameters])
+        names = [p.name for p in parameters]
+        normal = (columns.T @ columns + np.diag(precision)) * np.outer(scale, scale)
+        normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
+        r = self.residual(dict(zip(names, x)))
+        cost = r @ r + np.sum(precision * (x - off) ** 2)
+        for _ in range(rounds):
+            gradient = scale * (columns.T @ r - precision * (x - off))
+            step = scale * _bounded_step(normal, gradient, (lower - x) / scale, (upper - x) / scale)
+            trial = np.clip(x + step, lower, upper)
+            new_r = self.residual(dict(zip(names, trial)))
+            new = new_r @ new_r + np.sum(precision * (trial - off) ** 2)
+            if not new < cost:
+                break
+            gain, x, r, cost = cost - new, trial, new_r, new
+            if gain < 0.05:
+                break
+        return self._finish(parameters, dict(zip(names, (float(v) for v in x))), r, columns, candidates, converged)
+
+
+def _bounded_step(normal, gradient, lower, upper):
+    """Minimiser of s'Ns/2 - g's in a box."""
+    values, vectors = np.linalg.eigh(normal)
+    keep = values > 1e-13 * max(values.max(), 1e-300)
+    free = vectors[:, keep] @ ((vectors[:, keep].T @ gradient) / values[keep])
+    if np.all(free >= lower) and np.all(free <= upper):
+        return free
+    root = np.sqrt(values[keep])
+    a = root[:, None] * vectors[:, keep].T
+    b = (vectors[:, keep].T @ gradient) / root
+    width = np.maximum(upper - lower, 1e-9)
+    return lsq_linear(a, b, bounds=(lower, lower + width)).x

@@ -1,0 +1,100 @@
+"""What may be said: the rules from tests and fits to a verdict, and the result as plain data."""
+
+from dataclasses import dataclass, field
+
+NONE = "none"
+ONE = "one effect"
+SET = "set"
+SEVERAL = "several effects"
+INCOMPLETE = "named but incomplete"
+UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Thresholds.  Levels are for all tests of one kind together."""
+
+    screen_level: float = 0.006
+    localise_level: float = 0.003
+    leftover_level: float = 0.01
+    second_level: float = 0.004
+    captured: float = 0.70
+    second_gain: float = 0.10
+    margin: float = 6.0
+    shortlist: int = 7
+    most_effects: int = 3
+    draws: int = 2000
+    coverage: float = 0.95
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A named effect with its estimates and what it achieves."""
+
+    name: str
+    title: str
+    part: str
+    parameters: dict[str, dict]
+    share_explained: float
+    gain: float
+    held_out_error_before: float | None
+    held_out_error_after: float | None
+    at_bounds: tuple[str, ...]
+    p: float
+
+    def to_dict(self) -> dict:
+        return {**self.__dict__, "at_bounds": list(self.at_bounds)}
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """Answer to: which effect does the model lack?
+
+    ``effects`` best first: the one, the members of the set (each an alternative), or all of several.
+    ``alternatives`` maps each of several effects to those that could stand in its place.
+    ``nuisances`` and ``base`` say what was calibrated; ``fits`` keeps the objects for further use.
+    """
+
+    verdict: str
+    effects: list[Effect]
+    confusable: list[str]
+    alternatives: dict[str, list[str]]
+    correlations: dict[str, float]
+    rejected: list[dict]
+    localisation: dict
+    leftover: dict
+    captured: float
+    p_screen: float
+    p_localise: float
+    held_out: dict
+    nuisances: dict[str, float]
+    noise: dict
+    warnings: list[str]
+    calls: int
+    seconds: float
+    reason: str
+    fits: dict = field(default_factory=dict, repr=False)
+
+    def to_dict(self) -> dict:
+        plain = {k: v for k, v in self.__dict__.items() if k != "fits"}
+        plain["effects"] = [e.to_dict() for e in self.effects]
+        return plain
+
+
+def decide(significant_candidate: bool, significant_place: bool, named: int, members: int, captured: float, leftover: bool,
+           settings: Settings) -> tuple[str, str]:
+    """Verdict and the reason for it."""
+    if not significant_candidate and not significant_place:
+        return NONE, "no effect and no generic function is significant against the noise of the replicates"
+    if not significant_candidate or named == 0:
+        return UNKNOWN, "the misfit is significant but no effect of the catalogue explains it"
+    if captured < settings.captured:
+        return UNKNOWN, f"the best effect captures only {100 * captured:.0f} % of the misfit"
+    if leftover:
+        return INCOMPLETE, "what is named leaves a significant misfit"
+    if named > 1:
+        return SEVERAL, "more than one effect is needed, each significant beside the others"
+    if members > 1:
+        return SET, "these effects fit equally well; this campaign cannot separate them"
+    return ONE, "one effect explains the misfit and no rival comes near"

@@ -1,0 +1,119 @@
+"""Linear maps, O(n), that turn the noise of one record into independent unit noise.
+
+The noise of a record in units of its scale is AR1 in continuous ``position`` (correlation
+exp(-|dx|/length), a share ``nugget`` of the variance being white), passed through a short
+autoregression ``taps``, plus random run-wide amounts of ``patterns`` (offset, drift, gain).
+The AR1 part is whitened by the innovations of its Kalman filter, the patterns by a correction
+of low rank.  The ``directions`` of the patterns in whitened space are kept: their variance is
+known from few replicates only, so tests must give them few degrees of freedom.
+"""
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+
+
+@numba.njit(cache=True)
+def gains(correlation, nugget):
+    """Kalman gain and innovation standard deviation of each sample (total variance 1)."""
+    count = correlation.size
+    gain = np.empty(count)
+    deviation = np.empty(count)
+    variance = 0.0
+    for i in range(count):
+        rho = correlation[i]
+        predicted = rho * rho * variance + (1.0 - rho * rho) * (1.0 - nugget)
+        total = predicted + nugget + 1e-12
+        gain[i] = predicted / total
+        deviation[i] = np.sqrt(total)
+        variance = predicted * (1.0 - gain[i])
+    return gain, deviation
+
+
+@numba.njit(cache=True)
+def innovations(columns, correlation, gain, deviation):
+    """Normalised innovations of each column."""
+    count, width = columns.shape
+    result = np.empty((count, width))
+    state = np.zeros(width)
+    for i in range(count):
+        for j in range(width):
+            predicted = correlation[i] * state[j]
+            error = columns[i, j] - predicted
+            result[i, j] = error / deviation[i]
+            state[j] = predicted + gain[i] * error
+    return result
+
+
+def correlations(position: np.ndarray, length: float) -> np.ndarray:
+    """Correlation of each sample with the one before it; the first has none."""
+    result = np.zeros(position.size)
+    if length > 0:
+        result[1:] = np.exp(-np.abs(np.diff(position)) / length)
+    return result
+
+
+@dataclass(frozen=True)
+class Whitener:
+    """Whitening of one record: ``kept`` rows, divided by ``scale``, innovations, weights, patterns."""
+
+    kept: np.ndarray
+    scale: np.ndarray
+    correlation: np.ndarray
+    gain: np.ndarray
+    deviation: np.ndarray
+    taps: np.ndarray
+    weight: np.ndarray
+    directions: np.ndarray
+    shrink: np.ndarray
+    components: tuple[tuple[str, str], ...]
+    quantity: str
+
+    @property
+    def size(self) -> int:
+        return self.scale.size
+
+    def innovate(self, columns: np.ndarray) -> np.ndarray:
+        """Without weights and patterns."""
+        columns = np.ascontiguousarray(columns[self.kept] / self.scale[:, None])
+        result = innovations(columns, self.correlation, self.gain, self.deviation)
+        return autoregress(result, self.taps)
+
+    def __call__(self, columns: np.ndarray) -> np.ndarray:
+        flat = columns.ndim == 1
+        result = self.weight[:, None] * self.innovate(columns[:, None] if flat else columns)
+        if self.directions.shape[1]:
+            result -= self.directions @ (self.shrink[:, None] * (self.directions.T @ result))
+        return result[:, 0] if flat else result
+
+
+def autoregress(columns: np.ndarray, taps: np.ndarray) -> np.ndarray:
+    """Prediction error of a short autoregression; the first rows use what there is of it."""
+    if not taps.size or len(columns) <= taps.size:
+        return columns
+    result = columns.copy()
+    for lag, tap in enumerate(taps[:-1], start=1):
+        result[lag:] -= tap * columns[:-lag]
+    return result / taps[-1]
+
+
+def whitener(kept, scale, position, length, nugget, taps, weight, patterns, variances, components, quantity) -> Whitener:
+    """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale)."""
+    correlation = correlations(position, length)
+    gain, deviation = gains(correlation, nugget)
+    plain = Whitener(kept, scale, correlation, gain, deviation, taps, weight,
+                     np.zeros((scale.size, 0)), np.zeros(0), (), quantity)
+    if not patterns.shape[1]:
+        return plain
+    whole = np.zeros((kept.size, patterns.shape[1]))
+    whole[kept] = patterns * scale[:, None]
+    inside = plain(whole)
+    basis, triangle = np.linalg.qr(inside)
+    values, vectors = np.linalg.eigh(triangle @ np.diag(variances) @ triangle.T)
+    directions = basis @ vectors
+    # each direction is booked on the pattern that it mostly is
+    owner = np.abs(directions.T @ (inside / np.maximum(np.linalg.norm(inside, axis=0), 1e-300)))
+    booked = tuple(components[i] for i in np.argmax(owner, axis=1))
+    shrink = 1.0 - 1.0 / np.sqrt(1.0 + np.maximum(values, 0.0))
+    return Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity)

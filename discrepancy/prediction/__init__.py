@@ -1,0 +1,1 @@
+"""From parameter values to what a bench would have measured."""

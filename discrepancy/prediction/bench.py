@@ -1,0 +1,210 @@
+"""The reducer on a bench: runs of the compiled pair at stated conditions.
+
+Runs are kept, so that parameters that a run does not depend on cost nothing.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from fmu_src.variables import Table
+from orchestrator import coupled
+from orchestrator.faults import RunFault
+from orchestrator.life import HOUR
+from orchestrator.reducer import Reducer
+from rv_plant import plant
+from rv_plant.gear_stage import total_ratio
+from wear_fmu import accumulator
+from wear_fmu.variables import Resolution
+
+# Surfaces are resolved as finely as inspections need, not as finely as a life run.
+RESOLUTION = Resolution(flank=90, pin=90, raceway=180)
+POSITIONS = 36
+# Longest and first stretch of hours that one wear cycle stands for.
+LONGEST_JUMP, FIRST_JUMP = 1000.0 * HOUR, 50.0 * HOUR
+# Turns of the cranks in a wear cycle: every lobe meets a third of the pins.
+CYCLE_TURNS = 13
+# Held test: turning is averaged over positions of the cranks.
+HELD_ANGLES = 4
+KEPT_RUNS = 4000
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What the bench is set to; SI units.  ``direction`` +1 or -1 of rotation and of the torque that opposes it."""
+
+    speed: float
+    load: float
+    temperature: float = 293.15
+    hours: float = 0.0
+    direction: int = 1
+
+
+class Bench:
+    """Runs of one reducer with settings; every method takes the values of further parameters."""
+
+    def __init__(self, reducer: Reducer, settings: Mapping[str, float]):
+        self.reducer = Reducer(**{**reducer.__dict__, "resolution": RESOLUTION})
+        self.tables: tuple[Table, Table] = (self.reducer.plant, self.reducer.wear)
+        self.templates = []
+        for table in self.tables:
+            records = table.new_records()
+            for name, value in settings.items():
+                if name in table.by_name:
+                    records[name] = value
+            self.templates.append(records)
+        self.runs: dict[tuple, object] = {}
+        topology = reducer.topology
+        self.ratio = total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes)
+        self.rated_speed = float(self.templates[0]["input_speed"][0])
+        self.rated_load = float(self.templates[0]["load_torque"][0])
+
+    def kept(self, key: tuple, make):
+        """The run under ``key``, made if there is none yet."""
+        if key not in self.runs:
+            if len(self.runs) > KEPT_RUNS:
+                self.runs.clear()
+            self.runs[key] = make()
+        return self.runs[key]
+
+    def relevant(self, values: Mapping[str, float], worn: bool) -> tuple:
+        """The values that a run depends on, without those that stand at their start."""
+        tables = self.tables if worn else self.tables[:1]
+        templates = self.templates if worn else self.templates[:1]
+        return tuple(sorted(
+            (name, value) for name, value in values.items()
+            if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
+        ))  # fmt: skip
+
+    def pair(self, condition: Condition, values: Mapping[str, float], **plant_values):
+        """Records of both units, initialised at a condition."""
+        plants, wears = (t.copy() for t in self.templates)
+        for table, records in zip(self.tables, (plants, wears)):
+            for name, value in values.items():
+                if name in table.by_name:
+                    records[name] = value
+            records["temperature"] = condition.temperature
+        plants["input_speed"] = condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
+        plants["load_torque"] = condition.direction * condition.load
+        if "grease_age" in self.tables[0].by_name:
+            plants["grease_age"] = condition.hours
+        for name, value in plant_values.items():
+            plants[name] = value
+        fault = plant.initialise(plants)
+        if fault:
+            raise RunFault(plant.FAULTS[fault].format(**scalars(self.tables[0], plants)))
+        for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
+            wears[name] = plants[name]
+        fault = accumulator.initialise(wears)
+        if fault:
+            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+        return plants, wears
+
+    def check(self, status: tuple[int, int], plants, wears) -> None:
+        for code, faults, table, records in zip(status, (plant.FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
+            if code:
+                raise RunFault(faults[code].format(**scalars(table, records)))
+
+    def turning_time(self, condition: Condition) -> float:
+        """Time of one turn of the cranks in the housing [s]."""
+        return 2.0 * math.pi * abs(self.ratio) / (condition.speed * self.reducer.topology.lobes)
+
+    def worn(self, condition: Condition, values: Mapping[str, float], hours: float) -> np.ndarray:
+        """The wear unit's record after ``hours`` [s] at a condition."""
+        key = ("worn", condition.speed, condition.load, condition.temperature, condition.direction,
+               round(hours, 3), self.relevant(values, True))  # fmt: skip
+        return self.kept(key, lambda: self.wear_to(condition, values, [hours])[hours])
+
+    def wear_to(self, condition: Condition, values: Mapping[str, float], inspections: list[float]) -> dict[float, np.ndarray]:
+        """Wear records at several operating times [s], by cycles that stand for growing stretches."""
+        fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
+        key = ("life", fresh, tuple(inspections), self.relevant(values, True))
+
+        def run():
+            plants, wears = self.pair(fresh, values, largest_crank_step=1.0)
+            step = self.turning_time(condition) / POSITIONS
+            steps = CYCLE_TURNS * POSITIONS
+            found, done, jump = {}, 0.0, FIRST_JUMP
+            wears["acceleration"] = 0.0
+            self.check(coupled.run_pair(plants, wears, 2, step), plants, wears)
+            for target in sorted(set(inspections)):
+                while target - done > 1e-6 * HOUR:
+                    left = target - done
+                    stretch = left / max(1, math.ceil(left / jump - 1e-9))
+                    wears["acceleration"] = stretch / (steps * step)
+                    if "grease_age" in self.tables[0].by_name:
+                        plants["grease_age"] = done + 0.5 * stretch
+                    self.check(coupled.run_pair(plants, wears, steps, step), plants, wears)
+                    done += stretch
+                    jump = min(LONGEST_JUMP, 2.0 * jump)
+                found[target] = wears.copy()
+            return found
+
+        return self.kept(key, run)
+
+    def running(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray) -> np.ndarray:
+        """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS."""
+        key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
+
+        def run():
+            plants, wears = self.pair(condition, values, ideal_output=angles[0], largest_crank_step=1.0)
+            if condition.hours > 0.0:
+                worn = self.worn(condition, values, condition.hours)
+                wears[:] = worn
+                for name in ("crank_angle", "output_angle", "cage_angle"):
+                    wears[name] = wears[f"{name}_before"] = plants[name]
+            wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
+            out_speed = condition.speed / abs(self.ratio)
+            durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
+            series = np.zeros((len(angles), len(coupled.COLUMNS)))
+            if condition.hours > 0.0:
+                # The profile errors of the first angle, before it counts.
+                self.check(coupled.step_pair(plants, wears, 0.0, 0.0), plants, wears)
+            self.check(coupled.sweep(plants, wears, durations, series), plants, wears)
+            return series
+
+        return self.kept(key, run)
+
+    def averages(self, condition: Condition, values: Mapping[str, float]) -> dict[str, float]:
+        """Means over one turn of the cranks."""
+        turn = 2.0 * math.pi / self.reducer.topology.lobes
+        angles = condition.direction * np.linspace(0.0, turn, POSITIONS, endpoint=False)
+        # The second pass: what depends on the losses of the first has settled.
+        series = self.running(condition, values, np.concatenate([angles, angles + condition.direction * turn]))[POSITIONS:]
+        return dict(zip(coupled.COLUMNS, series.mean(axis=0)))
+
+    def held(self, condition: Condition, values: Mapping[str, float], torques: np.ndarray) -> np.ndarray:
+        """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""
+        key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes())
+
+        def run():
+            total = np.zeros(len(torques))
+            for k in range(HELD_ANGLES):
+                angle = 2.0 * math.pi * k / (HELD_ANGLES * self.reducer.topology.lobes)
+                plants, wears = self.pair(condition, values, input_speed=0.0, load_torque=torques[0], ideal_output=angle)
+                if condition.hours > 0.0:
+                    self.put_wear(condition, values, plants, wears)
+                turning = np.zeros(len(torques))
+                self.check((coupled.torque_sweep(plants, torques, turning), 0), plants, wears)
+                total += turning / HELD_ANGLES
+            return total
+
+        return self.kept(key, run)
+
+    def put_wear(self, condition, values, plants, wears):
+        """Profile errors of the worn surfaces at the present angles."""
+        worn = self.worn(condition, values, condition.hours)
+        places = {name: wears[name].copy() for name in ("crank_angle", "output_angle", "cage_angle")}
+        wears[:] = worn
+        for name, value in places.items():
+            wears[name] = wears[f"{name}_before"] = value
+        wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
+        self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
+        for name in ("mesh_profile_error", "roller_profile_error"):
+            plants[name] = wears[name]
+
+
+def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
+    return {v.name: records[v.name][0] for v in table.variables if not v.shape}

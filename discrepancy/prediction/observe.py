@@ -1,0 +1,263 @@
+"""One function per measured quantity: what the bench would have shown on a record's axes, in SI units."""
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.problem import Record
+from orchestrator.coupled import COLUMNS
+from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
+from orchestrator.life import peak_of_circle
+
+Values = Mapping[str, float]
+STEEL = 7850.0
+# Samples of one output turn from which an order spectrum is taken.
+SPECTRUM_SAMPLES = 4096
+TORQUE_STEPS = 12
+DEFAULTS = {"temperature": 293.15, "hours": 0.0}
+
+
+def row_conditions(bench: Bench, record: Record) -> list[Condition]:
+    """The condition of every row (rows may differ in speed, load, temperature, hours)."""
+    n = len(record.values)
+
+    def column(name: str, default: float) -> np.ndarray:
+        return np.broadcast_to(record.axes.get(name, record.factors.get(name, DEFAULTS.get(name, default))), n)
+
+    speed, load = column("speed", bench.rated_speed), column("load", bench.rated_load)
+    temperature, hours = column("temperature", 293.15), column("hours", 0.0)
+    direction = int(record.factors.get("direction", 1))
+    return [Condition(*map(float, row), direction) for row in zip(speed, load, temperature, hours)]
+
+
+def condition_of(bench: Bench, record: Record) -> Condition:
+    """The one condition of a record whose rows share it."""
+    return row_conditions(bench, record)[0]
+
+
+def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
+    """Output angles [rad] of the samples."""
+    condition = condition_of(bench, record)
+    if "angle" in record.axes:
+        return np.asarray(record.axes["angle"], float) + zero
+    time = np.asarray(record.axes["time"], float)
+    return condition.direction * condition.speed / abs(bench.ratio) * (time - time[0]) + zero
+
+
+def along(bench: Bench, record: Record, values: Values, name: str) -> np.ndarray:
+    """A column of the running bench at the record's angles (or times)."""
+    condition, zero = condition_of(bench, record), values.get(angle_zero(record), 0.0)
+    angles = angles_of(bench, record, zero)
+    order = np.argsort(angles, kind="stable")
+    back = np.empty_like(order)
+    back[order] = np.arange(len(order))
+    series = bench.running(condition, values, angles[order] if condition.direction > 0 else angles[order][::-1])
+    column = series[:, COLUMNS.index(name)]
+    return (column if condition.direction > 0 else column[::-1])[back]
+
+
+def angle_zero(record: Record) -> str:
+    """Nuisance: the output angle of the model at which the record's angle is 0."""
+    return f"angle_zero[{record.mounting}]"
+
+
+def level(record: Record) -> str:
+    """Nuisance: where an encoder's difference is counted from."""
+    return f"level[{record.quantity},{record.mounting},{record.condition},{record.replicate}]"
+
+
+def transmission_error(bench, record, values):
+    error = along(bench, record, values, "transmission_error")
+    return error - error.mean() + values.get(level(record), 0.0)
+
+
+def hysteresis(bench, record, values):
+    torques = np.asarray(record.axes["torque"], float)
+    condition = held_condition(bench, record)
+    # The loop is entered from no torque, as the bench does.
+    lead = np.linspace(0.0, torques[0], 9)[:-1]
+    turning = bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
+    return turning + values.get(level(record), 0.0)
+
+
+def held_condition(bench: Bench, record: Record) -> Condition:
+    c = condition_of(bench, record)
+    return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
+
+
+def loop(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+    """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
+    way = torque_way(bench.rated_load, TORQUE_STEPS)
+    quarter = len(way) // 4
+    first = way[: quarter + 1]
+    turning = bench.held(held_condition(bench, record), values, np.concatenate([way, first[1:]]))
+    return np.concatenate([way, first[1:]]), turning
+
+
+def lost_motion(bench, record, values):
+    """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
+    torque, turning = loop(bench, record, values)
+    rising = np.concatenate([[False], np.diff(torque) > 0.0])
+    middle = []
+    for torque_at in (LOST_MOTION_SHARE * bench.rated_load, -LOST_MOTION_SHARE * bench.rated_load):
+        branches = []
+        for branch in (rising, ~rising):
+            order = np.argsort(torque[branch], kind="stable")
+            branches.append(np.interp(torque_at, torque[branch][order], turning[branch][order]))
+        middle.append(np.mean(branches))
+    return np.full(len(record.values), middle[0] - middle[1])
+
+
+def torsional_stiffness(bench, record, values):
+    torque = bench.rated_load
+    turning = bench.held(held_condition(bench, record), values, np.array([0.0, 0.25, 0.5, 0.75, 1.0]) * torque)
+    return np.full(len(record.values), 0.5 * torque / (turning[4] - turning[2]))
+
+
+def input_torque(bench, record, values):
+    if "angle" in record.axes or "time" in record.axes:
+        return np.abs(along(bench, record, values, "drive_torque"))
+    return np.array([abs(bench.averages(c, values)["drive_torque"]) for c in row_conditions(bench, record)])
+
+
+def no_load_torque(bench, record, values):
+    free = Record(**{**record.__dict__, "factors": {**record.factors, "load": 0.0}})
+    return input_torque(bench, free, values)
+
+
+def efficiency(bench, record, values):
+    found = []
+    for c in row_conditions(bench, record):
+        torque = abs(bench.averages(c, values)["drive_torque"])
+        found.append(abs(c.load) / (abs(bench.ratio) * torque))
+    return np.array(found)
+
+
+def vibration(bench, record, values):
+    """Acceleration of a rigid housing on soft mounts: force of the pins over the mass that moves."""
+    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+    spectrum_angles, force = housing_force(bench, record, values)
+    return np.interp(angles % (2.0 * math.pi), spectrum_angles, force, period=2.0 * math.pi) / values.get("housing_mass", 10.0)
+
+
+def housing_force(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+    """Force of the pins on their ring along x over one output turn, less its mean."""
+    condition = condition_of(bench, record)
+    angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
+    series = bench.running(condition, values, angles if condition.direction > 0 else angles[::-1])
+    force = series[:, COLUMNS.index("housing_force_x")]
+    force = force if condition.direction > 0 else force[::-1]
+    return angles, force - force.mean()
+
+
+def vibration_order(bench, record, values):
+    _, force = housing_force(bench, record, values)
+    amplitudes = 2.0 * np.abs(np.fft.rfft(force)) / len(force)
+    orders = np.asarray(record.axes["order"], float)
+    return np.interp(orders, np.arange(len(amplitudes)), amplitudes) / values.get("housing_mass", 10.0)
+
+
+def temperature(bench, record, values):
+    condition = condition_of(bench, record)
+    steady = bench.averages(condition, {**values, "thermal_time": 0.0})["reducer_temperature"]
+    constant = values.get("thermal_time", 0.0)
+    time = np.asarray(record.axes["time"], float)
+    rise = 1.0 - np.exp(-(time - time[0]) / constant) if constant > 0.0 else np.ones(len(time))
+    return condition.temperature + (steady - condition.temperature) * rise
+
+
+def cage_speed(bench, record, values):
+    return np.array([abs(bench.averages(c, values)["cage_speed"]) for c in row_conditions(bench, record)])
+
+
+def inspections(bench: Bench, record: Record, values: Values) -> list[np.ndarray]:
+    """The wear unit's record at every row's hours."""
+    rows = row_conditions(bench, record)
+    found: list[np.ndarray] = []
+    by_run: dict[tuple, list[float]] = {}
+    for c in rows:
+        by_run.setdefault((c.speed, c.load, c.temperature, c.direction), []).append(c.hours)
+    for c in rows:
+        hours = sorted(set(by_run[c.speed, c.load, c.temperature, c.direction]))
+        found.append(bench.wear_to(c, values, hours)[c.hours])
+    return found
+
+
+def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:
+    """Profile(s) of the tagged surface; flanks and pins as the mean of those that are not told apart."""
+    w = wear[0]
+
+    def part(name: str) -> int | slice:
+        return int(tags[name]) - 1 if name in tags else slice(None)
+
+    surface = tags["surface"]
+    if surface == "flank":
+        discs = w["disc_wear"].shape[0]
+        teeth = w["disc_wear"].reshape(discs, -1, w["slide"].shape[0])[part("disc")]
+        profiles = teeth[..., part("tooth"), :] if "tooth" in tags else teeth
+        return profiles.reshape(-1, profiles.shape[-1]).mean(axis=0)
+    if surface == "pin":
+        both = (w["pin_wear"] + w["pin_even_wear"][..., None]).sum(axis=0)
+        profiles = both[part("tooth")]
+        return profiles.reshape(-1, profiles.shape[-1]).mean(axis=0)
+    field = {"inner_race": "inner_race_wear", "outer_race": "outer_race_wear"}[surface]
+    profiles = w[field][part("disc")]
+    profiles = profiles[..., part("crank"), :]
+    profiles = profiles.reshape(-1, profiles.shape[-1])
+    return profiles[profiles.max(axis=1).argmax()]
+
+
+def wear_profile(bench, record, values):
+    wear = inspections(bench, record, values)[0]
+    profile = surface_of(wear, record.tags)
+    angle = np.asarray(record.axes["depth_angle"], float)
+    if record.tags["surface"] == "pin":
+        places = (angle / math.pi + 0.5) * len(profile) - 0.5
+        return np.interp(places, np.arange(len(profile)), profile)
+    # Races are counted the way the cranks turn.
+    sense = -1.0 if record.tags["surface"] != "flank" and wear["crank_speed"][0] < 0.0 else 1.0
+    bins = (np.arange(len(profile)) + 0.5) * 2.0 * math.pi / len(profile)
+    return np.interp(sense * angle, bins, smooth(profile), period=2.0 * math.pi)
+
+
+def smooth(profile: np.ndarray, harmonics: int = 24) -> np.ndarray:
+    """The profile's first harmonics: a cycle's ripple is not wear."""
+    spectrum = np.fft.rfft(profile)
+    spectrum[harmonics + 1 :] = 0.0
+    return np.fft.irfft(spectrum, len(profile))
+
+
+def wear_depth(bench, record, values):
+    found = []
+    for wear in inspections(bench, record, values):
+        if record.tags["surface"] == "pin":
+            found.append(surface_of(wear, record.tags).max())
+        else:
+            found.append(peak_of_circle(surface_of(wear, record.tags)[None])[0])
+    return np.array(found)
+
+
+def mass_loss(bench, record, values):
+    """Of the part named by the tag: reducer, discs, pins, cranks."""
+    parts = {
+        "disc": ("flank_volume", "outer_race_volume"), "pin": ("pin_volume",), "crank": ("inner_race_volume",),
+        "reducer": ("flank_volume", "pin_volume", "inner_race_volume", "outer_race_volume"),
+    }  # fmt: skip
+    part = next((k for k in parts if record.tags.get("part", "reducer").lower().startswith(k)), "reducer")
+    return np.array([STEEL * sum(float(w[name][0]) for name in parts[part]) for w in inspections(bench, record, values)])
+
+
+def debris_iron(bench, record, values):
+    mass = float(bench.templates[1]["grease_mass"][0])
+    whole = Record(**{**record.__dict__, "tags": {"part": "reducer"}})
+    return mass_loss(bench, whole, values) / values.get("grease_mass", mass)
+
+
+OBSERVED: dict[str, Callable[[Bench, Record, Values], np.ndarray]] = {
+    f.__name__: f for f in (
+        transmission_error, hysteresis, lost_motion, torsional_stiffness, input_torque, no_load_torque, efficiency,
+        vibration, vibration_order, temperature, wear_profile, wear_depth, mass_loss, debris_iron, cage_speed,
+    )
+}  # fmt: skip

@@ -1,0 +1,137 @@
+"""Effects: pieces of physics, one file each, compiled into a unit and off by default.
+
+An effect is a module in a unit's ``effects`` folder (or in a user's own folder, see
+``user_folder``) with
+
+- a docstring: the equation, its range, its source;
+- ``EFFECT``, an ``Effect``: its parameters with units, bounds and the value at which it
+  vanishes, its states, the signature it leaves in measurements;
+- kernels named after the unit's hooks, which the unit calls at their time.
+
+All effects of a unit are composed into one module, so that the compiler sees plain calls.
+"""
+
+import importlib.util
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+import numba
+
+from fmu_src.source_hash import user_effect_files
+from fmu_src.variables import Variable
+
+
+@dataclass(frozen=True)
+class EffectParameter:
+    """A parameter of an effect and how one looks for it.
+
+    ``kind`` is ``amplitude`` (the effect vanishes when all of them stand at their start
+    value), ``shape`` (says how it acts, nothing by itself) or ``choice`` (which part it
+    sits on; not estimated).  ``scale`` is a typical size, ``sign`` +1 or -1 where only one
+    side of the start value makes sense, ``grid`` the values at which a search looks.
+    Amplitudes of one ``group`` are looked for together, with the shapes of that group and those of none.
+    """
+
+    variable: Variable
+    kind: str
+    scale: float = 1.0
+    sign: int = 0
+    grid: tuple[float, ...] = ()
+    group: str = ""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What is known about an effect beside its kernels; ``number`` is that of the physics audit's catalogue.
+
+    ``also_in`` names the unit whose effect of the same name is the other half.
+    """
+
+    number: int
+    title: str
+    law: str
+    source: str
+    signature: str
+    parameters: tuple[EffectParameter, ...]
+    states: tuple[Variable, ...] = ()
+    signals: tuple[str, ...] = ()
+    also_in: str = ""
+
+    def amplitudes(self) -> tuple[EffectParameter, ...]:
+        return tuple(p for p in self.parameters if p.kind == "amplitude")
+
+    def variables(self) -> list[Variable]:
+        """Everything that the unit's table needs."""
+        return [p.variable for p in self.parameters] + list(self.states)
+
+
+def amplitude(name, unit, text, scale, low, high, off=0.0, sign=0, source="off", group="", **more) -> EffectParameter:
+    """A parameter that is off at ``off``; [low, high] are its bounds in ``unit``."""
+    variable = Variable(name, "parameter", unit, f"{text} ({off:g}: off)", off, minimum=low, maximum=high,
+                        nominal=abs(scale), source=source, **more)
+    return EffectParameter(variable, "amplitude", scale, sign, (), group)
+
+
+def shape(name, unit, text, start, low, high, source, grid=(), group="") -> EffectParameter:
+    """A parameter that says how an effect acts once it is on."""
+    variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=max(abs(start), 1e-12),
+                        source=source)
+    return EffectParameter(variable, "shape", max(abs(start), 1e-12), 0, tuple(grid), group)
+
+
+def choice(name, text, start=1, low=1, high=400) -> EffectParameter:
+    """Which part an effect sits on, counted from 1."""
+    variable = Variable(name, "parameter", "1", text, start, minimum=low, maximum=high, integer=True,
+                        source="assumed: the first")
+    return EffectParameter(variable, "choice")
+
+
+def effect_modules(package: str) -> dict[str, ModuleType]:
+    """The effects of a package, built in and of the user, by name in a fixed order."""
+    parent = importlib.import_module(package)
+    names = {p.stem for p in Path(parent.__file__).parent.glob("*.py") if p.stem != "__init__"}
+    for _, file in user_effect_files(package.partition(".")[0]):
+        if str(file.parent) not in parent.__path__:
+            parent.__path__.append(str(file.parent))
+        names.add(file.stem)
+    return {name: importlib.import_module(f"{package}.{name}") for name in sorted(names)}
+
+
+def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:
+    """One module with a kernel per hook that calls every effect's kernel of that name.
+
+    ``hooks`` maps the hook's name to (arguments, operation): operation ``""`` calls one after
+    the other, ``"*"`` gives the product of what they return.
+    """
+    name = f"{package}.composed"
+    if name in sys.modules:
+        return sys.modules[name]
+    modules = effect_modules(package)
+    lines = ['"""Made anew from the effects that there are; do not edit."""', "from fmu_src.kernel import kernel"]
+    body = []
+    for hook, (arguments, operation) in hooks.items():
+        present = [name for name, module in modules.items() if hasattr(module, hook)]
+        lines += [f"from {package}.{name} import {hook} as {hook}_{name}" for name in present]
+        calls = [f"{hook}_{name}({arguments})" for name in present]
+        body += ["", "", "@kernel", f"def {hook}({arguments}):"]
+        if operation == "*":
+            body += ["    value = 1.0", *(f"    value *= {call}" for call in calls), "    return value"]
+        else:
+            body += [f"    {call}" for call in calls] or ["    pass"]
+    text = "\n".join(lines + body) + "\n"
+    # A file, because the compiler keeps compiled code only for functions that have one.
+    folder = Path(numba.config.CACHE_DIR) / "composed"
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{package.replace('.', '_')}.py"
+    if not file.is_file() or file.read_text(encoding="utf-8") != text:
+        partial = file.with_suffix(f".{os.getpid()}")
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(file)
+    specification = importlib.util.spec_from_file_location(name, file)
+    module = sys.modules[name] = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module

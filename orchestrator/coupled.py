@@ -1,0 +1,96 @@
+"""Plant and wear unit of one reducer stepped together in compiled code.
+
+The same kernels and the same exchange as the master's Gauss-Seidel scheme, without its
+freedom (units in this process, one step size): for fits and ensembles that need
+thousands of runs.
+"""
+
+from fmu_src.kernel import kernel
+from rv_plant.plant import step as step_plant
+from wear_fmu.accumulator import step as step_wear
+
+
+@kernel
+def give_forces(p, w):
+    """What the plant gives the wear unit."""
+    w.crank_angle, w.crank_speed, w.output_angle, w.cage_angle = p.crank_angle, p.crank_speed, p.output_angle, p.cage_angle
+    w.temperature = p.reducer_temperature
+    discs, cranks, rollers = p.roller_force.shape
+    for d in range(discs):
+        for j in range(p.mesh_force.shape[1]):
+            w.mesh_force[d, j] = p.mesh_force[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                w.roller_force[d, c, k] = p.roller_force[d, c, k]
+
+
+@kernel
+def give_profiles(w, p):
+    """What the wear unit gives the plant."""
+    discs, cranks, rollers = p.roller_force.shape
+    for d in range(discs):
+        for j in range(p.mesh_force.shape[1]):
+            p.mesh_profile_error[d, j] = w.mesh_profile_error[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                p.roller_profile_error[d, c, k] = w.roller_profile_error[d, c, k]
+
+
+@kernel
+def step_pair(plants, wears, time, duration):
+    """One communication step of both; status codes (plant, wear), of which one stays 0."""
+    status = step_plant(plants, time, duration)
+    if status != 0:
+        return status, 0
+    give_forces(plants[0], wears[0])
+    status = step_wear(wears, time, duration)
+    if status != 0:
+        return 0, status
+    give_profiles(wears[0], plants[0])
+    return 0, 0
+
+
+@kernel
+def run_pair(plants, wears, steps, duration):
+    """``steps`` equal communication steps of ``duration`` [s] each."""
+    for i in range(steps):
+        plant_status, wear_status = step_pair(plants, wears, i * duration, duration)
+        if plant_status != 0 or wear_status != 0:
+            return plant_status, wear_status
+    return 0, 0
+
+
+@kernel
+def sweep(plants, wears, durations, series):
+    """Steps of the given ``durations`` [s]; row i of ``series`` gets what a bench sees after step i.
+
+    Columns: see COLUMNS.
+    """
+    p = plants[0]
+    for i in range(durations.shape[0]):
+        plant_status, wear_status = step_pair(plants, wears, 0.0, durations[i])
+        if plant_status != 0 or wear_status != 0:
+            return plant_status, wear_status
+        series[i, 0], series[i, 1], series[i, 2] = p.output_angle, p.transmission_error, p.drive_torque
+        series[i, 3], series[i, 4], series[i, 5] = p.housing_force_x, p.housing_force_y, p.power_loss
+        series[i, 6], series[i, 7] = p.reducer_temperature, p.cage_speed
+    return 0, 0
+
+
+COLUMNS = (
+    "output_angle", "transmission_error", "drive_torque", "housing_force_x", "housing_force_y", "power_loss",
+    "reducer_temperature", "cage_speed",
+)  # fmt: skip
+
+
+@kernel
+def torque_sweep(plants, torques, turning):
+    """Output torque through ``torques`` [N m] with the input held; ``turning`` [rad] of the output in its sense."""
+    p = plants[0]
+    for i in range(torques.shape[0]):
+        p.load_torque = torques[i]
+        status = step_plant(plants, 0.0, 1.0)
+        if status != 0:
+            return status
+        turning[i] = -p.transmission_error
+    return 0

@@ -1,0 +1,33 @@
+"""Grease that ages: base oil leaves, viscosity and supply change with the hours run.
+
+    nu(t)/nu(0) = exp(g t/t_a), supply s(t) = exp(-t/t_a) once the effect is on
+
+In the plant: drag follows the viscosity.  In the wear unit: film and supply.
+
+Source: grease life of reducers, 2000 to 20000 h between changes.
+"""
+
+import math
+
+from fmu_src.effect import Effect, amplitude, shape
+from fmu_src.kernel import kernel
+
+HOUR = 3600.0
+EFFECT = Effect(
+    24, "grease ageing",
+    "nu(t) = nu_0 exp(g t/t_a)",
+    "grease life 2,000 to 20,000 h",
+    "slow change of friction, temperature and film with the hours run; restored when grease is changed",
+    (
+        amplitude("grease_ageing", "1", "g: log of the viscosity's change in the time t_a", 0.3, -5.0, 5.0),
+        shape("grease_life", "s", "t_a", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h"),
+        shape("grease_age", "s", "hours since the grease was filled", 0.0, 0.0, 1e6 * HOUR, "new grease"),
+    ),
+    signals=("input_torque", "no_load_torque", "efficiency", "temperature", "wear_depth", "wear_profile", "mass_loss"),
+    also_in="wear_fmu",
+)
+
+
+@kernel
+def before(r):
+    r.grease_thinning = math.exp(r.grease_ageing * r.grease_age / r.grease_life)

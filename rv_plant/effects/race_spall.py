@@ -1,0 +1,54 @@
+"""A spall on one raceway: a pit that every roller drops into as it passes.
+
+    depth(x) = D cos^2(pi x/w) for |x| < w/2, x from the pit's middle
+
+Source: fatigue pitting after the rating life L10; 5 to 100 um, some millimetres.
+"""
+
+import math
+
+from fmu_src.effect import Effect, amplitude, choice, shape
+from fmu_src.kernel import kernel
+from rv_plant.poses import disc_offset
+
+UM = 1e-6
+EFFECT = Effect(
+    23, "race spall",
+    "roller gap + D cos^2(pi x/w) where a roller passes the pit",
+    "fatigue pitting after L10",
+    "bursts at the roller-passing orders 361 (inner race) or 279 (outer race), like a threshold; not in the mean",
+    (
+        amplitude("spall_depth", "m", "depth of the pit", 5 * UM, 0.0, 500 * UM, sign=1),
+        shape("spall_width", "rad", "its width", 0.1, 0.005, 2.0, "assumed: a roller's footprint and more"),
+        shape("spall_angle", "rad", "its place: from the lobe's eccentric direction, or the hole's outward radial",
+              1.5708, -7.0, 7.0, "assumed: in the loaded zone", grid=(1.5708, 4.7124)),
+        shape("spall_race", "1", "0: inner race (crank), 1: outer race (disc)", 0.0, 0.0, 1.0, "assumed", grid=(0.0, 1.0)),
+        choice("spall_disc", "disc whose bearing it is", 1, 1, 3),
+        choice("spall_crank", "crank whose bearing it is", 1, 1, 3),
+    ),
+    signals=("vibration", "transmission_error"),
+)
+
+
+@kernel
+def before(r):
+    if r.spall_depth == 0.0:
+        return
+    discs, cranks, rollers = r.roller_gap_now.shape
+    d, c = r.spall_disc - 1, r.spall_crank - 1
+    if d >= discs or c >= cranks:
+        return
+    turn = 2.0 * math.pi
+    lobes = r.root_cos.shape[0]
+    # Direction of roller 1 from the hole's radial, and from the lobe's eccentric direction.
+    first = r.cage
+    if r.spall_race < 0.5:
+        first += (1.0 + lobes) * r.ideal_output + turn * c / cranks - disc_offset(r, d)
+    for k in range(rollers):
+        x = (first + turn * k / rollers - r.spall_angle) / turn
+        x = abs(x - math.floor(x + 0.5)) * turn
+        pit = 0.0
+        if x < 0.5 * r.spall_width:
+            cosine = math.cos(math.pi * x / r.spall_width)
+            pit = r.spall_depth * cosine * cosine
+        r.roller_gap_now[d, c, k] += pit

@@ -1,0 +1,124 @@
+"""Friction of the contacts: Stribeck curve when turning, pre-sliding when held.
+
+    mu(v) = mu_c + mu_s exp(-v/v_s) + c v      at every pin, v = |m(phi) omega_crank|
+    loss  = sum mu F v + mu_r sum F_roller r_i |omega_crank - omega_disc|
+
+Loss shows at the input: torque + loss/omega.  With the input held, the contacts stick and slip
+under the output's torque.  N parallel elastic-slip elements (Jenkins, Iwan 1966) carry at
+most T_s = (mu_c + mu_s) sum F |arm| together and yield one after the other at theta_i = 2 theta_p i/N: the loop
+follows Masing's rules and closes.
+
+Source: Stribeck form after Armstrong-Helouvry 1991; mu 0.04 to 0.12, v_s 5 to 50 mm/s.
+"""
+
+import math
+
+from fmu_src.effect import Effect, amplitude, shape
+from fmu_src.kernel import kernel
+from fmu_src.variables import Variable
+from rv_plant.geometry import shortening, sliding_per_crank_angle
+
+ELEMENTS = 6
+EFFECT = Effect(
+    4, "Stribeck friction",
+    "mu = mu_c + mu_s exp(-v/v_s) + c v, loss = sum mu F v; held: Iwan elements up to T_s",
+    "Armstrong-Helouvry 1991, Iwan 1966; mu 0.04 to 0.12, v_s 5 to 50 mm/s",
+    "input torque against speed has a minimum; a part in proportion to load; hysteresis at reversal with the"
+    " input held, its width in proportion to load",
+    (
+        amplitude("friction_coefficient", "1", "coefficient mu_c of disc and pin", 0.03, 0.0, 0.5, sign=1, group="mesh"),
+        amplitude("friction_excess", "1", "mu_s: static friction above mu_c", 0.03, 0.0, 0.5, sign=1, group="mesh"),
+        amplitude("friction_viscous", "s/m", "growth of the coefficient with sliding speed", 0.1, 0.0, 10.0, sign=1, group="viscous"),
+        amplitude("bearing_friction", "1", "coefficient of the needle bearings at the inner raceway", 0.002, 0.0, 0.1, sign=1, group="bearings"),
+        shape("stribeck_speed", "m/s", "speed v_s at which static friction has gone", 0.02, 1e-4, 1.0, "assumed: 5 to 50 mm/s",
+              grid=(0.005, 0.02, 0.05), group="mesh"),
+        shape("presliding_angle", "rad", "turning theta_p of the held output at which half the elements slip", 2e-5, 1e-7,
+              1e-2, "assumed: 4 arcsec"),
+    ),
+    states=(
+        Variable("slider", "state", "rad", "where the elastic-slip elements are free of force", 0.0, (ELEMENTS,), ("element",)),
+        Variable("friction_torque", "state", "N.m", "largest torque that friction holds at the output"),
+    ),
+    signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature"),
+)
+
+
+@kernel
+def before(r):
+    """What friction can hold at the output, from the last contact forces."""
+    r.friction_torque = 0.0
+    if r.fidelity != 0 or r.input_speed != 0.0 or r.friction_coefficient + r.friction_excess == 0.0:
+        return
+    discs, pins = r.mesh_force_now.shape
+    lobes = pins - 1
+    k1 = shortening(r.eccentricity, lobes, r.pin_circle_radius)
+    held = 0.0
+    for d in range(discs):
+        for j in range(pins):
+            force = r.mesh_force_now[d, j]
+            if force > 0.0:
+                # Arm of the flank's tangential motion when the disc turns about its own centre.
+                c = math.cos(r.mesh_phase[d, j])
+                root = math.sqrt(1.0 + k1 * k1 - 2.0 * k1 * c)
+                arm = r.pin_circle_radius * root + r.eccentricity * lobes * (c - k1) / root - r.pin_radius
+                held += force * abs(arm)
+    r.friction_torque = (r.friction_coefficient + r.friction_excess) * held
+
+
+@kernel
+def element(i, r):
+    """(stiffness [N m/rad], largest torque [N m]) of elastic-slip element i."""
+    share = r.friction_torque / ELEMENTS
+    return share * ELEMENTS / (2.0 * r.presliding_angle * (i + 1.0)), share
+
+
+@kernel
+def hold(r):
+    """The elements resist turning of the carrier while the input stands."""
+    if r.friction_torque == 0.0:
+        return
+    carrier = 3 * r.throw_added.shape[0]
+    for i in range(ELEMENTS):
+        stiffness, most = element(i, r)
+        torque = stiffness * (r.z[carrier] - r.slider[i])
+        if abs(torque) < most:
+            r.residual_vector[carrier] += torque
+            r.tangent[carrier, carrier] += stiffness
+        else:
+            r.residual_vector[carrier] += most if torque > 0.0 else -most
+
+
+@kernel
+def after(r):
+    """Sliders follow; loss of power when turning."""
+    carrier = 3 * r.throw_added.shape[0]
+    if r.input_speed == 0.0 and r.friction_torque > 0.0:
+        for i in range(ELEMENTS):
+            stiffness, most = element(i, r)
+            stretch = r.z[carrier] - r.slider[i]
+            longest = most / stiffness
+            if abs(stretch) > longest:
+                r.slider[i] = r.z[carrier] - (longest if stretch > 0.0 else -longest)
+    else:
+        for i in range(ELEMENTS):
+            r.slider[i] = r.z[carrier]
+    if r.friction_coefficient + r.friction_excess + r.friction_viscous + r.bearing_friction == 0.0:
+        return
+    discs, cranks, rollers = r.roller_force_now.shape
+    pins = r.mesh_force_now.shape[1]
+    lobes = pins - 1
+    k1 = shortening(r.eccentricity, lobes, r.pin_circle_radius)
+    rolling = abs(r.crank_speed) * (1.0 + 1.0 / lobes) * r.inner_race_radius * r.bearing_friction
+    loss = 0.0
+    for d in range(discs):
+        for j in range(pins):
+            force = r.mesh_force_now[d, j]
+            if force > 0.0:
+                v = abs(r.crank_speed * sliding_per_crank_angle(
+                    r.mesh_phase[d, j], lobes, r.pin_circle_radius, r.pin_radius, k1))
+                mu = r.friction_coefficient + r.friction_excess * math.exp(-v / r.stribeck_speed) + r.friction_viscous * v
+                loss += mu * force * v
+        for c in range(cranks):
+            for k in range(rollers):
+                loss += r.roller_force_now[d, c, k] * rolling
+    r.friction_power += loss

@@ -1,0 +1,189 @@
+"""The check says what a design lacks, and the commands show it."""
+
+import argparse
+import json
+
+import numpy as np
+import pytest
+
+from discrepancy.campaign import check_campaign, load_campaign, write_template
+from discrepancy.campaign.commands import add_campaign
+from discrepancy.campaign.pairs import PAIRS
+from discrepancy.campaign.quantities import QUANTITIES
+from orchestrator.faults import InputFault
+
+
+def campaign(folder, conditions: dict[str, str], runs: list[str], reducer="RV20E-121"):
+    parts = [f'[campaign]\nname = "design"\nreducer = "{reducer}"\n']
+    parts += [f"[conditions.{name}]\n{text}\n" for name, text in conditions.items()]
+    parts += [f'[[runs]]\nid = "r{i}"\n{text}\n' for i, text in enumerate(runs)]
+    (folder / "campaign.toml").write_text("\n".join(parts), encoding="utf-8")
+    return check_campaign(load_campaign(folder))
+
+
+def codes(check) -> set[str]:
+    return {finding.code for finding in check.findings}
+
+
+def status(check) -> dict[int, str]:
+    return {verdict.pair.number: verdict.status for verdict in check.pairs}
+
+
+def condition(speed=15, load=100, temperature=40, hours=0, **more) -> str:
+    lines = [f'output_speed = "{speed} rpm"', f'load_torque = "{load} %"', f'temperature = "{temperature} degC"']
+    lines += [f'hours = "{hours} h"', *(f"{key} = {json.dumps(value)}" for key, value in more.items())]
+    return "\n".join(lines)
+
+
+def angle_file(folder, name: str, turns: float, points: int) -> str:
+    angle = np.linspace(0.0, 360.0 * turns, points)
+    np.savetxt(folder / name, np.column_stack([angle, np.sin(angle)]), delimiter=",", header="phi,te", comments="")
+    return (
+        f'quantity = "transmission_error"\nfile = "{name}"\ncolumns.angle = {{ column = "phi", unit = "deg" }}\n'
+        'columns.value = { column = "te", unit = "arcsec" }'
+    )
+
+
+def test_poor_design(tmp_path):
+    run = angle_file(tmp_path, "short.csv", 0.6, 50)
+    check = campaign(tmp_path, {"a": condition(direction="forward")}, [f'condition = "a"\n{run}'])
+    assert [finding.code for finding in check.problems] == ["noise unknown"]
+    assert {
+        "no held-out condition", "few levels of load", "one direction", "one mounting", "record too short",
+        "sampling too coarse",
+    } <= codes(check)  # fmt: skip
+    load = next(f for f in check.findings if f.code == "few levels of load")
+    assert "cubic stiffness and a backlash" in load.text
+    short = next(f for f in check.findings if f.code == "record too short")
+    assert "0.60 output turns" in short.text and "78 and 80" in short.text
+    assert "separable" not in status(check).values()
+
+
+def test_good_design_of_the_transmission_error(tmp_path):
+    run = angle_file(tmp_path, "long.csv", 3.0, 12_000)
+    conditions = {
+        f"{direction}{load}{mounting}": condition(load=load, direction=direction, mounting=mounting, held_out=load == 70)
+        for direction in ("forward", "reverse") for load in (10, 40, 70, 100, 150) for mounting in ("1", "2")
+    } | {"moved": condition(direction="forward", hours=100, interventions=["ring_turned"])}  # fmt: skip
+    runs = [f'condition = "{name}"\nreplicate = {i}\n{run}' for name in conditions for i in (1, 2)]
+    check = campaign(tmp_path, conditions, runs)
+    assert not check.findings
+    found = status(check)
+    assert {n for n, s in found.items() if s == "separable"} == {1, 6, 8, 9}
+    assert {n for n, s in found.items() if s == "not separable"} == {12, 13}
+    missing = next(verdict.missing for verdict in check.pairs if verdict.pair.number == 12)
+    assert any("pins_exchanged" in text for text in missing)
+
+
+def value(quantity: str, text: str, where="a", **tags) -> str:
+    words = "\n".join(f'tags.{k} = "{v}"' for k, v in tags.items())
+    return f'quantity = "{quantity}"\ncondition = "{where}"\nvalue = "{text}"\nnoise = "{text}"\n{words}'
+
+
+def test_wear_over_hours_speeds_and_loads(tmp_path):
+    conditions = {
+        "a": condition(hours=100), "b": condition(hours=50, speed=30), "c": condition(hours=1000, load=50),
+        "d": condition(hours=2000, interventions=["grease_changed"]),
+    }  # fmt: skip
+    wear = [value("wear_depth", "1 um", c, surface=s) for c in conditions for s in ("flank", "pin", "inner_race")]
+    cage = [value("cage_speed", "5 rpm", c) for c in conditions]
+    found = status(campaign(tmp_path, conditions, wear + cage))
+    assert {n: found[n] for n in (2, 3, 10, 12)} == dict.fromkeys((2, 3, 10, 12), "separable")
+    # Nothing in this campaign shows play or transmission error.
+    assert found[1] == found[13] == "not visible"
+    without_cage = status(campaign(tmp_path, conditions, wear))
+    assert without_cage[10] == "not separable"
+
+
+def test_friction(tmp_path):
+    conditions = {f"s{s}": condition(speed=s, load=l) for s, l in ((5, 50), (15, 100), (30, 150))}
+    runs = [value("input_torque", "1 N.m", c) for c in conditions]
+    check = campaign(tmp_path, conditions, runs)
+    assert status(check)[11] == "separable"
+    assert {"coupled factors", "no replicates", "direction not stated"} <= codes(check)
+
+
+def test_condition_that_the_model_cannot_predict(tmp_path):
+    check = campaign(tmp_path, {"a": 'direction = "forward"\noutput_speed = "15 rpm"'}, [value("input_torque", "1 N.m")])
+    assert [finding.code for finding in check.problems] == ["condition incomplete"]
+    assert "[conditions.a]" in check.problems[0].remedy and "load_torque" in check.problems[0].remedy
+
+
+@pytest.mark.parametrize("rows, code", [
+    ("0,1\n1,2\n0.5,3\n", "time runs back"), ("0,1\n1,2\n2,3\n3,1\n90,3\n", "uneven sampling"), ("0,1\n1,\n2,3\n", "dropouts"),
+])  # fmt: skip
+def test_faults_of_a_record(tmp_path, rows, code):
+    (tmp_path / "a.csv").write_text("t,T\n" + rows)
+    run = (
+        'condition = "a"\nquantity = "input_torque"\nfile = "a.csv"\ncolumns.time = { column = "t", unit = "s" }\n'
+        'columns.value = { column = "T", unit = "N.m" }'
+    )
+    assert code in codes(campaign(tmp_path, {"a": condition()}, [run]))
+
+
+def test_measured_speed_and_wrapped_encoder_and_slow_vibration(tmp_path):
+    (tmp_path / "a.csv").write_text("t,phi,n,T\n0,0,15,1\n1,180,15.1,2\n2,359,15.2,1\n3,1,15,1\n")
+    head = 'condition = "a"\nfile = "a.csv"\n'
+    torque = (
+        'quantity = "input_torque"\ncolumns.angle = { column = "phi", unit = "deg" }\n'
+        'columns.value = { column = "T", unit = "N.m" }\ncolumns.output_speed = { column = "n", unit = "rpm" }'
+    )
+    vibration = (
+        'quantity = "vibration"\ntags.location = "housing"\ncolumns.time = { column = "t", unit = "s" }\n'
+        'columns.value = { column = "T", unit = "m/s^2" }'
+    )
+    check = campaign(tmp_path, {"a": condition()}, [head + torque, head + vibration])
+    assert {"measured speed", "angle jumps", "sampling too coarse"} <= codes(check)
+
+
+def test_all_thirteen_pairs_name_real_quantities():
+    assert [pair.number for pair in PAIRS] == list(range(1, 14))
+    assert all(set(pair.signals) <= QUANTITIES.keys() and pair.alternatives for pair in PAIRS)
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+@pytest.mark.parametrize("quantities", [("transmission_error", "hysteresis", "input_torque"), tuple(QUANTITIES)])
+def test_template_loads_and_the_check_says_what_to_fill_in(tmp_path, kind, quantities):
+    write_template(tmp_path / "new", quantities, kind)
+    loaded = load_campaign(tmp_path / "new")
+    assert loaded.quantities == quantities
+    assert not loaded.records and len(loaded.unfilled) == 3 * len(quantities)
+    assert {finding.code for finding in check_campaign(loaded).problems} == {"no rows"}
+
+
+def test_template_filled_in(tmp_path):
+    files = write_template(tmp_path, ("transmission_error",))
+    for path in files[1:]:
+        with path.open("a") as file:
+            file.writelines(f"{angle / 10},{angle % 7}\n" for angle in range(11_000))
+    check = check_campaign(load_campaign(tmp_path))
+    assert not check.problems
+    assert [record.name for record in check.campaign.held_out] == ["transmission_error_half_1"]
+
+
+def command(*arguments: str) -> int:
+    parser = argparse.ArgumentParser()
+    add_campaign(parser.add_subparsers(dest="command", required=True))
+    options = parser.parse_args(["campaign", *arguments])
+    return options.run(options)
+
+
+def test_commands(tmp_path, capsys):
+    folder = str(tmp_path / "new")
+    assert command("template", folder, "--quantities", "hysteresis", "--json") == 0
+    assert len(json.loads(capsys.readouterr().out)["files"]) == 4
+    assert command("check", folder) == 1
+    shown = capsys.readouterr().out
+    assert "holds no complete row" in shown and "needle clearance / raceway wear" in shown
+    for path in (tmp_path / "new").glob("*.csv"):
+        path.write_text("torque [N.m],value [arcmin]\n" + "".join(f"{t},{t / 50}\n" for t in range(-167, 168)))
+    assert command("check", folder, "--json") == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["problems"] == [] and len(report["pairs"]) == 13
+    assert report["pairs"][3]["status"] == "separable"
+    with pytest.raises(InputFault, match="exists already; .* nothing is overwritten"):
+        command("template", folder)
+    with pytest.raises(InputFault, match="--quantities noise: not a quantity"):
+        command("template", str(tmp_path / "other"), "--quantities", "noise")
+    with pytest.raises(InputFault, match="--format xls: choose one of csv, parquet"):
+        command("template", str(tmp_path / "other"), "--format", "xls")
