@@ -198,6 +198,7 @@ BAD = [
     (run('value = "1 rad"', quantity="transmission_error"), r"value = '1 rad': transmission_error needs angle or input_angle"),
     (run('value = "1 um"', quantity="wear_depth"), r"wear_depth needs tags.surface \(flank, pin, inner_race, outer_race\)"),
     (run('value = "1 um"\ntags.surface = "tooth"', quantity="wear_depth"), r"tags.surface = 'tooth': choose one of flank"),
+    (run('value = "1 um"\ntags = { surface = "pin", disc = 3 }', quantity="wear_depth"), r"tags.disc = '3': give the number of the disc, from 1 to 2"),
     (run('value = "1 N.m"', quantity="torque_in"), r"runs\[1\] \(r\).quantity = 'torque_in': 'torque_in' is not a quantity"),
     (run('value = "1 N.m"', condition="hot"), r"condition = 'hot': there is no such condition \(warm, other\); add \[conditions.hot\]"),
     (run('value = "1 N.m"') * 2, r"id = 'r' is used twice, first in runs\[1\]"),

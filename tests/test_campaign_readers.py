@@ -51,6 +51,8 @@ def is_measured(record) -> None:
     ("phi;te\n0;1\n90;2,5\n180;-0,5\n270;0\n360;1,5\n", ""),
     ("phi\tte\n0\t1\n90\t2.5\n180\t-0.5\n270\t0\n360\t1.5\n", ""),
     ("phi   te\n0   1\n90  2.5\n180 -0.5\n270 0\n360 1.5\n", ""),
+    ("# a\n\n# b\nno #1,phi,te\n7,0,1\n7,90,2.5\n# pause\n7,180,-0.5\n7,270,0\n7,360,1.5\n", ""),
+    ("phi,te,\n0,1,\n90,2.5,\n180,-0.5,\n270,0,\n360,1.5,\n", ""),
     ("phi;te\ndeg;arcsec\n0;1\n90;2,5\n180;-0,5\n270;0\n360;1,5\n", 'decimal = ","\nunits_line = true'),
     ("Prüfstand\nvom Montag\nphi,te\n0,1\n90,2.5\n180,-0.5\n270,0\n360,1.5\n", "skip_lines = 2"),
 ])  # fmt: skip

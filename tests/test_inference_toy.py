@@ -46,7 +46,7 @@ CANDIDATES = (
 )
 NUISANCES = (
     Parameter("stiffness", "1", 1.0, 0.3, 3.0, 0.1),
-    Parameter("friction", "1", 0.02, 0.0, 0.2, 0.002),
+    Parameter("friction", "1", 0.02, 0.0, 0.2, 0.002, prior=0.001),
     Parameter("wear_rate", "1", 1.0, 0.1, 10.0, 0.1),
     *(Parameter(f"phase_{k}", "rad", 0.0, -1.0, 1.0, 0.05) for k in ("1", "2")),
 )
@@ -86,8 +86,8 @@ OUTSIDE = {
     "resonance": lambda r, a: a * np.exp(-((r.axes["sliding_speed"] - 0.45) / 0.06) ** 2) * r.factors["direction"] if r.quantity == "torque" else None,
     "warm order 80": lambda r, a: a * np.cos(80 * r.axes["angle"]) * (r.factors["temperature"] - 310) if r.quantity == "te" else None,
     "arrhenius wear": lambda r, a: a * (r.factors["temperature"] - 310) / 20 * law(r, {}) if r.quantity == "wear" else None,
-    "square load torque": lambda r, a: a * (r.factors["load"] / 200) ** 2 * r.factors["direction"] if r.quantity == "torque" else None,
-    "thermal square": lambda r, a: a * (r.factors["temperature"] - 305) ** 2 / 100 * r.factors["load"] / 100 if r.quantity == "te" else None,
+    "square load torque": lambda r, a: a * (r.factors["load"] / 200) ** 2 * r.factors["direction"] + 0 * r.values if r.quantity == "torque" else None,
+    "thermal square": lambda r, a: a * (r.factors["temperature"] - 305) ** 2 / 100 * r.factors["load"] / 100 + 0 * r.values if r.quantity == "te" else None,
     "odd order": lambda r, a: a * np.cos(33 * r.axes["angle"] + 0.4) if r.quantity == "te" else None,
     "periodic speed": lambda r, a: a * np.sin(40 * r.axes["sliding_speed"]) if r.quantity == "torque" else None,
     "wear threshold": lambda r, a: a * max(r.factors["hours"] / 3600 - 500, 0) / 300 * (r.factors["temperature"] - 305) / 10 + 0 * r.values if r.quantity == "wear" else None,
@@ -201,7 +201,7 @@ def campaign(seed, kind, strength=0.0, which=None, samples=360):
     rng = np.random.default_rng(seed)
     noise = random_noise(rng)
     records = design(rng, noise, samples)
-    truth = {"stiffness": rng.uniform(0.8, 1.2), "friction": rng.uniform(0.015, 0.03), "wear_rate": rng.uniform(0.7, 1.4),
+    truth = {"stiffness": rng.uniform(0.8, 1.2), "friction": rng.normal(0.02, 0.001), "wear_rate": rng.uniform(0.7, 1.4),
              "phase_1": rng.uniform(-0.005, 0.005), "phase_2": rng.uniform(-0.005, 0.005)}
     if kind == "null":
         return Toy(measure(records, truth, noise, rng)), Hidden(kind)

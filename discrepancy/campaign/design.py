@@ -89,7 +89,7 @@ class Design:
 
     def torque_reach(self) -> tuple[float, float, int]:
         """Smallest and largest torque [N.m] at which stiffness shows, and how many levels lie between."""
-        steady = [abs(load) for load in self.levels("load", "torsional_stiffness", "transmission_error", "lost_motion")]
+        steady = [abs(load) for load in self.levels("load", "torsional_stiffness", "transmission_error")]
         swept = [np.abs(record.axes["torque"]) for record in self.of("hysteresis")]
         numbers = distinct(steady + [number for torque in swept for number in torque[torque > 0.0]], "load")
         numbers = [number for number in numbers if number > 0.0]

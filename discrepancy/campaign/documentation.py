@@ -34,7 +34,8 @@ def tables() -> str:
         (f"`{k.key}`", k.unit, "column" if k in AXES else "condition, `actual` or column", k.description)
         for k in (*AXES, *FACTORS)
     ]
-    tags = [(f"`tags.{t.name}`", code(t.choices) or "any word", t.description) for t in TAGS.values()]
+    tags = [(f"`tags.{t.name}`", code(t.choices) or ("a number" if t.counted else "any word"), t.description) for t in TAGS.values()]
+    interventions = [(f"`{name}`", meaning) for name, meaning in INTERVENTIONS.items()]
     pairs = [
         (p.number, " / ".join(p.effects), p.experiment,
          " **or** ".join("; ".join(need.text for need in needs) for needs in p.alternatives))
@@ -44,14 +45,14 @@ def tables() -> str:
         "## Quantities\n",
         "A quantity of another unit of the same kind is converted. What it needs to know of the condition may stand in the"
         " condition or in columns.\n",
-        table(("quantity", "usual unit", "what it is", "needs the columns", "may have", "needs to know", "needs tags", "tags it may have"),
-              quantities),
+        table(("quantity", "usual unit", "what it is", "needs the columns", "may have", "needs to know", "needs tags",
+               "tags it may have"), quantities),
         "## Columns and numbers of a condition\n",
         table(("key", "kind of unit", "stated as", "meaning"), keys),
         "## Tags\n",
         table(("key", "words", "meaning"), tags),
         "## Interventions\n",
-        table(("word", "what was done before the condition"), [(f"`{k}`", v) for k, v in INTERVENTIONS.items()]),
+        table(("word", "what was done before the condition"), interventions),
         "## Effects that look alike\n",
         "`rvwear campaign check` says of each pair whether the campaign has an experiment that separates it, and what is missing."
         " Whether the noise lets it succeed is for `rvwear diagnose` to say.\n",

@@ -193,7 +193,9 @@ def lay_out(content: dict, path: Path) -> None:
             continue
         if name not in layouts:
             known = ", ".join(layouts) or "none is stated"
-            raise InputFault(f"{path}: runs[{i + 1}].layout = {name!r}: there is no such layout ({known}); add [layouts.{name}]")
+            raise InputFault(
+                f"{path}: runs[{i + 1}].layout = {name!r}: there is no such layout ({known}); add [layouts.{name}]"
+            )
         runs[i] = layouts[name] | run
 
 

@@ -75,9 +75,9 @@ def held_out(design: Design) -> Iterator[Finding]:
 
 # (factor, quantities, levels wanted, what aliases with fewer)
 LEVELS = (
-    ("load", ("transmission_error", "lost_motion", "torsional_stiffness"), 4,
+    ("load", ("transmission_error", "torsional_stiffness"), 4,
      "with up to 3 loads a cubic stiffness and a backlash fit equally well"),
-    ("load", FRICTION[:1] + FRICTION[2:], 3, "friction that grows with load and drag that does not are not told apart"),
+    ("load", ("input_torque", "efficiency"), 3, "friction that grows with load and drag that does not are not told apart"),
     ("speed", FRICTION, 3, "a Stribeck minimum, viscous drag and a constant are not told apart"),
     ("temperature", PLAY + FRICTION, 2, "nothing that follows temperature (expansion, viscosity) shows"),
     ("hours", PLAY + WEAR, 2, "wear and what was there from the start are not told apart"),
@@ -89,7 +89,7 @@ def levels(design: Design) -> Iterator[Finding]:
     for factor, quantities, wanted, alias in LEVELS:
         present = [quantity for quantity in quantities if design.measures(quantity)]
         # A loop sweeps the torque: it shows more levels than any series of loads.
-        swept = factor == "load" and design.measures("hysteresis") and "lost_motion" in quantities
+        swept = factor == "load" and "torsional_stiffness" in quantities and design.measures("hysteresis")
         if not present or swept:
             continue
         found = len(design.levels(factor, *present))
@@ -179,7 +179,8 @@ def rows(design: Design) -> Iterator[Finding]:
                 continue
             if name == "angle" and np.abs(np.diff(axis)).max() > 1.9 * np.pi:
                 yield Finding(
-                    WARNING, "angle jumps", f"run {record.name}: the angle jumps by a turn, as an encoder within one turn does",
+                    WARNING, "angle jumps",
+                    f"run {record.name}: the angle jumps by a turn, as that of an encoder within one turn does",
                     "state unwrap = true in its column",
                 )  # fmt: skip
             elif name == "time" and np.any(np.diff(axis) < 0.0):

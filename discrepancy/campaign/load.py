@@ -147,7 +147,7 @@ def record_of(run: Run, condition: Condition, series: Series, scales: Scales, pl
         run.id, run.quantity, quantity.unit, run.condition, run.replicate, series[VALUE],
         {name: column for name, column in series.items() if name != VALUE}, factors,
         str(run.mounting or condition.mounting), condition.held_out if run.held_out is None else run.held_out,
-        noise_of(run, quantity, place), tags_of(run, condition, quantity, place),
+        noise_of(run, quantity, place), tags_of(run, condition, quantity, scales, place),
     )  # fmt: skip
 
 
@@ -158,17 +158,25 @@ def noise_of(run: Run, quantity: Quantity, place: str) -> float | None:
     # A standard deviation is a difference: degC has its zero, a noise has not.
     noise = to_si(unit, quantity.unit, f"{place}.noise = {number:g} {unit}")[0] * number
     if not 0.0 < noise < float("inf"):
-        raise InputFault(f"{place}.noise = {number:g} {unit}: a standard deviation must be positive; leave it out if unknown")
+        raise InputFault(
+            f"{place}.noise = {number:g} {unit}: a standard deviation must be positive; leave it out if unknown"
+        )
     return noise
 
 
-def tags_of(run: Run, condition: Condition, quantity: Quantity, place: str) -> dict[str, str]:
+def tags_of(run: Run, condition: Condition, quantity: Quantity, scales: Scales, place: str) -> dict[str, str]:
     tags = {name: str(word) for name, word in run.tags.items()}
     for name, word in tags.items():
-        if name in TAGS and TAGS[name].choices and word not in TAGS[name].choices:
-            raise InputFault(f"{place}.tags.{name} = {word!r}: choose one of {', '.join(TAGS[name].choices)}")
         if name not in TAGS:
             raise InputFault(f"{place}.tags.{name} = {word!r} is not a tag; possible: {', '.join(TAGS)}")
+        tag = TAGS[name]
+        if tag.choices and word not in tag.choices:
+            raise InputFault(f"{place}.tags.{name} = {word!r}: choose one of {', '.join(tag.choices)}")
+        if tag.counted:
+            count = getattr(scales.reducer.topology, tag.counted) if scales.reducer else None
+            if not (word.isascii() and word.isdigit()) or int(word) < 1 or count is not None and int(word) > count:
+                last = f" to {count}" if count else " on"
+                raise InputFault(f"{place}.tags.{name} = {word!r}: give the {tag.description.split(',')[0]}, from 1{last}")
     for name in quantity.tags:
         if name not in tags:
             choices = ", ".join(TAGS[name].choices) or TAGS[name].description

@@ -32,11 +32,15 @@ class Key:
 
 @dataclass(frozen=True)
 class Tag:
-    """A word that says which part is meant; ``choices`` is empty where any word will do."""
+    """A word that says which part is meant; ``choices`` is empty where any word will do.
+
+    ``counted`` names the count of the reducer's topology where the word is a number from 1.
+    """
 
     name: str
     description: str
     choices: tuple[str, ...] = ()
+    counted: str = ""
 
 
 @dataclass(frozen=True)
@@ -67,14 +71,16 @@ AXES = (
     Key("input_order", "order", "1", "1", "events per turn of the input; multiplied by the ratio", 1, 0.0),
     Key("depth_angle", "depth_angle", "rad", "deg",
         "place on the surface. Flank: 0 at a root, 180 deg at the tip, counted over one lobe; pin: from its inward radial;"
-        " inner race: from the lobe's eccentric direction; outer race: from the hole's outward radial; races the way the cranks turn"),
+        " inner race: from the lobe's eccentric direction; outer race: from the hole's outward radial; races the way the"
+        " cranks turn"),
 )  # fmt: skip
 
 FACTORS = (
     Key("input_speed", "speed", "rad/s", "1815 rpm", "speed of the input, without sign", 0, 0.0),
     Key("output_speed", "speed", "rad/s", "15 rpm", "speed of the output, without sign; multiplied by the ratio", 1, 0.0),
     Key("load_torque", "load", "N.m", "167 N.m",
-        "torque at the output that opposes the motion (negative: the load drives); `\"50 %\"` is a share of the rated torque"),
+        "torque at the output that opposes the motion (negative: the load drives); `\"50 %\"` is a share of the rated"
+        " torque"),
     Key("temperature", "temperature", "K", "40 degC", "of the housing, when steady", 0, 0.0),
     Key("hours", "hours", "s", "1000 h", "operating hours of the unit when it was measured", 0, 0.0),
     Key("normal_force", "normal_force", "N", "50 N", "pin-on-disc: force on the pin", 0, 0.0),
@@ -86,9 +92,9 @@ TAGS = {
     tag.name: tag
     for tag in (
         Tag("surface", "which surface", ("flank", "pin", "inner_race", "outer_race")),
-        Tag("disc", "number of the disc, from 1"),
-        Tag("crank", "number of the crank, from 1"),
-        Tag("tooth", "number of the lobe or pin, from 1"),
+        Tag("disc", "number of the disc, from 1", counted="discs"),
+        Tag("crank", "number of the crank, from 1", counted="cranks"),
+        Tag("tooth", "number of the lobe or pin, from 1", counted="pins"),
         Tag("part", "what was weighed, for instance disc 1 or reducer"),
         Tag("location", "where the sensor sits, for instance housing_radial"),
         Tag("locked", "which side was held", ("input", "output")),

@@ -53,10 +53,14 @@ class Scales:
         found: dict[str, float] = {}
         for name, given in stated.items():
             if name not in FACTOR_KEYS:
-                raise InputFault(f"{place}.{name} = {given!r} is not a number of a condition; possible: {', '.join(FACTOR_KEYS)}")
+                raise InputFault(
+                    f"{place}.{name} = {given!r} is not a number of a condition; possible: {', '.join(FACTOR_KEYS)}"
+                )
             key = FACTOR_KEYS[name]
             if key.name in found:
-                raise InputFault(f"{place}.{name} = {given!r}: the {key.name} is given twice, at input and output; keep one")
+                raise InputFault(
+                    f"{place}.{name} = {given!r}: the {key.name} is given twice, at input and output; keep one"
+                )
             found[key.name] = self.number(key, given, f"{place}.{name}")
         return found
 

@@ -12,7 +12,7 @@ STATUS_STYLE = {"separable": "green", "not separable": "yellow", "not visible": 
 def show(check: Check) -> None:
     """Overview, findings, pairs."""
     # Wide enough for all columns, also where the output goes to a file.
-    console = Console(width=max(Console().width, 120))
+    console = Console(width=max(Console().width, 132))
     table = Table(title=f"{check.campaign.name}: what is measured (levels without held-out runs)", title_justify="left")
     for name in check.summary[0]:
         first = name == "quantity"

@@ -155,7 +155,7 @@ class Diagnostician:
                     alternatives[c.name] = stand_ins
         judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
         judged = judge.judge(final)
-        if judged is not None and judged.p_after < 0.001 and judged.after > 1.5:
+        if judged is not None and judged.p_after < 0.0005 and judged.after > 1.5:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after}
         verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings)

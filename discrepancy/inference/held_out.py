@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import f as fisher
 
+from discrepancy.inference.components import effective_dof
 from discrepancy.inference.features import ORDERS, features
 from discrepancy.inference.fit import Workspace
 from discrepancy.inference.localise import Localisation
@@ -106,9 +107,20 @@ class HeldOutJudge:
             return None
         before, width = self.error(self.space.base.values)
         after, _ = self.error(rival.fit.values)
-        dof = min(self.space.noise.dof((self.space.noise.whiteners[i].quantity, "main")) for i in self.indices)
+        dof = effective_dof(self.space, self._shares())
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fisher.sf(after / width, width, dof)),
                        self.rms(rival.fit.values), "held-out runs")
+
+    def _shares(self) -> dict[tuple[str, str], float]:
+        """Share of each part of the noise in the common directions."""
+        shares: dict[tuple[str, str], float] = defaultdict(float)
+        for i, rows in self.rows.items():
+            whitener, block = self.space.noise.whiteners[i], self.directions[rows]
+            amounts = np.sum((whitener.directions.T @ block) ** 2, axis=1)
+            shares[(whitener.quantity, "main")] += max(float(np.sum(block**2) - amounts.sum()), 0.0)
+            for component, amount in zip(whitener.components, amounts):
+                shares[component] += float(amount)
+        return shares
 
     def rms(self, values) -> dict[str, dict[str, float]]:
         """Root mean square by signal in its own unit, before and after, with the noise floor."""

@@ -113,49 +113,43 @@ class Localiser:
         return Localisation(groups, self._conditions(scores), level)
 
     def _group(self, stream, feature, dependence, indices, basis, inverse, gradient, crosses, scores, along_jacobian):
-        widths = {self.cells[i][1][feature].stop - self.cells[i][1][feature].start for i in indices}
-        if len(widths) != 1:
-            common = min(widths)
-        else:
-            common = widths.pop()
-        m = basis.shape[1]
+        slices = [self.cells[i][1][feature] for i in indices]
+        common = min(s.stop - s.start for s in slices)
+        own = [slice(s.start, s.start + common) for s in slices]
+        m, p = basis.shape[1], gradient.size
         width = m * common
-        p = gradient.size
-        gram, cross, score = np.zeros((width, width)), np.zeros((width, p)), np.zeros(width)
-        for row, i in zip(basis, indices):
-            own = slice(self.cells[i][1][feature].start, self.cells[i][1][feature].start + common)
-            gram += np.kron(np.outer(row, row), self.cells[i][3][own, own])
-            cross += np.kron(row[:, None], crosses[i][own])
-            score += np.kron(row, scores[i][own])
+        cells = np.array([self.cells[i][3][o, o] for i, o in zip(indices, own)])
+        gram = np.einsum("ri,rj,rab->iajb", basis, basis, cells, optimize=True).reshape(width, width)
+        cross = np.einsum("ri,rap->iap", basis, np.array([crosses[i][o] for i, o in zip(indices, own)])).reshape(width, p)
+        score = np.einsum("ri,ra->ia", basis, np.array([scores[i][o] for i, o in zip(indices, own)])).reshape(width)
         original = np.diag(gram).copy()
         gram = gram - cross @ inverse @ cross.T
         score = score - cross @ (inverse @ gradient)
         alive = np.diag(gram) > 1e-6 * np.maximum(original, 1e-300)
         if not alive.any():
             return None
-        gram, score, cross_alive = gram[np.ix_(alive, alive)], score[alive], (cross @ inverse)[alive]
+        gram, score, back = gram[np.ix_(alive, alive)], score[alive], (cross @ inverse)[alive]
         size = np.sqrt(np.diag(gram))
         values, vectors = np.linalg.eigh(gram / np.outer(size, size))
         keep = values > 1e-6 * values.max()
-        root = (vectors[:, keep] / np.sqrt(values[keep])).T / size
-        statistic = float(np.sum((root @ score) ** 2))
-        shares = defaultdict(float)
-        rank = int(keep.sum())
-        for row, i in zip(basis, indices):
+        root = np.zeros((int(keep.sum()), width))
+        root[:, alive] = (vectors[:, keep] / np.sqrt(values[keep])).T / size
+        statistic = float(np.sum((root[:, alive] @ score) ** 2))
+        rank = root.shape[0]
+        # functions of this group, record by record, in the coordinates of the test
+        maps = np.einsum("kia,ri->rka", root.reshape(rank, m, common), basis)
+        totals = np.einsum("rka,rab,rkb->r", maps, cells, maps, optimize=True)
+        back_root = root[:, alive] @ back
+        shares: dict[tuple[str, str], float] = defaultdict(float)
+        for k, (i, o) in enumerate(zip(indices, own)):
             whitener = self.space.noise.whiteners[i]
-            own = slice(self.cells[i][1][feature].start, self.cells[i][1][feature].start + common)
-            if not whitener.directions.shape[1]:
-                # share of the record in the group
-                part = np.kron(np.outer(row, row), self.cells[i][3][own, own])[np.ix_(alive, alive)]
-                shares[(whitener.quantity, "main")] += float(np.trace(root @ part @ root.T))
-                continue
-            part = np.kron(np.outer(row, row), self.cells[i][3][own, own])[np.ix_(alive, alive)]
-            total = float(np.trace(root @ part @ root.T))
-            directions = np.array([np.kron(row, a[own])[alive] for a in self.cells[i][2]]) - along_jacobian[i] @ cross_alive.T
-            amounts = np.sum((directions @ root.T) ** 2, axis=1)
-            for component, amount in zip(whitener.components, amounts):
-                shares[component] += float(amount)
-            shares[(whitener.quantity, "main")] += max(total - float(amounts.sum()), 0.0)
+            main = totals[k]
+            if whitener.directions.shape[1]:
+                amounts = np.sum((self.cells[i][2][:, o] @ maps[k].T - along_jacobian[i] @ back_root.T) ** 2, axis=1)
+                main = max(main - float(amounts.sum()), 0.0)
+                for component, amount in zip(whitener.components, amounts):
+                    shares[component] += float(amount)
+            shares[(whitener.quantity, "main")] += main
         dof = effective_dof(self.space, shares)
         return Group(stream, feature, dependence, statistic, rank, dof, float(fisher.sf(statistic / rank, rank, dof)), 1.0, 0.0, tuple(indices))
 

@@ -16,8 +16,8 @@ class Settings:
 
     screen_level: float = 0.006
     localise_level: float = 0.003
-    leftover_level: float = 0.01
-    second_level: float = 0.004
+    leftover_level: float = 0.003
+    second_level: float = 0.002
     captured: float = 0.70
     second_gain: float = 0.10
     margin: float = 6.0

@@ -97,11 +97,14 @@ def aligned(signals: dict[str, tuple[np.ndarray, np.ndarray | None]], align: str
         if apart:
             raise ReadFault(
                 f"columns {', '.join(signals)} were not sampled at the same times ({apart[0]} differs from"
-                f" {next(iter(times))}); state align = \"{next(iter(times))}\" to interpolate the others linearly onto its times"
+                f" {next(iter(times))}); state align = \"{next(iter(times))}\" to interpolate the others linearly onto"
+                " its times"
             )
         return {name: values for name, (values, _) in signals.items()}
     if align not in times:
-        raise ReadFault(f"align = {align!r}: not a column of this run with its own times; choose from {', '.join(times)}")
+        raise ReadFault(
+            f"align = {align!r}: not a column of this run with its own times; choose from {', '.join(times)}"
+        )
     base = times[align]
     lowest, highest = max(t[0] for t in times.values()), min(t[-1] for t in times.values())
     base = base[(base >= lowest) & (base <= highest)]

@@ -21,19 +21,20 @@ COMMENT = "#"
 
 
 def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]:
-    encoding = encoding_of(path)
+    encoding, comments = scan(path)
     lines = first_lines(path, encoding, options.skip_lines)
     if not lines:
         raise ReadFault("the file is empty; it needs a line of column names")
     delimiter = options.delimiter or sniff_delimiter(lines)
     decimal = options.decimal or sniff_decimal(lines, delimiter)
+    skipped = sorted({*range(options.skip_lines), *comments})
     with warnings.catch_warnings():
         # pandas would cut off fields beyond the header's with a mere warning: half of every "1,5" for instance.
         warnings.simplefilter("error", pd.errors.ParserWarning)
         try:
             frame = pd.read_csv(
-                path, sep=r"\s+" if delimiter == " " else delimiter, decimal=decimal, comment=COMMENT,
-                header=0 if options.header else None, skiprows=options.skip_lines, encoding=encoding,
+                path, sep=r"\s+" if delimiter == " " else delimiter, decimal=decimal,
+                header=0 if options.header else None, skiprows=skipped, encoding=encoding,
                 skipinitialspace=True, compression="gzip" if path.suffix.lower() == ".gz" else None, low_memory=False,
                 index_col=False,
             )  # fmt: skip
@@ -63,28 +64,32 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
     return columns
 
 
-def encoding_of(path: Path) -> str:
-    """UTF-8 where the file is; else what Windows programs write (micro and degree signs, "Unicode text")."""
+def scan(path: Path) -> tuple[str, list[int]]:
+    """Encoding, and the numbers of the comment lines.
+
+    UTF-8 where the file is; else what Windows programs write (micro and degree signs, "Unicode
+    text").  pandas' own comments would also cut a column name like "sensor #1".
+    """
     with (gzip.open if path.suffix.lower() == ".gz" else open)(path, "rb") as file:
-        if file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
-            return "utf-16"
-    with opened(path, "utf-8-sig") as file:
+        wide = file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+    encodings = ("utf-16",) if wide else ("utf-8-sig", "cp1252")
+    for encoding in encodings:
         try:
-            for _ in iter(lambda: file.read(1 << 20), ""):
-                pass
+            with opened(path, encoding) as file:
+                return encoding, [number for number, line in enumerate(file) if line.startswith(COMMENT)]
         except UnicodeDecodeError:
-            return "cp1252"
-    return "utf-8-sig"
+            continue
+    raise ReadFault("not a text in UTF-8, UTF-16 or Windows-1252; export it as UTF-8, or state its format")
 
 
 def opened(path: Path, encoding: str):
     opener = gzip.open if path.suffix.lower() == ".gz" else open
-    return opener(path, "rt", encoding=encoding, newline="")
+    return opener(path, "rt", encoding=encoding)
 
 
 def first_lines(path: Path, encoding: str, skip: int) -> list[str]:
     with opened(path, encoding) as file:
-        lines = (line.rstrip("\r\n") for line in islice(file, skip, None))
+        lines = (line.rstrip("\n") for line in islice(file, skip, None))
         return list(islice((line for line in lines if line.strip() and not line.startswith(COMMENT)), SNIFFED_LINES))
 
 

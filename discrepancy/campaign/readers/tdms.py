@@ -23,8 +23,9 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
             for channel in group.channels()
         }
         if not channels:
-            wanted = f"group = {options.group!r}: no channels there" if options.group else "not readable as tdms: no channels"
-            raise ReadFault(f"{wanted}; the groups are {', '.join(g.name for g in file.groups()) or 'none'}")
+            groups = ", ".join(group.name for group in file.groups()) or "none"
+            wanted = f"group = {options.group!r}" if options.group else "not readable as tdms"
+            raise ReadFault(f"{wanted}: no channels there; the groups are {groups}")
         signals = {}
         for name in sorted(names):
             group, slash, own = name.rpartition("/")

@@ -1,0 +1,146 @@
+"""Model files: a reducer, what is set on it, the effects that were added, and how they came in.
+
+    [model]
+    name = "gearbox 7"
+    reducer = "RV20E-121"
+
+    [settings]
+    bearing_clearance = "3 um"
+
+    [effects.needle_clearance]
+    needle_clearance_added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
+
+    [[steps]]                       # the ladder, one entry per attempt
+"""
+
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import tomlkit
+
+from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
+from fmu_src.effect import Effect
+from orchestrator.faults import InputFault
+from orchestrator.reducer import Reducer, load_reducer
+from orchestrator.settings import parse_setting
+from rv_plant.effects import EFFECTS as PLANT_EFFECTS
+from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
+
+
+@dataclass(frozen=True)
+class ModelFile:
+    """A model: ``settings`` and ``effects`` map variables to SI values; ``steps`` is the ladder so far."""
+
+    name: str
+    reducer: Reducer
+    settings: dict[str, float] = field(default_factory=dict)
+    effects: dict[str, dict[str, dict]] = field(default_factory=dict)
+    steps: tuple[dict, ...] = ()
+    path: Path | None = None
+
+    def values(self) -> dict[str, float]:
+        """Everything that differs from the reducer file: settings and effects' parameters."""
+        found = dict(self.settings)
+        for parameters in self.effects.values():
+            found |= {name: float(entry["value"]) for name, entry in parameters.items()}
+        return found
+
+
+def every_effect() -> dict[str, Effect]:
+    """All effects by name; the two halves of one effect have the union of their parameters."""
+    found = dict(PLANT_EFFECTS)
+    for name, effect in WEAR_EFFECTS.items():
+        if name in found:
+            have = {p.variable.name for p in found[name].parameters}
+            more = tuple(p for p in effect.parameters if p.variable.name not in have)
+            signals = tuple(dict.fromkeys(found[name].signals + effect.signals))
+            found[name] = replace(found[name], parameters=found[name].parameters + more, signals=signals)
+        else:
+            found[name] = effect
+    return found | CHAIN_EFFECTS
+
+
+def load_model(name_or_path: str | Path) -> ModelFile:
+    """A model file, a reducer file, or the name of a reducer of the library."""
+    path = Path(name_or_path)
+    if path.suffix == ".toml" and path.is_file():
+        try:
+            content = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+            raise InputFault(f"{path}: not a TOML file: {problem}") from None
+        if "model" in content:
+            return model_of(content, path)
+    elif path.suffix == ".toml":
+        raise InputFault(f"{path}: no such file; give a model file, a reducer file or the name of a reducer")
+    reducer = load_reducer(name_or_path)
+    return ModelFile(reducer.name, reducer)
+
+
+def model_of(content: dict, path: Path) -> ModelFile:
+    head = content["model"]
+    for key in ("name", "reducer"):
+        if not isinstance(head.get(key), str):
+            raise InputFault(f"{path}: model.{key} = {head.get(key)!r}: a text is needed")
+    near = path.parent / head["reducer"]
+    reducer = load_reducer(near if near.is_file() else head["reducer"])
+    tables = [reducer.plant, reducer.wear]
+    settings = {}
+    for name, text in content.get("settings", {}).items():
+        try:
+            settings[name] = parse_setting(f"{name}={text}", tables).value
+        except InputFault as problem:
+            raise InputFault(f"{path}: settings.{name}: {problem}") from None
+    known = every_effect()
+    effects = content.get("effects", {})
+    for name, parameters in effects.items():
+        if name not in known:
+            raise InputFault(f"{path}: effects.{name}: there is no such effect; `rvwear effects` lists those there are")
+        have = {p.variable.name for p in known[name].parameters}
+        for parameter, entry in parameters.items():
+            if parameter.partition("[")[0] not in have:
+                raise InputFault(f"{path}: effects.{name}.{parameter}: the effect has {', '.join(sorted(have))}")
+            if not isinstance(entry, dict) or "value" not in entry:
+                raise InputFault(f"{path}: effects.{name}.{parameter} = {entry!r}: write {{ value = ..., unit = \"...\" }}")
+    return ModelFile(head["name"], reducer, settings, effects, tuple(content.get("steps", ())), path)
+
+
+def save_model(model: ModelFile, path: Path) -> None:
+    """Write the model; the file is replaced at once, never left half written."""
+    document = tomlkit.document()
+    document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
+    if model.settings:
+        document["settings"] = dict(model.settings)
+    if model.effects:
+        document["effects"] = {name: {k: inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()}
+    if model.steps:
+        steps = tomlkit.aot()
+        for step in model.steps:
+            steps.append(tomlkit.item({k: v for k, v in step.items() if v is not None}))
+        document["steps"] = steps
+    partial = path.with_suffix(".part")
+    partial.write_text(tomlkit.dumps(document), encoding="utf-8")
+    partial.replace(path)
+
+
+def inline(entry: dict):
+    table = tomlkit.inline_table()
+    table.update(entry)
+    return table
+
+
+def reducer_reference(model: ModelFile, path: Path) -> str:
+    """Name of a library reducer, or the path of its file as seen from the model file."""
+    if model.reducer.path.parent.name == "reducers" and load_or_none(model.reducer.name):
+        return model.reducer.name
+    try:
+        return str(model.reducer.path.resolve().relative_to(path.resolve().parent))
+    except ValueError:
+        return str(model.reducer.path.resolve())
+
+
+def load_or_none(name: str) -> Reducer | None:
+    try:
+        return load_reducer(name)
+    except InputFault:
+        return None

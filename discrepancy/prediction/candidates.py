@@ -1,0 +1,97 @@
+"""From the catalogue of effects to what the statistics may look for in a campaign."""
+
+from collections.abc import Iterable
+from itertools import product
+
+from discrepancy.effects import MODULES
+from discrepancy.problem import Candidate, Parameter, Record
+from fmu_src.effect import Effect, EffectParameter
+from rv_plant.effects import EFFECTS as PLANT
+from wear_fmu.effects import EFFECTS as WEAR
+from discrepancy.model_file import every_effect
+
+# Quantities that show what an effect's ``signals`` name in short.
+SHOWN_BY = {
+    "vibration": ("vibration", "vibration_order"), "debris": ("debris_iron",),
+    "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"),
+}  # fmt: skip
+# Searched by hand only: which pin stands out is a search of its own.
+NOT_SEARCHED = {"proud pin"}
+
+
+def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
+    v = p.variable
+    return Parameter(name or v.name, v.unit, value, v.minimum, v.maximum, p.scale, p.sign, None, v.description)
+
+
+def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[EffectParameter]]]:
+    """Amplitudes and shapes of each group of an effect."""
+    found: dict[str, tuple[list, list]] = {}
+    for p in effect.amplitudes():
+        found.setdefault(p.group, ([], []))[0].append(p)
+    for p in effect.parameters:
+        if p.kind == "shape":
+            for name, (_, shapes) in found.items():
+                if p.group in ("", name):
+                    shapes.append(p)
+    return found
+
+
+def shape_grid(shapes: Iterable[EffectParameter]) -> tuple[dict[str, float], ...]:
+    searched = [p for p in shapes if p.grid]
+    return tuple(dict(zip((p.variable.name for p in searched), values)) for values in product(*(p.grid for p in searched)))
+
+
+def candidates(records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str]) -> tuple[Candidate, ...]:
+    """Every effect that the records can show and that is not among the nuisances.
+
+    ``present`` are values that the model already has; an effect that is in it is not a
+    candidate again.
+    """
+    quantities = list(dict.fromkeys(r.quantity for r in records))
+    found = []
+    for name, effect in every_effect().items():
+        part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
+        signals = tuple(q for s in effect.signals for q in SHOWN_BY.get(s, (s,)))
+        if signals and not set(signals) & set(quantities):
+            continue
+        if part == "chain":
+            found += chain_candidates(name, effect, signals, quantities, mountings, present)
+            continue
+        for group, (amplitudes, shapes) in groups(effect).items():
+            names = {p.variable.name for p in amplitudes}
+            if group in NOT_SEARCHED or names & excluded or names & present.keys():
+                continue
+            estimated = [p for p in shapes if p.grid and p.variable.name not in excluded]
+            title = f"{effect.title}: {group}" if group else effect.title
+            found.append(Candidate(
+                f"{name}.{group.replace(' ', '_')}" if group else name, title,
+                tuple(parameter_of(p, float(p.variable.start)) for p in amplitudes),
+                tuple(parameter_of(p, float(p.variable.start)) for p in estimated),
+                shape_grid(estimated), signals, part,
+            ))  # fmt: skip
+    return tuple(found)
+
+
+def chain_candidates(name, effect, signals, quantities, mountings, present) -> list[Candidate]:
+    per = MODULES[name].PER
+    places = {"quantity": quantities, "mounting": mountings, "campaign": [""]}[per]
+    if per == "quantity" and name == "sensor_offset":
+        # Where an encoder's difference is counted from is free anyway.
+        places = [q for q in places if q not in ("transmission_error", "hysteresis")]
+
+    def called(p: EffectParameter, place: str) -> str:
+        return f"{p.variable.name}[{place}]" if place else p.variable.name
+
+    if per == "mounting":
+        amplitudes = tuple(parameter_of(p, 0.0, called(p, m)) for m in places for p in effect.amplitudes())
+        taken = any(a.name in present for a in amplitudes)
+        return [] if taken else [Candidate(name, effect.title, amplitudes, (), (), signals, "chain")]
+    return [
+        Candidate(
+            f"{name}.{place}" if place else name, f"{effect.title}: {place}" if place else effect.title,
+            tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), (), (),
+            (place,) if place else signals, "chain",
+        )
+        for place in places if not any(called(p, place) in present for p in effect.amplitudes())
+    ]  # fmt: skip

@@ -1,0 +1,130 @@
+"""The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign, Nuisance
+from discrepancy.effects import MODULES
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.observe import OBSERVED, angle_zero
+from discrepancy.problem import Candidate, Parameter, Record
+
+# Free zeros: the mean of the prediction is that of the measurement.
+ZEROED = ("transmission_error", "hysteresis")
+# The pattern that fixes where an angle is counted from has this order of the output.
+PHASE_ORDER = 80
+PHASES = 48
+
+
+class PhysicalModel:
+    """Predicts a campaign's records with the compiled kernels.
+
+    ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
+    """
+
+    def __init__(self, model: ModelFile, campaign: Campaign, align: bool = True):
+        self.file, self.campaign = model, campaign
+        self.records: list[Record] = [r for r in campaign.records if r.quantity in OBSERVED]
+        self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
+        present = model.values()
+        self.bench = Bench(model.reducer, {n: v for n, v in present.items() if "[" not in n})
+        self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
+        self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
+        self.per = {n.parameter.name: n.per for n in campaign.nuisances}
+        self.zeros: dict[str, float] = {}
+        declared = tuple(p for n in campaign.nuisances for p in expanded(n, self.records))
+        self.declared = declared
+        if align:
+            self.align()
+        self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
+        if any(r.quantity.startswith("vibration") for r in self.records) and "housing_mass" not in self.per:
+            self.nuisances += (Parameter("housing_mass", "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
+        excluded = {n.parameter.name for n in campaign.nuisances}
+        mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
+        self.candidates: tuple[Candidate, ...] = candidates(self.records, present, excluded, mountings)
+
+    def angle_nuisances(self) -> list[Parameter]:
+        width = 2.0 * np.pi / PHASE_ORDER
+        return [
+            Parameter(name, "rad", zero, zero - 0.25 * width, zero + 0.25 * width, 1e-3, 0, None,
+                      "output angle of the model at the record's angle 0")
+            for name, zero in self.zeros.items()
+        ]  # fmt: skip
+
+    def align(self) -> None:
+        """Where each mounting counts its angles from, by the pattern of the transmission error.
+
+        A zero that the campaign shares with the model stays 0 and is not estimated.
+        """
+        by_mounting: dict[str, list[int]] = {}
+        for i, record in enumerate(self.records):
+            if record.quantity == "transmission_error" and "angle" in record.axes and len(record.values) > 40:
+                by_mounting.setdefault(angle_zero(record), []).append(i)
+        for name, indices in by_mounting.items():
+            width = 2.0 * np.pi / PHASE_ORDER
+            shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * width
+            # One record tells; the pattern hardly depends on the condition.
+            record = self.records[indices[0]]
+            misfits = []
+            for shift in shifts:
+                predicted = self.predict({name: float(shift)}, [indices[0]])[0]
+                misfits.append(float(np.sum((record.values - predicted) ** 2)))
+            best = int(np.argmin(misfits))
+            at_zero = misfits[PHASES // 2]
+            if at_zero <= 1.02 * misfits[best]:
+                continue
+            self.zeros[name] = float(shifts[best])
+
+    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
+        """See ``problem.Model``."""
+        values = {**self.zeros, **{p.name: p.off for p in self.declared}, **values}
+        return [self.one(self.records[i], values) for i in (range(len(self.records)) if which is None else which)]
+
+    def one(self, record: Record, values: Mapping[str, float]) -> np.ndarray:
+        own = self.for_record(record, values)
+        predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
+        for name, module in MODULES.items():
+            places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
+            place = places[module.PER]
+
+            def at(parameter: str, place=place) -> float:
+                key = f"{parameter}[{place}]" if place else parameter
+                return values.get(key, self.chain_values.get(key, 0.0))
+
+            if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
+                predicted = module.change(predicted, record, at, self.sizes[record.quantity])
+        if record.quantity in ZEROED:
+            predicted = predicted - predicted.mean() + record.values.mean()
+        return predicted
+
+    def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
+        """Values with those of this record's mounting, condition or run under the plain name."""
+        own = dict(values)
+        for name, per in self.per.items():
+            place = {"mounting": record.mounting, "condition": record.condition, "run": record.name}.get(per)
+            if place is not None and f"{name}[{place}]" in values:
+                own[name] = values[f"{name}[{place}]"]
+        return own
+
+
+def typical_size(records: list[Record]) -> float:
+    """Size of a quantity: its mean, or its spread where the mean says nothing."""
+    values = np.concatenate([r.values for r in records])
+    return max(float(abs(np.mean(values))), float(np.std(values)), 1e-30)
+
+
+def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:
+    """One parameter, or one per mounting, condition or run."""
+    places = {
+        "campaign": [], "mounting": [r.mounting for r in records], "condition": [r.condition for r in records],
+        "run": [r.name for r in records],
+    }[nuisance.per]  # fmt: skip
+    p = nuisance.parameter
+    return [replace(p, name=f"{p.name}[{place}]") for place in dict.fromkeys(places)] or [p]
+
+
+CHAIN_PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
