@@ -61,19 +61,32 @@ def run_pair(plants, wears, steps, duration):
 
 
 @kernel
-def sweep(plants, wears, durations, series):
+def sweep(plants, wears, durations, series, worn, places, similar, guessed):
     """Steps of the given ``durations`` [s]; row i of ``series`` gets what a bench sees after step i.
 
-    Columns: see COLUMNS.
+    Columns: see COLUMNS.  Surfaces that are not ``worn`` need no wear unit.  ``places`` (steps, coordinates)
+    keeps every equilibrium; if ``guessed``, ``similar`` holds those of a similar run, to start from.
     """
     p = plants[0]
     for i in range(durations.shape[0]):
-        plant_status, wear_status = step_pair(plants, wears, 0.0, durations[i])
+        if guessed:
+            # Where the similar run is, and as far beside it as one step earlier.
+            for k in range(places.shape[1]):
+                beside = p.z[k] - similar[i - 1, k] if i > 0 else 0.0
+                p.z[k] = similar[i, k] + beside
+            p.advance_before = 0.0
+        plant_status, wear_status = 0, 0
+        if worn:
+            plant_status, wear_status = step_pair(plants, wears, 0.0, durations[i])
+        else:
+            plant_status = step_plant(plants, 0.0, durations[i])
         if plant_status != 0 or wear_status != 0:
             return plant_status, wear_status
         series[i, 0], series[i, 1], series[i, 2] = p.output_angle, p.transmission_error, p.drive_torque
         series[i, 3], series[i, 4], series[i, 5] = p.housing_force_x, p.housing_force_y, p.power_loss
         series[i, 6], series[i, 7] = p.reducer_temperature, p.cage_speed
+        for k in range(places.shape[1]):
+            places[i, k] = p.z[k]
     return 0, 0
 
 

@@ -37,7 +37,7 @@ CANDIDATES = (
     Candidate("churning", "Churning", (amplitude("churn", "N.m", 0.05, 1),), signals=("torque",)),
     Candidate("seal_drag", "Seal", (amplitude("seal", "N.m", 0.02, 1),), signals=("torque",)),
     Candidate("torque_offset", "Offset", (amplitude("t_offset", "N.m", 0.02),), signals=("torque",), part="chain"),
-    Candidate("torque_gain", "Gain", (amplitude("t_gain", "1", 0.02),), signals=("torque",), part="chain"),
+    Candidate("torque_gain", "Gain", (Parameter("t_gain", "1", 0.0, -0.6, 0.6, 0.02),), signals=("torque",), part="chain"),
     Candidate("running_in", "Run-in", (amplitude("r", "1", 1.0, 1),), (shape("s0", "h", 150.0, 20.0, 800.0),),
               grid("s0", 40.0, 100.0, 250.0, 600.0), ("wear",)),
     Candidate("debris", "Debris", (amplitude("debris", "1", 0.3, 1),), signals=("wear",)),
@@ -46,7 +46,7 @@ CANDIDATES = (
 )
 NUISANCES = (
     Parameter("stiffness", "1", 1.0, 0.3, 3.0, 0.1),
-    Parameter("friction", "1", 0.02, 0.0, 0.2, 0.002, prior=0.001),
+    Parameter("friction", "1", 0.02, 0.0, 0.2, 0.002, prior=0.0004),
     Parameter("wear_rate", "1", 1.0, 0.1, 10.0, 0.1),
     *(Parameter(f"phase_{k}", "rad", 0.0, -1.0, 1.0, 0.05) for k in ("1", "2")),
 )
@@ -201,7 +201,7 @@ def campaign(seed, kind, strength=0.0, which=None, samples=360):
     rng = np.random.default_rng(seed)
     noise = random_noise(rng)
     records = design(rng, noise, samples)
-    truth = {"stiffness": rng.uniform(0.8, 1.2), "friction": rng.normal(0.02, 0.001), "wear_rate": rng.uniform(0.7, 1.4),
+    truth = {"stiffness": rng.uniform(0.8, 1.2), "friction": rng.normal(0.02, 0.0004), "wear_rate": rng.uniform(0.7, 1.4),
              "phase_1": rng.uniform(-0.005, 0.005), "phase_2": rng.uniform(-0.005, 0.005)}
     if kind == "null":
         return Toy(measure(records, truth, noise, rng)), Hidden(kind)

@@ -42,7 +42,7 @@ def _forms(x):
         "bump": ("y = a + b exp(-((x - c)/d)^2)", ("a", "b", "c", "d"), lambda x, a, b, c, d: a + b * np.exp(-(((x - c) / (np.abs(d) + 1e-3 * span)) ** 2)),
                  [[0.0, 1.0, low + k * span, 0.12 * span] for k in (0.2, 0.5, 0.8)]),
         "periodic": ("y = a + b cos(k x) + c sin(k x)", ("a", "b", "c", "k"), lambda x, a, b, c, k: a + b * np.cos(k * (x - middle)) + c * np.sin(k * (x - middle)),
-                     [[0.0, 0.5, 0.5, 2 * np.pi * n / span] for n in (1, 2, 3, 4, 6, 8, 12)]),
+                     []),
     }
     if low > 0:
         made["power"] = ("y = a + b x^c", ("a", "b", "c"), lambda x, a, b, c: a + b * (x / high) ** np.clip(c, -8, 8),
@@ -70,6 +70,8 @@ def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequenc
     for name, (text, names, function, starts) in _forms(x).items():
         if len(names) >= levels and name != "constant":
             continue
+        if name == "periodic":
+            starts = _frequencies(x, y / scale, deviation / scale, levels)
         best = min((_fit(function, s, x, y / scale, deviation / scale) for s in starts), key=lambda r: r.cost)
         if not np.isfinite(best.cost):
             continue
@@ -92,7 +94,7 @@ def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequenc
     if not results:
         return []
     independent = min(len(parts) * 4, y.size)
-    criterion = np.array([0.5 * independent * r[0] / max(min(q[0] for q in results), 1.0) + 0.5 * r[1] for r in results])
+    criterion = np.array([0.5 * independent * r[0] / max(min(q[0] for q in results), 1.0) + 0.5 * np.log(y.size) * r[1] for r in results])
     confidence = np.exp(-(criterion - criterion.min()))
     confidence /= confidence.sum()
     forms = [Form(name, text, parameters, intervals, float(np.sqrt(loss)), float(c))
@@ -100,12 +102,24 @@ def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequenc
     return sorted(forms, key=lambda f: -f.confidence)
 
 
+def _frequencies(x, y, deviation, levels):
+    """Starting points of the periodic form: the three best frequencies of a scan."""
+    span, middle = np.ptp(x) or 1.0, 0.5 * (np.min(x) + np.max(x))
+    trials = []
+    for turns in np.arange(0.75, max(min(levels / 3, 60.0), 1.0), 0.25):
+        k = 2 * np.pi * turns / span
+        design = np.column_stack([np.ones_like(x), np.cos(k * (x - middle)), np.sin(k * (x - middle))]) / deviation[:, None]
+        solution = np.linalg.lstsq(design, y / deviation, rcond=None)[0]
+        trials.append((float(np.sum((y / deviation - design @ solution) ** 2)), [*solution, k]))
+    return [start for _, start in sorted(trials, key=lambda t: t[0])[:3]] or [[0.0, 0.5, 0.5, 2 * np.pi / span]]
+
+
 def _fit(function, start, x, y, deviation):
     def residual(p):
         return np.nan_to_num((y - function(x, *p)) / deviation, nan=1e6, posinf=1e6, neginf=-1e6)
     # constants that enter linearly start at their best values
     start = np.array(start, dtype=float)
-    if start.size >= 2:
+    if 2 <= start.size and start[0] == 0.0:
         zero = function(x, *np.concatenate([[0.0], start[1:]]))
         a = np.column_stack([np.ones_like(x), zero]) / deviation[:, None]
         solution = np.linalg.lstsq(a, y / deviation, rcond=None)[0]

@@ -51,16 +51,19 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
             halves[1][space.rows[i]] = (x**2 - 1 / 3) * result.response[space.rows[i]]
     blocks["axis"] = halves
     outcome = {}
+    settled = result.fit.settled
     for name, columns in blocks.items():
         stacked = np.column_stack(columns)
         projected = project_out(stacked, result.fit.jacobian, result.fit.normal)
         alive = np.sum(projected**2, axis=0) > 1e-4 * np.sum(stacked**2, axis=0) + 1e-12
         if not alive.any():
             continue
-        q, s, _ = np.linalg.svd(projected[:, alive] / np.linalg.norm(projected[:, alive], axis=0), full_matrices=False)
-        q = q[:, s > 1e-3 * s[0]]
-        statistic = float(np.sum((q.T @ result.fit.residual) ** 2))
-        width = q.shape[1]
-        shares = {c: float(np.trace(g)) for c, g in component_grams(space, q).items()}
+        size = np.linalg.norm(stacked[:, alive], axis=0)
+        values, vectors = np.linalg.eigh((stacked[:, alive] / size).T @ (projected[:, alive] / size))
+        keep = values > 1e-6 * values.max()
+        root = vectors[:, keep] / np.sqrt(values[keep]) / size[:, None]
+        statistic = float(np.sum((root.T @ (stacked[:, alive].T @ settled)) ** 2))
+        width = root.shape[1]
+        shares = {c: float(np.trace(g)) for c, g in component_grams(space, projected[:, alive] @ root).items()}
         outcome[name] = (statistic, width, float(fisher.sf(statistic / width, width, effective_dof(space, shares))))
     return {k: (s, w, min(1.0, p * len(outcome))) for k, (s, w, p) in outcome.items()}

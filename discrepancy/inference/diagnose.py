@@ -132,7 +132,9 @@ class Diagnostician:
         self.screened()
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
         p_local = min((g.p for g in local.groups), default=1.0)
-        by_candidate, by_place = p_screen < settings.screen_level, bool(local.findings)
+        by_place = bool(local.findings)
+        # where the misfit is beyond doubt, naming needs less
+        by_candidate = p_screen < (settings.naming_level if by_place else settings.screen_level)
         if not by_candidate:
             verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
             rivals = self.singles() if by_place else []

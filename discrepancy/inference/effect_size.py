@@ -11,7 +11,7 @@ from discrepancy.inference.fit import Workspace
 def effect_size(space: Workspace, difference: Mapping[int, np.ndarray]) -> float:
     """d' of a change of the records' values (by training record), on a workspace whose base is fitted."""
     column = space.whiten({i: np.asarray(d, dtype=float) for i, d in difference.items() if i in space.rows})
-    return float(np.linalg.norm(project_out(column[:, None], space.base.jacobian, space.base.normal)))
+    return float(np.sqrt(max(column @ project_out(column[:, None], space.base.jacobian, space.base.normal)[:, 0], 0.0)))
 
 
 def amplitude_for(space: Workspace, response, target: float, start: float, rounds: int = 12) -> float:
@@ -31,4 +31,4 @@ def amplitude_for(space: Workspace, response, target: float, start: float, round
 
 def detection_sizes(space: Workspace, columns: np.ndarray) -> Sequence[float]:
     """d' of each whitened column: what one unit of each parameter would be worth."""
-    return np.linalg.norm(project_out(columns, space.base.jacobian, space.base.normal), axis=0)
+    return np.sqrt(np.maximum(np.sum(columns * project_out(columns, space.base.jacobian, space.base.normal), axis=0), 0.0))

@@ -25,6 +25,7 @@ ORDERS: dict[str, tuple[float, ...]] = {
 """Orders per revolution of the output of the RV20E-121."""
 COMB = 60
 COSINES = 5
+FINE = 16
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
         x = (axis - axis.min()) / np.ptp(axis)
         waves_along = np.column_stack([np.cos(np.pi * j * x) for j in range(1, COSINES + 1)])
         result.append(Feature(f"along {name}", waves_along))
+        if count >= 64:
+            result.append(Feature(f"finely along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(COSINES + 1, FINE + 1)])))
         steps = np.gradient(axis)
         if np.any(steps > 0) and np.any(steps < 0):
             branch = np.sign(steps)[:, None]

@@ -65,6 +65,19 @@ class Fit:
     def names(self) -> list[str]:
         return [p.name for p in self.parameters]
 
+    @property
+    def gradient(self) -> np.ndarray:
+        """What is left of the normal equations' right side, priors included: zero at the optimum."""
+        pull = [0.0 if p.prior is None else (self.values[p.name] - p.off) / p.prior**2 for p in self.parameters]
+        return self.jacobian.T @ self.residual - np.array(pull)
+
+    @property
+    def settled(self) -> np.ndarray:
+        """Residual after one more linear step: exactly orthogonal to the parameters, up to their priors."""
+        if not self.parameters:
+            return self.residual
+        return self.residual - self.jacobian @ (np.linalg.pinv(self.normal, hermitian=True) @ self.gradient)
+
 
 class Workspace:
     """Records, noise and whitening; columns of parameters are stacked over the training records."""
@@ -137,11 +150,9 @@ class Workspace:
             self._layout()
             if not nuisances:
                 break
-            if sensitivities is None or turn == 0:
+            if sensitivities is None:
                 sensitivities = self._sensitivities(nuisances, values)
             values = self._solve_nuisances(nuisances, values, sensitivities)
-        self.noise = estimate(self.records, *self.raw_residuals(values))
-        self._layout()
         raw = self._sensitivities(nuisances, values)
         self.raw_nuisance = raw
         jacobian = self._stack(raw, len(nuisances))

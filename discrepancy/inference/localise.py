@@ -87,7 +87,7 @@ class Localiser:
         """Tests what ``fit`` leaves over; ``name`` restricts to one signal."""
         space = self.space
         inverse = np.linalg.pinv(fit.normal, hermitian=True) if fit.normal.size else np.zeros((0, 0))
-        gradient = fit.jacobian.T @ fit.residual
+        gradient = fit.gradient
         crosses = {i: block.T @ fit.jacobian[space.rows[i]] for i, (block, *_) in self.cells.items()}
         scores = {i: block.T @ fit.residual[space.rows[i]] for i, (block, *_) in self.cells.items()}
         along_jacobian = {i: space.noise.whiteners[i].directions.T @ fit.jacobian[space.rows[i]] for i in self.cells}

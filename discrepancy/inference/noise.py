@@ -56,7 +56,7 @@ class Noise:
 
     def dof(self, component: tuple[str, str]) -> float:
         stream, part = component
-        return self.streams[stream].dof.get(part, KNOWN)
+        return self.streams[stream].dof.get(part, KNOWN) if stream in self.streams else KNOWN
 
 
 @dataclass(frozen=True)
@@ -270,7 +270,13 @@ def _detrend(position, values):
 
 def _correlation(deviations, values):
     """Length and white share that maximise the likelihood, over a grid and then around its best point."""
-    chosen = np.argsort([-v.size for v in values])[:16]
+    # the two deviations of a pair mirror each other: one is enough
+    seen, single = set(), []
+    for k, d in enumerate(deviations):
+        if not (d.pair and d.condition in seen):
+            single.append(k)
+        seen.add(d.condition)
+    chosen = sorted(single, key=lambda k: -values[k].size)[:12]
     spacing = np.median(np.concatenate([np.abs(np.diff(deviations[i].position)) for i in chosen]))
     longest = np.median([np.ptp(deviations[i].position) for i in chosen])
     total = sum(values[i].size for i in chosen)
@@ -341,18 +347,30 @@ def _basis(record_position, prediction, names):
 
 
 def _patterns(stream, deviations, predictions):
-    """Variance of the run-wide patterns, in units of scale^2, never below what their own estimate scatters by."""
+    """Variance of the run-wide patterns in units of scale^2: what their amounts scatter by beyond the noise of the samples.
+
+    The gain is only taken in when it is significant: it may look much like a drift.
+    """
     names = ["offset", "drift"] if np.median([d.values.size for d in deviations]) >= 32 else ["offset"]
+    dof = sum(d.share for d in deviations)
+    squares, expected = _amounts(stream, deviations, predictions, names)
     shape = [predictions[d.index][d.rows] for d in deviations]
     if all(np.std(h) > 1e-6 * (np.sqrt(np.mean(h**2)) + 1e-300) for h in shape):
-        names.append("gain")
-    squares = {n: 0.0 for n in names}
-    expected = {n: 0.0 for n in names}
-    dof = sum(d.share for d in deviations)
-    for d, h in zip(deviations, shape):
+        with_gain = _amounts(stream, deviations, predictions, [*names, "gain"])
+        if chi2.sf(with_gain[0]["gain"] / (with_gain[1]["gain"] / dof + 1e-300), dof) < 0.003:
+            (squares, expected), names = with_gain, [*names, "gain"]
+    patterns = {n: float(max(squares[n] - expected[n], 0.0) / dof) for n in names}
+    return patterns, {n: max(dof, 1.0) for n in patterns}
+
+
+def _amounts(stream, deviations, predictions, names):
+    """Sum of squared amounts of each pattern, and what the noise of the samples alone gives."""
+    squares, expected = dict.fromkeys(names, 0.0), dict.fromkeys(names, 0.0)
+    for d in deviations:
         rho = correlations(d.position, stream.length)
         g = gains(rho, stream.nugget)
-        basis = autoregress(innovations(np.ascontiguousarray(_basis(d.position, h, names)), rho, *g), stream.taps)
+        shape = predictions[d.index][d.rows]
+        basis = autoregress(innovations(np.ascontiguousarray(_basis(d.position, shape, names)), rho, *g), stream.taps)
         e = autoregress(innovations((d.values / stream.scales[d.condition])[:, None], rho, *g), stream.taps)[:, 0]
         e = e * huber_weights(e - np.median(e), 2 * CUT)
         amount, *_ = np.linalg.lstsq(basis, e, rcond=None)
@@ -360,13 +378,7 @@ def _patterns(stream, deviations, predictions):
         for k, n in enumerate(names):
             squares[n] += d.share * amount[k] ** 2
             expected[n] += d.share * covariance[k, k]
-    patterns = {}
-    for n in names:
-        excess = max(squares[n] - expected[n], 0.0) / dof
-        if n == "gain" and chi2.sf(squares[n] / (expected[n] / dof + 1e-300), dof) > 0.01:
-            continue
-        patterns[n] = excess
-    return patterns, {n: max(dof, 1.0) for n in patterns}
+    return squares, expected
 
 
 def _weights(stream, deviations, records, residuals, masks, indices):

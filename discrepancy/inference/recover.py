@@ -1,5 +1,6 @@
 """The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,17 +89,19 @@ def _signal(space, fit, signal, indices):
     best = None
     predictions = np.array([abs(r["prediction"]) for r in training])
     # which way of writing the misfit is smooth in the conditions: as it is, by direction, by load, or as a share
-    ways: dict[str, callable] = {"none": lambda r: 1.0}
+    ways: dict[str, Callable[[dict], float]] = {"none": lambda r: 1.0}
     if any("factor:direction" in r and r["factor:direction"] < 0 for r in training):
         ways["direction"] = lambda r: r["factor:direction"]
-    if predictions.min() > 0.05 * predictions.max():
+    if predictions.min() > 0.002 * predictions.max():
         ways["prediction"] = lambda r: r["prediction"]
     if all(r.get("factor:load", 0) > 0 for r in rows):
         ways["load"] = lambda r: r["factor:load"]
         if "direction" in ways:
             ways["load and direction"] = lambda r: r["factor:load"] * r["factor:direction"]
     for name, way in ways.items():
-        axes = {k: np.array([r[k] for r in training]) for k in keys}
+        axes = {k: np.array([r[k] for r in training]) for k in keys if not (k == "factor:direction" and "direction" in name)}
+        if not axes:
+            continue
         y = np.array([r["y"] / way(r) for r in training])
         w = np.array([way(r) ** 2 / r["variance"] for r in training])
         used = {k: _monotone(k, x) for k, x in axes.items()}

@@ -106,7 +106,7 @@ def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
     for i, s in space.rows.items():
         rows[space.records[i].condition].append(s)
     size = np.array([p.scale for p in fit.parameters])
-    gradient = fit.jacobian.T @ fit.residual
+    gradient = fit.gradient
     result = {}
     for condition, slices in rows.items():
         jacobian = np.vstack([fit.jacobian[s] for s in slices])

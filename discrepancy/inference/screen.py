@@ -158,13 +158,18 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     rng = np.random.default_rng(seed)
     projected = project_out(columns.values, fit.jacobian, fit.normal)
     before = np.sum(columns.values**2, axis=0)
-    gram = projected.T @ projected
+    # with priors the inverse covariance is I - J N^-1 J': applied once, not twice
+    gram = columns.values.T @ projected
+    gram = 0.5 * (gram + gram.T)
     dead = np.diag(gram) < 1e-6 * np.maximum(before, 1e-300)
     gram[dead] = 0.0
     gram[:, dead] = 0.0
-    score = projected.T @ fit.residual
+    score = columns.values.T @ fit.settled
     score[dead] = 0.0
     grams = {c: np.where(dead[:, None] | dead[None, :], 0.0, g) for c, g in component_grams(space, projected).items()}
+    prior = gram - sum(grams.values())
+    if np.trace(prior) > 1e-6 * np.trace(gram):
+        grams[("prior", "prior")] = prior
     draws_of = simulate(space, grams, draws, rng)
     everything = np.vstack([score, draws_of])
     results = {}

@@ -16,6 +16,7 @@ class Settings:
 
     screen_level: float = 0.006
     localise_level: float = 0.003
+    naming_level: float = 0.03
     leftover_level: float = 0.003
     second_level: float = 0.002
     captured: float = 0.70

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
 from discrepancy.problem import Record
 from orchestrator.coupled import COLUMNS
 from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
@@ -172,7 +172,18 @@ def cage_speed(bench, record, values):
     return np.array([abs(bench.averages(c, values)["cage_speed"]) for c in row_conditions(bench, record)])
 
 
-def inspections(bench: Bench, record: Record, values: Values) -> list[np.ndarray]:
+def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Record, Values], np.ndarray]:
+    """The base model's wear from full meshing cycles, changed by what short cycles say of the values."""
+
+    def observed(bench: Bench, record: Record, values: Values) -> np.ndarray:
+        short = measure(bench, record, values, SHORT_CYCLE)
+        return measure(bench, record, {}, bench.reducer.topology.lobes) + short - measure(bench, record, {}, SHORT_CYCLE)
+
+    observed.__name__ = measure.__name__
+    return observed
+
+
+def inspections(bench: Bench, record: Record, values: Values, turns: int) -> list[np.ndarray]:
     """The wear unit's record at every row's hours."""
     rows = row_conditions(bench, record)
     found: list[np.ndarray] = []
@@ -181,7 +192,7 @@ def inspections(bench: Bench, record: Record, values: Values) -> list[np.ndarray
         by_run.setdefault((c.speed, c.load, c.temperature, c.direction), []).append(c.hours)
     for c in rows:
         hours = sorted(set(by_run[c.speed, c.load, c.temperature, c.direction]))
-        found.append(bench.wear_to(c, values, hours)[c.hours])
+        found.append(bench.wear_to(c, values, hours, turns)[c.hours])
     return found
 
 
@@ -209,8 +220,9 @@ def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:
     return profiles[profiles.max(axis=1).argmax()]
 
 
-def wear_profile(bench, record, values):
-    wear = inspections(bench, record, values)[0]
+@worn_difference
+def wear_profile(bench, record, values, turns):
+    wear = inspections(bench, record, values, turns)[0]
     profile = surface_of(wear, record.tags)
     angle = np.asarray(record.axes["depth_angle"], float)
     if record.tags["surface"] == "pin":
@@ -229,9 +241,10 @@ def smooth(profile: np.ndarray, harmonics: int = 24) -> np.ndarray:
     return np.fft.irfft(spectrum, len(profile))
 
 
-def wear_depth(bench, record, values):
+@worn_difference
+def wear_depth(bench, record, values, turns):
     found = []
-    for wear in inspections(bench, record, values):
+    for wear in inspections(bench, record, values, turns):
         if record.tags["surface"] == "pin":
             found.append(surface_of(wear, record.tags).max())
         else:
@@ -239,14 +252,15 @@ def wear_depth(bench, record, values):
     return np.array(found)
 
 
-def mass_loss(bench, record, values):
+@worn_difference
+def mass_loss(bench, record, values, turns):
     """Of the part named by the tag: reducer, discs, pins, cranks."""
     parts = {
         "disc": ("flank_volume", "outer_race_volume"), "pin": ("pin_volume",), "crank": ("inner_race_volume",),
         "reducer": ("flank_volume", "pin_volume", "inner_race_volume", "outer_race_volume"),
     }  # fmt: skip
     part = next((k for k in parts if record.tags.get("part", "reducer").lower().startswith(k)), "reducer")
-    return np.array([STEEL * sum(float(w[name][0]) for name in parts[part]) for w in inspections(bench, record, values)])
+    return np.array([STEEL * sum(float(w[name][0]) for name in parts[part]) for w in inspections(bench, record, values, turns)])
 
 
 def debris_iron(bench, record, values):

@@ -1,0 +1,178 @@
+"""The plain reducer, by the compiled kernels with this generator's own steps, resolution and life integration."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.blind_trial.generator import stepping
+from benchmarks.blind_trial.generator.stepping import COLUMNS
+from orchestrator.reducer import Reducer, load_reducer
+from rv_plant import plant
+from rv_plant.gear_stage import total_ratio
+from wear_fmu import accumulator
+from wear_fmu.variables import Resolution
+
+NAME = "RV20E-121"
+HOUR = 3600.0
+# Not those of the tool's bench.
+RESOLUTION = Resolution(flank=72, pin=60, raceway=144)
+POSITIONS = 30
+CYCLE_TURNS = 10
+TORQUE_POSITIONS = 20
+HELD_POSITIONS = 6
+FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
+SURFACES = ("flank", "pin", "inner_race", "outer_race")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What the bench is set to, SI; ``direction`` +1 or -1."""
+
+    speed: float
+    load: float
+    temperature: float = 293.15
+    hours: float = 0.0
+    direction: int = 1
+
+
+class Plain:
+    """One reducer with its true (not nominal) parameters."""
+
+    def __init__(self, parameters: dict[str, float] | None = None):
+        reducer = load_reducer(NAME)
+        self.reducer = Reducer(**{**reducer.__dict__, "resolution": RESOLUTION})
+        self.plants, self.wears = self.reducer.plant.new_records(), self.reducer.wear.new_records()
+        for name, value in (parameters or {}).items():
+            for records in (self.plants, self.wears):
+                if name in records.dtype.names:
+                    records[name] = value
+        t = reducer.topology
+        self.ratio = abs(total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
+        self.sense = math.copysign(1.0, total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
+        self.lobes = t.lobes
+        self.rated_load, self.rated_speed = float(self.plants["load_torque"][0]), float(self.plants["input_speed"][0])
+
+    def start(self, setting: Setting, parts=None, surfaces=None, **more):
+        """Initialised records of both units; ``parts(p)`` and ``surfaces(w)`` may change them before."""
+        p, w = self.plants.copy(), self.wears.copy()
+        p["input_speed"] = self.sense * setting.direction * setting.speed
+        p["load_torque"] = setting.direction * setting.load
+        p["temperature"] = w["temperature"] = setting.temperature
+        p["largest_crank_step"] = 1.0
+        for name, value in more.items():
+            p[name] = value
+        if parts is not None:
+            parts(p)
+        require(plant.initialise(p) == 0)
+        for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
+            w[name] = p[name]
+        require(accumulator.initialise(w) == 0)
+        if surfaces is not None:
+            surfaces(w)
+        w["acceleration"] = w["contact_lead"] = 0.0
+        return p, w
+
+    def sweep(self, setting: Setting, angles: np.ndarray, cage: float, parts=None, surfaces=None) -> np.ndarray:
+        """What turning through ``angles`` [rad] of the output shows; columns as COLUMNS."""
+        order = np.argsort(angles, kind="stable")[:: setting.direction]
+        way = angles[order]
+        p, w = self.start(setting, parts, surfaces, ideal_output=way[0], cage=cage)
+        series = np.zeros((len(way), len(COLUMNS)))
+        if surfaces is not None:
+            require(stepping.run(p, w, 1, 0.0))
+        durations = np.abs(np.diff(way, prepend=way[0])) * self.ratio / setting.speed
+        require(stepping.turn(p, w, durations, series, surfaces is not None))
+        back = np.empty_like(series)
+        back[order] = series
+        return back
+
+    def means(self, setting: Setting, parts=None) -> dict[str, float]:
+        """Means over one turn of the cranks."""
+        angles = np.linspace(0.0, 2.0 * math.pi / self.lobes, TORQUE_POSITIONS, endpoint=False)
+        return dict(zip(COLUMNS, self.sweep(setting, angles, 0.3, parts).mean(axis=0)))
+
+    def held(self, setting: Setting, torques: np.ndarray, parts=None, surfaces=None) -> np.ndarray:
+        """Turning [rad] under output torques in order, input held."""
+        total = np.zeros(len(torques))
+        for k in range(HELD_POSITIONS):
+            angle = 2.0 * math.pi * (k + 0.5) / (HELD_POSITIONS * self.lobes)
+            p, w = self.start(setting, parts, surfaces, input_speed=0.0, load_torque=torques[0], ideal_output=angle, cage=0.1 * k)
+            if surfaces is not None:
+                require(stepping.run(p, w, 1, 0.0))
+                p["load_torque"] = torques[0]
+            turning = np.zeros(len(torques))
+            require(stepping.load(p, torques, turning))
+            total += turning / HELD_POSITIONS
+        return total
+
+    def live(self, setting: Setting, inspections: list[float], rate=None, parts=None) -> list[np.ndarray]:
+        """Wear records at operating times [s]; ``rate(surface, life) -> factor`` on the wear of flanks and races.
+
+        ``life`` has the keys hours, travel, depth (by surface), iron (kg).
+        """
+        p, w = self.start(setting, parts)
+        w["contact_lead"] = 1.0  # profile errors for the next contact: second order in the step
+        turn = 2.0 * math.pi * self.ratio / (setting.speed * self.lobes)
+        step, steps = turn / POSITIONS, CYCLE_TURNS * POSITIONS
+        mesh, rough = float(w["mesh_wear_coefficient"][0]), float(w["roughness"][0])
+        require(stepping.run(p, w, 3, step))
+        done, jump, found = 0.0, FIRST_JUMP, []
+        for target in inspections:
+            while target - done > 1.0:
+                stretch = min(jump, target - done) if target - done > 1.3 * jump else target - done
+                w["acceleration"] = stretch / (steps * step)
+                if rate is not None:
+                    life = life_of(w[0], done + 0.5 * stretch)
+                    w["mesh_wear_coefficient"] = mesh * rate("flank", life)
+                    # The raceways' law grows with roughness^1.589.
+                    w["roughness"] = rough * rate("race", life) ** (1.0 / 1.589)
+                require(stepping.run(p, w, steps, step))
+                done += stretch
+                jump = min(LONGEST_JUMP, JUMP_GROWTH * jump)
+            found.append(w.copy())
+        return found
+
+
+def life_of(w, hours: float) -> dict:
+    volume = w["flank_volume"] + w["pin_volume"] + w["inner_race_volume"] + w["outer_race_volume"]
+    return {"hours": hours / HOUR, "travel": float(w["crank_travel"]), "iron": 7850.0 * float(volume),
+            "flank": float(w["flank_depth"].max()), "race": float(w["inner_race_depth"].max())}
+
+
+def require(ok: bool) -> None:
+    if not ok:
+        raise RuntimeError("the plain reducer has no equilibrium with these parts")
+
+
+def print_of(w: np.ndarray, surface: str) -> tuple[np.ndarray, np.ndarray]:
+    """(angle [rad], depth [m]) of the worn surface: mean flank and pin, deepest race."""
+    r = w[0]
+    if surface == "pin":
+        depth = (r["pin_wear"] + r["pin_even_wear"][..., None]).sum(axis=0).mean(axis=0)
+        return (np.arange(len(depth)) + 0.5) / len(depth) * math.pi - 0.5 * math.pi, depth
+    if surface == "flank":
+        depth = r["disc_wear"].reshape(-1, r["slide"].shape[0]).mean(axis=0)
+    else:
+        races = r[{"inner_race": "inner_race_wear", "outer_race": "outer_race_wear"}[surface]]
+        races = races.reshape(-1, races.shape[-1])
+        depth = races[races.sum(axis=1).argmax()]
+    return (np.arange(len(depth)) + 0.5) / len(depth) * 2.0 * math.pi, depth
+
+
+def rounded(depth: np.ndarray, share: float = 0.06) -> np.ndarray:
+    """Closed profile averaged over a share of its length by a Hann window: a stylus has a radius."""
+    half = max(1, int(share * len(depth)) // 2)
+    window = np.hanning(2 * half + 3)[1:-1]
+    padded = np.concatenate([depth[-half:], depth, depth[:half]])
+    return np.convolve(padded, window / window.sum(), "valid")
+
+
+def deepest(w: np.ndarray, surface: str) -> float:
+    depth = print_of(w, surface)[1]
+    return float(depth.max() if surface == "pin" else rounded(depth, 0.04).max())
+
+
+def lost_mass(w: np.ndarray, part: str) -> float:
+    names = {"disc": ("flank_volume", "outer_race_volume"), "pin": ("pin_volume",), "crank": ("inner_race_volume",)}
+    return 7850.0 * sum(float(w[0][n]) for n in names.get(part, sum(names.values(), ())))

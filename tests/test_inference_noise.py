@@ -1,0 +1,95 @@
+"""Whitening against dense linear algebra, noise recovered from replicates."""
+
+import numpy as np
+import pytest
+
+from discrepancy.inference.noise import estimate
+from discrepancy.inference.outliers import usable
+from discrepancy.inference.whiten import whitener
+from discrepancy.problem import Record
+
+
+def covariance(position, length, nugget, patterns, variances):
+    distance = np.abs(np.subtract.outer(position, position))
+    return (1 - nugget) * np.exp(-distance / length) + nugget * np.eye(position.size) + patterns @ np.diag(variances) @ patterns.T
+
+
+@pytest.mark.parametrize("nugget", [0.0, 0.3])
+def test_whitening_agrees_with_the_dense_inverse(nugget):
+    rng = np.random.default_rng(0)
+    position = np.sort(rng.uniform(0, 40, 60))
+    patterns = np.column_stack([np.ones(60), position - position.mean()])
+    variances = np.array([0.7, 0.01])
+    w = whitener(np.ones(60, bool), np.full(60, 2.0), position, 3.0, nugget, np.zeros(0), np.ones(60), patterns, variances,
+                 (("q", "offset"), ("q", "drift")), "q")
+    columns = rng.standard_normal((60, 4))
+    dense = 4.0 * covariance(position, 3.0, nugget, patterns, variances)
+    assert np.allclose(w(columns).T @ w(columns), columns.T @ np.linalg.solve(dense, columns), rtol=1e-6)
+    assert np.allclose(w.directions.T @ w.directions, np.eye(2), atol=1e-10)
+
+
+def replicated(rng, phi, offset, conditions=12, n=400, runs=2, uneven=False):
+    records, residuals = [], []
+    for c in range(conditions):
+        x = np.sort(rng.uniform(0, n, n)) if uneven else np.arange(n, dtype=float)
+        misfit = 5 * np.sin(x / 20)
+        for k in range(runs):
+            step = np.concatenate([[1.0], np.diff(x)])
+            e, state = np.empty(n), 0.0
+            for i in range(n):
+                rho = phi ** step[i]
+                state = rho * state + np.sqrt(1 - rho**2) * rng.standard_normal()
+                e[i] = state
+            e = 0.5 * (e + offset * rng.standard_normal())
+            records.append(Record(f"{c}{k}", "te", "1", str(c), k, misfit + e, {"angle": x}, {}))
+            residuals.append(misfit + e)
+    return records, residuals
+
+
+@pytest.mark.parametrize("uneven", [False, True])
+def test_noise_comes_from_replicates_whatever_the_misfit(uneven):
+    rng = np.random.default_rng(1)
+    records, residuals = replicated(rng, 0.8, 1.0, uneven=uneven)
+    noise = estimate(records, residuals, [np.zeros(400)] * len(records))
+    stream = noise.streams["te"]
+    assert stream.source == "replicates"
+    assert stream.scale * np.sqrt(1.0) == pytest.approx(0.5, rel=0.15)
+    assert stream.length == pytest.approx(-1 / np.log(0.8), rel=0.3)
+    assert 0.3 < stream.patterns["offset"] < 2.5
+    assert stream.dof["offset"] == pytest.approx(12)
+    deviation = noise.whiteners[0]((residuals[0] - residuals[1]) / np.sqrt(2))
+    assert np.std(deviation) == pytest.approx(1.0, rel=0.15)
+
+
+def test_spikes_lose_their_weight_and_dropouts_are_left_out():
+    rng = np.random.default_rng(2)
+    records, residuals = replicated(rng, 0.3, 0.2)
+    residuals[0][50] += 40.0
+    values = records[0].values.copy()
+    values[100:140] = 0.0
+    assert not usable(values)[100:140].any() and usable(values)[:95].all()
+    noise = estimate(records, residuals, [np.zeros(400)] * len(records))
+    assert noise.whiteners[0].weight[50] < 0.3
+    assert np.mean(noise.whiteners[1].weight) > 0.95
+
+
+def test_without_replicates_the_noise_is_flagged():
+    rng = np.random.default_rng(3)
+    records, residuals = replicated(rng, 0.0, 0.0, runs=1)
+    noise = estimate(records, residuals, [np.zeros(400)] * len(records))
+    assert noise.streams["te"].source == "fast residual"
+    assert noise.streams["te"].scale > 0.5
+    assert any("no replicates" in w for w in noise.warnings)
+
+
+def test_numbers_with_proportional_noise_are_recognised():
+    rng = np.random.default_rng(4)
+    records, residuals, predictions = [], [], []
+    for c, size in enumerate((0.1, 1.0, 10.0, 100.0, 300.0)):
+        for k in range(3):
+            y = np.array([size * (1 + 0.05 * rng.standard_normal())])
+            records.append(Record(f"{c}{k}", "wear", "m", str(c), k, y, {}, {}))
+            residuals.append(y - size)
+            predictions.append(np.array([size]))
+    stream = estimate(records, residuals, predictions).streams["wear"]
+    assert stream.proportional and 0.02 < stream.scale < 0.1 and stream.dof["main"] == pytest.approx(10)
