@@ -5,7 +5,10 @@ import math
 from fmu_src.kernel import kernel
 
 from rv_plant.contact import contact_force, damped_force, impact_speed
-from rv_plant.geometry import closest_distance, shortening
+from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
+
+# Pins nearer than this have their distance and phase computed, touching or not [m].
+APART = 1e-9
 
 
 @kernel
@@ -29,6 +32,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     circle = r.pin_circle_radius + r.shift_modification
     radius = r.pin_radius + r.equidistant_modification
     k1 = shortening(r.eccentricity, lobes, circle)
+    hollow = -centre_curve_curvature(0.0, lobes, circle, k1)
     offset = 2.0 * math.pi * d / discs
     # The profile of disc d is cut turned by -offset/lobes against its holes.
     profile_turn = -offset / lobes
@@ -65,14 +69,21 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         flank = 1.0 if ideal_phase >= 0.0 else -1.0
         pitch = r.lobe_pitch_error[d, lobe] / r.pin_circle_radius + flank * r.angle_modification
         cx, cy = cx + pitch * cy, cy - pitch * cx
+        clearance = radius - r.pin_radius - r.pin_radius_error[j]
+        clearance += r.lobe_profile_error[d, lobe] + r.mesh_profile_error[d, j]
+        # Half of the pins are far from touching, which is cheaper to see than how far.
+        least = least_distance(cx, cy, ideal_cos, ideal_sin, circle, r.eccentricity, k1, hollow)
+        if least + clearance > APART:
+            r.mesh_force_now[d, j] = 0.0
+            r.mesh_phase[d, j] = ideal_phase + r.phase_shift[d, j]
+            continue
         shift, distance, nx, ny, bend = closest_distance(
             cx, cy, ideal_cos, ideal_sin, r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
         )
         r.phase_shift[d, j] = shift
         r.mesh_phase[d, j] = ideal_phase + shift
         r.centre_curvature[d, j] = bend
-        gap = distance + radius - r.pin_radius - r.pin_radius_error[j]
-        gap += r.lobe_profile_error[d, lobe] + r.mesh_profile_error[d, j]
+        gap = distance + clearance
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
             continue

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from rv_plant.assembly import assemble
-from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, lobe_point, shortening, turn_of
+from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, least_distance, lobe_point, shortening, turn_of
 from stand import in_equilibrium
 from twin import centre_curve, directions, outward_normal
 
@@ -32,6 +32,27 @@ def from_root(pin, phi, circle, eccentricity, k1, ideal=0.7):
     )
     normal = complex(nx, ny) * frame
     return ideal + shift, gap, normal.real, normal.imag, bend
+
+
+@PROFILES
+def test_bound_of_the_distance_is_below_it_and_close(profile):
+    """Pins displaced in any direction by up to 10 um, and as far as the bound is promised."""
+    circle, _, eccentricity = profile
+    k1 = shortening(eccentricity, LOBES, circle)
+    hollow = -centre_curve_curvature(0.0, LOBES, circle, k1)
+    random = np.random.default_rng(3)
+    for size in (10e-6, 0.333 / hollow):
+        slack = []
+        for phi in np.concatenate([random.uniform(-np.pi, np.pi, 2000), random.uniform(-0.3, 0.3, 2000)]):
+            c, s = np.cos(phi), np.sin(phi)
+            away = size * random.uniform() * np.exp(2j * np.pi * random.uniform())
+            place = circle - eccentricity * c + away.real, -eccentricity * s + away.imag, c, s
+            _, gap, *_ = closest_distance(*place, 0.0, LOBES, circle, eccentricity, k1)
+            slack.append(gap - least_distance(*place, circle, eccentricity, k1, hollow))
+        assert min(slack) > -1e-15
+        if size == 10e-6:
+            assert max(slack) < 1e-6
+    assert least_distance(circle - eccentricity + 1e-3, 0.0, 1.0, 0.0, circle, eccentricity, k1, hollow) == -np.inf
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, -3e-3, 0.0499, -0.0499, 0.0501, 2.0])
