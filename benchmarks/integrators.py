@@ -7,7 +7,8 @@ reversed through clearance and backlash in 20 ms.  All methods start from the sa
 keep the same communication points and control their step by the same norm (a deflection
 of 1 um times the tolerance).  The sun is a flywheel, so that no coordinate is prescribed.
 
-The reference is SciPy's Radau (order 5) at a tolerance of 1e-5.  The step methods below are meant for this comparison alone.
+The reference is SciPy's Radau (order 5) at a tolerance of 1e-5.  The
+step methods below are meant for this comparison alone.
 """
 
 import argparse
@@ -505,7 +506,8 @@ def compare(stretch: Stretch, repeats: int):
         force, mean, angle = errors(seen, reference)
         rows.append({
             "method": name, "tolerance": tolerance, "force_error": force, "force_error_rms": mean,
-            "angle_error_arcsec": angle, "core_ms": 1e3 * spent, "real_time_factor": len(stretch.loads) * stretch.step / spent,
+            "angle_error_arcsec": angle, "core_ms": 1e3 * spent,
+            "real_time_factor": len(stretch.loads) * stretch.step / spent,
             **dict(zip(("assemblies", "factorisations", "steps", "rejected"), (int(x) for x in counts))),
         })
 

@@ -64,8 +64,9 @@ def turn_of(angle):
         return math.cos(angle), math.sin(angle)
     s = angle * angle
     # The first terms left out are below 1e-19.
-    c = 1.0 - s * (1.0 / 2.0) * (1.0 - s * (1.0 / 12.0) * (1.0 - s * (1.0 / 30.0) * (1.0 - s * (1.0 / 56.0))))
-    return c, angle * (1.0 - s * (1.0 / 6.0) * (1.0 - s * (1.0 / 20.0) * (1.0 - s * (1.0 / 42.0) * (1.0 - s * (1.0 / 72.0)))))
+    c = 1.0 - s / 2.0 * (1.0 - s * (1.0 / 12.0) * (1.0 - s * (1.0 / 30.0) * (1.0 - s * (1.0 / 56.0))))
+    by = 1.0 - s * (1.0 / 6.0) * (1.0 - s * (1.0 / 20.0) * (1.0 - s * (1.0 / 42.0) * (1.0 - s * (1.0 / 72.0))))
+    return c, angle * by
 
 
 @kernel
@@ -73,7 +74,7 @@ def least_distance(cx, cy, ideal_cos, ideal_sin, generating_circle, eccentricity
     """Less than ``closest_distance`` [m] in the same frame, without iteration.
 
     From the tangent at the ideal contact: along it the curve comes nearer by no more than
-    its sharpest hollow makes it, the curvature ``hollow`` [1/m] at the root; twice that
+    its sharpest hollow makes it, the curvature ``hollow`` [1/m] at the root (0: none); twice that
     suffices up to a third of the hollow's radius (50 um).  Further off nothing is promised.
     """
     wx, wy = 1.0 - k1 * ideal_cos, -k1 * ideal_sin

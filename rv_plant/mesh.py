@@ -32,7 +32,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     circle = r.pin_circle_radius + r.shift_modification
     radius = r.pin_radius + r.equidistant_modification
     k1 = shortening(r.eccentricity, lobes, circle)
-    hollow = -centre_curve_curvature(0.0, lobes, circle, k1)
+    hollow = max(0.0, -centre_curve_curvature(0.0, lobes, circle, k1))
     offset = 2.0 * math.pi * d / discs
     # The profile of disc d is cut turned by -offset/lobes against its holes.
     profile_turn = -offset / lobes

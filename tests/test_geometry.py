@@ -5,7 +5,15 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from rv_plant.assembly import assemble
-from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, least_distance, lobe_point, shortening, turn_of
+from rv_plant.geometry import (
+    centre_curve_curvature,
+    closest_distance,
+    flank_curvature,
+    least_distance,
+    lobe_point,
+    shortening,
+    turn_of,
+)
 from stand import in_equilibrium
 from twin import centre_curve, directions, outward_normal
 
