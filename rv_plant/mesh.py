@@ -5,7 +5,10 @@ import math
 from fmu_src.kernel import kernel
 
 from rv_plant.contact import contact_force, damped_force, impact_speed
-from rv_plant.geometry import closest_distance, shortening
+from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
+
+# Pins nearer than this have their distance and phase computed, touching or not [m].
+APART = 1e-9
 
 
 @kernel
@@ -29,16 +32,17 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     circle = r.pin_circle_radius + r.shift_modification + r.profile_circle_added
     radius = r.pin_radius + r.equidistant_modification + r.profile_radius_added
     k1 = shortening(r.eccentricity, lobes, circle)
+    hollow = max(0.0, -centre_curve_curvature(0.0, lobes, circle, k1))
     offset = 2.0 * math.pi * d / discs
     # The profile of disc d is cut turned by -offset/lobes against its holes.
     profile_turn = -offset / lobes
     eccentric = -lobes * ideal_output + offset
     ca, sa = math.cos(axes), math.sin(axes)
     zx, zy = r.z[3 * d], r.z[3 * d + 1]
-    disc_x = r.eccentricity * math.cos(eccentric) + zx * ca - zy * sa
-    disc_y = r.eccentricity * math.sin(eccentric) + zx * sa + zy * ca
-    disc_angle = ideal_output + r.z[3 * d + 2] + profile_turn
-    cd, sd = math.cos(disc_angle), math.sin(disc_angle)
+    eccentric_cos, eccentric_sin = math.cos(eccentric), math.sin(eccentric)
+    disc_x = r.eccentricity * eccentric_cos + zx * ca - zy * sa
+    disc_y = r.eccentricity * eccentric_sin + zx * sa + zy * ca
+    disc_cos, disc_sin = math.cos(r.z[3 * d + 2]), math.sin(r.z[3 * d + 2])
     ring = ring_coordinate(r)
     ring_cos, ring_sin = r.ring_scale * math.cos(r.z[ring]), r.ring_scale * math.sin(r.z[ring])
     x, y, t = 3 * d, 3 * d + 1, 3 * d + 2
@@ -51,27 +55,36 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         pin_y = ring_cos * r.pin_y[j] + ring_sin * r.pin_x[j]
         px, py = pin_x - disc_x, pin_y - disc_y
         along_disc = lobes * (r.pin_angle[j] - ideal_output - profile_turn)
-        # The frame stands on the nearest root; the tooth lies between two roots.
-        root_number = math.floor(along_disc / (2.0 * math.pi) + 0.5)
-        root = int(root_number) % lobes
+        # Phases count from the nearest root; the tooth lies between two roots.
+        ideal_phase = along_disc - 2.0 * math.pi * math.floor(along_disc / (2.0 * math.pi) + 0.5)
         lobe = int(math.floor(along_disc / (2.0 * math.pi))) % lobes
-        cl, sl = r.root_cos[root], r.root_sin[root]
-        cr, sr = cd * cl - sd * sl, sd * cl + cd * sl
+        # With one pin more than lobes the ideal phase is also the eccentric's angle less the
+        # pin's, and the frame of the ideal contact lies along the pin's direction.
+        pin_cos, pin_sin = r.pin_cos[j], r.pin_sin[j]
+        ideal_cos = eccentric_cos * pin_cos + eccentric_sin * pin_sin
+        ideal_sin = eccentric_sin * pin_cos - eccentric_cos * pin_sin
+        cr, sr = disc_cos * pin_cos - disc_sin * pin_sin, disc_sin * pin_cos + disc_cos * pin_sin
         cx, cy = cr * px + sr * py, cr * py - sr * px
         # A flank is displaced along the pitch with its tooth, and turned into it by angle modification.
-        ideal_phase = along_disc - 2.0 * math.pi * root_number
         flank = 1.0 if ideal_phase >= 0.0 else -1.0
         pitch = (r.lobe_pitch_error[d, lobe] + r.lobe_pitch_added[d, lobe]) / r.pin_circle_radius
         pitch += flank * r.angle_modification
         cx, cy = cx + pitch * cy, cy - pitch * cx
-        phase, distance, nx, ny, bend = closest_distance(
-            cx, cy, ideal_phase + r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
+        clearance = radius - r.pin_radius - r.pin_radius_error[j] - r.pin_radius_added[j]
+        clearance += r.lobe_profile_error[d, lobe] + r.lobe_gap_added[d, lobe] + r.mesh_profile_error[d, j]
+        # Half of the pins are far from touching, which is cheaper to see than how far.
+        least = least_distance(cx, cy, ideal_cos, ideal_sin, circle, r.eccentricity, k1, hollow)
+        if least + clearance > APART:
+            r.mesh_force_now[d, j] = 0.0
+            r.mesh_phase[d, j] = ideal_phase + r.phase_shift[d, j]
+            continue
+        shift, distance, nx, ny, bend = closest_distance(
+            cx, cy, ideal_cos, ideal_sin, r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
         )
-        r.phase_shift[d, j] = phase - ideal_phase
-        r.mesh_phase[d, j] = phase
+        r.phase_shift[d, j] = shift
+        r.mesh_phase[d, j] = ideal_phase + shift
         r.centre_curvature[d, j] = bend
-        gap = distance + radius - r.pin_radius - r.pin_radius_error[j] - r.pin_radius_added[j]
-        gap += r.lobe_profile_error[d, lobe] + r.lobe_gap_added[d, lobe] + r.mesh_profile_error[d, j]
+        gap = distance + clearance
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
             continue

@@ -58,7 +58,7 @@ def set_masses(r):
 def start_motion(r):
     """Bodies where the equilibrium r.z has put them, moving as ideal kinematics wants at input_speed."""
     discs, cranks = r.roller_force.shape[:2]
-    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
     carrier, ring = 3 * discs, ring_coordinate(r)
     ratio = total_ratio(r.first_stage_ratio, pins, lobes)
     speed = r.input_speed / ratio
@@ -181,7 +181,7 @@ def advance(r, duration):
 def publish_motion(r):
     """Outputs from the present places and velocities."""
     discs, cranks = r.roller_force.shape[:2]
-    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
     carrier, ring = 3 * discs, ring_coordinate(r)
     sun, load = ring + 1, ring + 2
     crank_angle = crank_speed = 0.0

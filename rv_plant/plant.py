@@ -55,7 +55,7 @@ FAULTS = {
 @kernel
 def geometry_fault(r):
     """0, or the fault that makes this geometry impossible."""
-    pins, lobes, rollers = r.pin_x.shape[0], r.root_cos.shape[0], r.roller_force.shape[2]
+    pins, lobes, rollers = r.pin_x.shape[0], r.lobe_pitch_error.shape[1], r.roller_force.shape[2]
     if pins != lobes + 1:
         return RING_OPEN
     if not r.pin_radius < r.pin_circle_radius * math.sin(math.pi / pins):
@@ -83,13 +83,9 @@ def prepare(r):
         angle = 2.0 * math.pi * j / r.pin_x.shape[0]
         radial = r.pin_circle_radius + r.pin_position_error_radial[j]
         tangential = r.pin_position_error_tangential[j]
-        r.pin_angle[j] = angle
+        r.pin_angle[j], r.pin_cos[j], r.pin_sin[j] = angle, math.cos(angle), math.sin(angle)
         r.pin_x[j] = radial * math.cos(angle) - tangential * math.sin(angle)
         r.pin_y[j] = radial * math.sin(angle) + tangential * math.cos(angle)
-    for root in range(r.root_cos.shape[0]):
-        angle = 2.0 * math.pi * root / r.root_cos.shape[0]
-        r.root_cos[root] = math.cos(angle)
-        r.root_sin[root] = math.sin(angle)
     r.mesh_constant, r.mesh_exponent = law_constants(
         r.contact_law, r.stiffness_reading, r.mesh_stiffness, r.mesh_stiffness_lankarani,
         r.exponent_lankarani, r.mesh_width,
@@ -133,7 +129,7 @@ def clear_added(r):
 def publish(r, output_speed):
     """Outputs that follow from the present equilibrium; ``output_speed`` is the ideal one."""
     discs, cranks = r.roller_force.shape[:2]
-    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
     ratio = total_ratio(r.first_stage_ratio, pins, lobes)
     carrier = 3 * discs
     turning = r.z[carrier]
@@ -208,7 +204,7 @@ def initialise(records):
     if not solve(r):
         return NO_EQUILIBRIUM
     copy_means(r, 0.0, 1.0)
-    ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.root_cos.shape[0])
+    ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.lobe_pitch_error.shape[1])
     publish(r, r.input_speed / ratio)
     if r.fidelity == DYNAMIC:
         if not start_motion(r):
@@ -247,7 +243,7 @@ def step_through_equilibria(r, duration):
 
     The contact forces' means over the step are trapezoidal: second order in the angle.
     """
-    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
     output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
     cage_speed = r.cage_share * cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
     crank_advance = abs(lobes * output_speed * duration)

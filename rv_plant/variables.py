@@ -264,8 +264,8 @@ def plant_table(topology: Topology) -> Table:
         state("pin_angle", "rad", "nominal direction of a pin", (t.pins,), ("pin",)),
         state("pin_x", "m", "centre of a pin", (t.pins,), ("pin",)),
         state("pin_y", "m", "centre of a pin", (t.pins,), ("pin",)),
-        state("root_cos", "1", "direction of a root", (t.lobes,), ("lobe",)),
-        state("root_sin", "1", "direction of a root", (t.lobes,), ("lobe",)),
+        state("pin_cos", "1", "nominal direction of a pin", (t.pins,), ("pin",)),
+        state("pin_sin", "1", "nominal direction of a pin", (t.pins,), ("pin",)),
     ]
 
     def scratch(name, shape=(), **more):

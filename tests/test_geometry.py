@@ -5,7 +5,15 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from rv_plant.assembly import assemble
-from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, lobe_point, shortening
+from rv_plant.geometry import (
+    centre_curve_curvature,
+    closest_distance,
+    flank_curvature,
+    least_distance,
+    lobe_point,
+    shortening,
+    turn_of,
+)
 from stand import in_equilibrium
 from twin import centre_curve, directions, outward_normal
 
@@ -21,6 +29,43 @@ def flank(phi, profile):
     circle, radius, eccentricity = profile
     x, y, nx, ny = lobe_point(phi, LOBES, circle, radius, eccentricity, shortening(eccentricity, LOBES, circle))
     return complex(x, y), complex(nx, ny)
+
+
+def from_root(pin, phi, circle, eccentricity, k1, ideal=0.7):
+    """(phase, gap, n_x, n_y, curvature) of a pin seen from the root, the iteration begun at phi."""
+    frame = np.exp(1j * ideal / LOBES)
+    seen = pin / frame
+    shift, gap, nx, ny, bend = closest_distance(
+        seen.real, seen.imag, np.cos(ideal), np.sin(ideal), phi - ideal, LOBES, circle, eccentricity, k1
+    )
+    normal = complex(nx, ny) * frame
+    return ideal + shift, gap, normal.real, normal.imag, bend
+
+
+@PROFILES
+def test_bound_of_the_distance_is_below_it_and_close(profile):
+    """Pins displaced in any direction by up to 10 um, and as far as the bound is promised."""
+    circle, _, eccentricity = profile
+    k1 = shortening(eccentricity, LOBES, circle)
+    hollow = -centre_curve_curvature(0.0, LOBES, circle, k1)
+    random = np.random.default_rng(3)
+    for size in (10e-6, 0.333 / hollow):
+        slack = []
+        for phi in np.concatenate([random.uniform(-np.pi, np.pi, 2000), random.uniform(-0.3, 0.3, 2000)]):
+            c, s = np.cos(phi), np.sin(phi)
+            away = size * random.uniform() * np.exp(2j * np.pi * random.uniform())
+            place = circle - eccentricity * c + away.real, -eccentricity * s + away.imag, c, s
+            _, gap, *_ = closest_distance(*place, 0.0, LOBES, circle, eccentricity, k1)
+            slack.append(gap - least_distance(*place, circle, eccentricity, k1, hollow))
+        assert min(slack) > -1e-15
+        if size == 10e-6:
+            assert max(slack) < 1e-6
+    assert least_distance(circle - eccentricity + 1e-3, 0.0, 1.0, 0.0, circle, eccentricity, k1, hollow) == -np.inf
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, -3e-3, 0.0499, -0.0499, 0.0501, 2.0])
+def test_series_of_a_small_angle(angle):
+    assert turn_of(angle) == pytest.approx((np.cos(angle), np.sin(angle)), rel=3e-16, abs=0)
 
 
 @PROFILES
@@ -51,9 +96,7 @@ def test_every_pin_touches_the_ideal_disc_in_the_ideal_position(discs, theta):
         for pin in seen:
             root = np.round(np.angle(pin) * LOBES / (2.0 * np.pi))
             local = pin * np.exp(-2j * np.pi * root / LOBES)
-            phi, distance, *_ = closest_distance(
-                local.real, local.imag, np.angle(local) * LOBES, LOBES, circle, eccentricity, k1
-            )
+            phi, distance, *_ = from_root(local, np.angle(local) * LOBES, circle, eccentricity, k1)
             assert abs(distance) < 1e-15
             # The flank itself, one pin radius inside.
             assert abs(abs(local - flank(phi, RV20E)[0]) - radius) < 1e-12
@@ -89,7 +132,7 @@ def test_distance_is_the_least_over_the_whole_lobe(profile):
         start = grid[np.argmin(abs(pin - centre_curve(grid, LOBES, circle, eccentricity)))]
         least = minimize_scalar(distance, bounds=(start - 0.01, start + 0.01), method="bounded",
                                 options={"xatol": 1e-10}).fun
-        found, gap, nx, ny, bend = closest_distance(pin.real, pin.imag, phi, LOBES, circle, eccentricity, k1)
+        found, gap, nx, ny, bend = from_root(pin, phi, circle, eccentricity, k1)
         assert gap + radius == pytest.approx(least, abs=1e-14)
         # The normal points from the curve to the pin, outwards if the gap is positive.
         foot = pin - gap * complex(nx, ny)
@@ -105,7 +148,7 @@ def test_distance_and_normal_do_not_depend_on_the_start_of_the_iteration(phi, aw
     k1 = shortening(eccentricity, LOBES, circle)
     normal = outward_normal(phi, LOBES, circle, eccentricity)
     pin = centre_curve(phi, LOBES, circle, eccentricity) - 5e-6 * normal
-    _, gap, nx, ny, _ = closest_distance(pin.real, pin.imag, phi + away, LOBES, circle, eccentricity, k1)
+    _, gap, nx, ny, _ = from_root(pin, phi + away, circle, eccentricity, k1)
     assert gap == pytest.approx(-5e-6, abs=1e-15)
     assert abs(complex(nx, ny) - normal) < 1e-9
 

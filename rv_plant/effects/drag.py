@@ -33,7 +33,7 @@ def after(r):
     if r.seal_torque + r.churning_torque == 0.0:
         return
     viscosity = r.grease_thinning * math.exp(-r.viscosity_slope * (r.reducer_temperature - r.viscosity_reference))
-    lobes = r.root_cos.shape[0]
+    lobes = r.lobe_gap_added.shape[1]
     speed = abs(r.crank_speed / lobes * total_ratio(r.first_stage_ratio, lobes + 1, lobes))
     torque = r.seal_torque + r.churning_torque * (speed / r.churning_speed * viscosity) ** (2.0 / 3.0)
     r.friction_power += torque * speed

@@ -43,7 +43,7 @@ def before(r):
     cranks = r.tooth_gap.shape[0]
     if r.first_stage_ratio == 0.0:
         return
-    pins, lobes = r.pin_x.shape[0], r.root_cos.shape[0]
+    pins, lobes = r.pin_x.shape[0], r.lobe_gap_added.shape[1]
     sun = (total_ratio(r.first_stage_ratio, pins, lobes) - 1.0) * r.ideal_output + r.first_stage_phase
     lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
     side = 1.0 if r.load_torque >= 0.0 else -1.0

@@ -39,7 +39,7 @@ def before(r):
     if d >= discs or c >= cranks:
         return
     turn = 2.0 * math.pi
-    lobes = r.root_cos.shape[0]
+    lobes = r.lobe_gap_added.shape[1]
     # Direction of roller 1 from the hole's radial, and from the lobe's eccentric direction.
     first = r.cage
     if r.spall_race < 0.5:

@@ -39,7 +39,7 @@ def before(r):
     if r.inner_race_worn == 0.0 and r.outer_race_worn == 0.0:
         return
     discs, cranks, rollers = r.roller_gap_now.shape
-    lobes = r.root_cos.shape[0]
+    lobes = r.lobe_gap_added.shape[1]
     turn = 2.0 * math.pi
     for d in range(discs):
         for c in range(cranks):
