@@ -11,10 +11,10 @@ from discrepancy.inference.features import ORDERS
 from discrepancy.inference.fit import Workspace
 from discrepancy.inference.held_out import HeldOutJudge
 from discrepancy.inference.localise import Localisation, Localiser
-from discrepancy.inference.refit import Refit, estimates, leave_condition_out, refit
+from discrepancy.inference.refit import Refit, estimates, finished, leave_condition_out, refit
 from discrepancy.inference.screen import Score, candidate_columns, screen
-from discrepancy.inference.verdict import INCOMPLETE, NONE, SET, UNKNOWN, Diagnosis, Effect, Settings, decide
-from discrepancy.problem import Candidate, Model
+from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Settings, decide
+from discrepancy.problem import Model
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -66,8 +66,16 @@ class Diagnostician:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = [self.fit([s.name]) for s in chosen]
+        fits = sorted((self.fit([s.name]) for s in chosen), key=penalised)
+        least = fits[0].fit.chi2
+        fits = [self.renewed(f) if f.fit.chi2 - least < 4 * self.settings.margin else f for f in fits]
         return sorted(fits, key=penalised)
+
+    def renewed(self, result: Refit) -> Refit:
+        """The refit with its sensitivities taken anew, remembered in place of the first."""
+        better = finished(self.space, result.candidates, self.space.renew(result.fit, result.candidates))
+        self.fitted[frozenset(c.name for c in result.candidates)] = better
+        return better
 
     def several(self, best: Refit) -> Refit:
         """Forward selection with a backward check."""
@@ -95,7 +103,7 @@ class Diagnostician:
             current = self._backward(challenger, first)
             if len(current.candidates) <= len(names):
                 break
-        return current
+        return current if current is best else self.renewed(current)
 
     def _backward(self, joint: Refit, first: float) -> Refit:
         """Drops members without which the fit is hardly worse."""
@@ -142,7 +150,7 @@ class Diagnostician:
         rivals = self.singles()
         final = self.several(rivals[0])
         over, size, text, inflation = self.leftover(final)
-        captured = final.gain / max(final.gain + size, 1e-300)
+        captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = self._dof(final)
         alternatives = {}
         if len(final.candidates) == 1:

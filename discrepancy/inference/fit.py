@@ -11,40 +11,11 @@ import numpy as np
 from scipy.optimize import least_squares, lsq_linear
 
 from discrepancy.inference.noise import Noise, estimate
+from discrepancy.inference.predictions import Predictions
 from discrepancy.problem import Candidate, Model, Parameter
 
 STEP = 0.01
 """Step of a finite difference in units of ``Parameter.scale``."""
-
-
-class Predictions:
-    """Predictions of a model by values and record, each computed once."""
-
-    def __init__(self, model: Model):
-        self.model = model
-        self.off = {p.name: p.off for p in model.nuisances}
-        for c in model.candidates:
-            self.off.update({p.name: p.off for p in c.amplitudes})
-        self.store: dict[tuple, dict[int, np.ndarray]] = {}
-        self.calls = 0
-
-    def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
-        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
-        for c in self.model.candidates:
-            if not any(p.name in active for p in c.amplitudes):
-                for p in c.shapes:
-                    active.pop(p.name, None)
-        known = self.store.setdefault(tuple(sorted(active.items())), {})
-        missing = [i for i in which if i not in known]
-        if missing:
-            self.calls += 1
-            for i, y in zip(missing, self.model.predict(active, missing)):
-                known[i] = np.asarray(y, dtype=float)
-        return [known[i] for i in which]
-
-    def forget(self, values: Mapping[str, float]) -> None:
-        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
-        self.store.pop(tuple(sorted(active.items())), None)
 
 
 @dataclass
@@ -218,9 +189,6 @@ class Workspace:
         frozen = self.base.jacobian
         base = dict(zip(self.training, self.predictions(theta, self.training)))
 
-        def project(columns):
-            return columns - frozen @ (inverse @ (frozen.T @ columns))
-
         def difference(v):
             ys = self.predictions({**theta, **v}, which)
             return self.whiten({i: y - base[i] for i, y in zip(which, ys)})
@@ -241,7 +209,7 @@ class Workspace:
         full = {**{p.name: float(np.clip(theta[p.name] + s, p.lower, p.upper)) for p, s in zip(nuisances, shift)}, **values}
         parameters = tuple(nuisances) + own
         columns = np.column_stack([frozen, columns_of(values)])
-        return self._polish(parameters, full, columns, tuple(c.name for c in candidates), converged)
+        return self._polish(parameters, full, columns, tuple(c.name for c in candidates), converged, cost_of(values)[0])
 
     def _prior_gradient(self, theta):
         nuisances = self.model.nuisances
@@ -293,8 +261,19 @@ class Workspace:
                 break
         return named(x), converged
 
-    def _polish(self, parameters, values, columns, candidates, converged, rounds: int = 3) -> Fit:
-        """Full predictions with frozen sensitivities until the chi-square stands still."""
+    def renew(self, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
+        """The same fit with sensitivities at its own values: for what is reported."""
+        for _ in range(3):
+            columns = self._stack([self.column(fit.values, p, self.training) for p in fit.parameters], len(fit.parameters))
+            renewed = self._polish(fit.parameters, fit.values, columns, tuple(c.name for c in candidates), fit.converged, fit.chi2, fresh=True)
+            gain, fit = fit.chi2 - renewed.chi2, renewed
+            if gain < 0.5:
+                break
+        return fit
+
+    def _polish(self, parameters, values, columns, candidates, converged, expected: float, rounds: int = 8,
+                fresh: bool = False) -> Fit:
+        """Full predictions until the chi-square stands still; sensitivities are renewed where the frozen ones mislead."""
         scale = np.array([p.scale for p in parameters])
         lower = np.array([p.lower for p in parameters])
         upper = np.array([p.upper for p in parameters])
@@ -302,21 +281,34 @@ class Workspace:
         precision = self.prior_rows(parameters)
         x = np.array([values[p.name] for p in parameters])
         names = [p.name for p in parameters]
-        normal = (columns.T @ columns + np.diag(precision)) * np.outer(scale, scale)
-        normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
-        r = self.residual(dict(zip(names, x)))
-        cost = r @ r + np.sum(precision * (x - off) ** 2)
+
+        def cost_of(z):
+            r = self.residual(dict(zip(names, (float(v) for v in z))))
+            return float(r @ r + np.sum(precision * (z - off) ** 2)), r
+
+        cost, r = cost_of(x)
         for _ in range(rounds):
+            normal = (columns.T @ columns + np.diag(precision)) * np.outer(scale, scale)
+            normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
             gradient = scale * (columns.T @ r - precision * (x - off))
             step = scale * _bounded_step(normal, gradient, (lower - x) / scale, (upper - x) / scale)
-            trial = np.clip(x + step, lower, upper)
-            new_r = self.residual(dict(zip(names, trial)))
-            new = new_r @ new_r + np.sum(precision * (trial - off) ** 2)
-            if not new < cost:
-                break
-            gain, x, r, cost = cost - new, trial, new_r, new
+            for part in (1.0, 0.4, 0.1):
+                trial = np.clip(x + part * step, lower, upper)
+                new, new_r = cost_of(trial)
+                if new < cost:
+                    break
+            gain = cost - new
+            if gain > 0:
+                x, r, cost = trial, new_r, new
             if gain < 0.05:
-                break
+                # done, unless frozen sensitivities left it above what the partly linear fit promised
+                if fresh or cost < expected + 0.5 and cost < self.base.chi2:
+                    break
+                at = dict(zip(names, (float(v) for v in x)))
+                columns = self._stack([self.column(at, p, self.training) for p in parameters], len(parameters))
+                fresh = True
+            else:
+                fresh = False
         return self._finish(parameters, dict(zip(names, (float(v) for v in x))), r, columns, candidates, converged)
 
 

@@ -26,7 +26,7 @@ class PhysicalModel:
     ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
     """
 
-    def __init__(self, model: ModelFile, campaign: Campaign, align: bool = True):
+    def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None):
         self.file, self.campaign = model, campaign
         self.records: list[Record] = [r for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
@@ -35,10 +35,10 @@ class PhysicalModel:
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         self.per = {n.parameter.name: n.per for n in campaign.nuisances}
-        self.zeros: dict[str, float] = {}
+        self.zeros: dict[str, float] = dict(zeros or {})
         declared = tuple(p for n in campaign.nuisances for p in expanded(n, self.records))
         self.declared = declared
-        if align:
+        if zeros is None:
             self.align()
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and "housing_mass" not in self.per:

@@ -20,7 +20,7 @@ RESOLUTION = Resolution(flank=72, pin=60, raceway=144)
 POSITIONS = 30
 CYCLE_TURNS = 10
 TORQUE_POSITIONS = 20
-HELD_POSITIONS = 6
+HELD_POSITIONS = 12
 FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
 SURFACES = ("flank", "pin", "inner_race", "outer_race")
 

@@ -1,0 +1,139 @@
+"""At which sizes an effect is shown: those that the physics audit names, else a few times its typical size."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from discrepancy.effects import MODULES
+from fmu_src.effect import Effect
+from rv_plant.effects import EFFECTS as PLANT
+from wear_fmu.effects import EFFECTS as WEAR
+
+UM = 1e-6
+HOUR = 3600.0
+
+
+@dataclass(frozen=True)
+class Case:
+    """One strength of one effect: a title and the values of its parameters in SI units."""
+
+    title: str
+    values: Mapping[str, float]
+
+
+CASES: dict[str, tuple[Case, ...]] = {
+    "running_in": (Case("5 times the wear when new, 200 h", {"running_in_excess": 4.0, "running_in_time": 200 * HOUR}),),
+    "debris_abrasion": (
+        Case("gain 10 at 0.1 % iron", {"debris_gain": 10.0}),
+        Case("the same, grease changed every 2,500 h", {"debris_gain": 10.0, "grease_change": 2500 * HOUR}),
+    ),
+    "lubrication_regime": (Case("a thick film spares 90 %", {"film_share": 0.9, "film_lambda": 0.2}),),
+    "stribeck_friction": (
+        Case("Coulomb friction 0.06", {"friction_coefficient": 0.06}),
+        Case("Stribeck: 0.04, static excess 0.08, viscous 0.1 s/m",
+             {"friction_coefficient": 0.04, "friction_excess": 0.08, "friction_viscous": 0.1}),
+        Case("needle bearings 0.003", {"bearing_friction": 0.003}),
+    ),
+    "drag": (Case("seals 0.1 N m, churning 0.2 N m", {"seal_torque": 0.1, "churning_torque": 0.2}),),
+    "thermal_expansion": (
+        Case("pin circle grows 2e-6/K over the discs", {"thermal_expansion": 2e-6}),
+        Case("the same, warming 0.5 K/W by friction 0.06",
+             {"thermal_expansion": 2e-6, "thermal_resistance": 0.5, "friction_coefficient": 0.06}),
+    ),
+    "pin_position_errors": (
+        Case("ring 5 um off centre", {"pin_ring_runout": 5 * UM}),
+        Case("ring 5 um oval", {"pin_ring_ovality": 5 * UM}),
+        Case("ring with three lobes of 5 um", {"pin_ring_trilobe": 5 * UM}),
+        Case("one pin 5 um thicker", {"proud_pin": 5 * UM}),
+        Case("random places, 2 um", {"pin_scatter": 2 * UM}),
+    ),
+    "disc_tooth_errors": (
+        Case("both discs 4 um off centre, opposed", {"disc_runout": 4 * UM}),
+        Case("both discs 4 um off centre, as a pair", {"disc_runout": 4 * UM, "disc_pairing": 0.0}),
+        Case("random pitch, 3 um", {"lobe_pitch_scatter": 3 * UM}),
+    ),
+    "profile_modification": (
+        Case("20 um shift, 13 um equidistant", {"equidistant_added": -13 * UM, "shift_added": -20 * UM}),
+    ),
+    "needle_clearance": (
+        Case("2.5 um less radial clearance (0)", {"needle_clearance_added": -2.5 * UM}),
+        Case("2.5 um more (5)", {"needle_clearance_added": 2.5 * UM}),
+        Case("7.5 um more (10)", {"needle_clearance_added": 7.5 * UM}),
+    ),
+    "raceway_wear": (
+        Case("inner races 10 um", {"inner_race_worn": 10 * UM}),
+        Case("outer races 10 um", {"outer_race_worn": 10 * UM}),
+    ),
+    "crank_lobe_errors": (
+        Case("throw of one lobe 3 um too large", {"lobe_throw_error": 3 * UM}),
+        Case("one lobe turned by 3 um", {"lobe_phase_error": 3.0 / 900.0}),
+    ),
+    "hole_position_errors": (
+        Case("one hole of one disc 4 um back", {"disc_hole_shift": -4 * UM}),
+        Case("one seat of the carrier 4 um back", {"carrier_seat_shift": -4 * UM}),
+    ),
+    "support_compliance": (
+        Case("crank supports 1.4e8 N/m", {"crank_support_compliance": 1.0 / 1.4e8}),
+        Case("output flange 100 N m/arcmin", {"carrier_compliance": 1.0 / (100.0 * 3437.75)}),
+    ),
+    "first_stage_error": (
+        Case("tooth error 10 um", {"tooth_error": 10 * UM}),
+        Case("sun 20 um off centre", {"sun_runout": 20 * UM}),
+        Case("one planet 20 um off centre", {"planet_runout": 20 * UM}),
+        Case("play 50 um", {"backlash": 50 * UM}),
+    ),
+    "load_exponent": (Case("exponent + 0.5", {"load_exponent_added": 0.5}),),
+    "hardness_gradient": (Case("core at 54 % hardness, case 20 um", {"core_softness": 0.46, "case_depth": 20 * UM}),
+                          Case("the same, case 2 um", {"core_softness": 0.46, "case_depth": 2 * UM})),
+    "edge_loading": (Case("tilt 60 urad", {"misalignment": 6e-5}), Case("tilt 500 urad", {"misalignment": 5e-4})),
+    "roller_skidding": (Case("10 % at no load, gone beyond 500 N", {"skid_share": 0.1}),),
+    "pin_rotation": (Case("pins stand half the time", {"pin_standing_share": 0.5}), Case("pins stand", {"pin_standing_share": 1.0})),
+    "unbalance": (Case("one disc of 0.387 kg at 0.9 mm", {"unbalance": 0.387 * 0.9e-3}),),
+    "race_spall": (
+        Case("pit of 10 um on an inner race", {"spall_depth": 10 * UM}),
+        Case("pit of 10 um on an outer race", {"spall_depth": 10 * UM, "spall_race": 1.0}),
+    ),
+    "grease_ageing": (
+        Case("viscosity doubles, wear triples in 10,000 h; churning 0.2 N m",
+             {"grease_ageing": 0.693, "grease_starvation": 2.0, "churning_torque": 0.2, "grease_life": 10_000 * HOUR}),
+    ),
+    "encoder_eccentricity": (Case("5 um on 50 mm", {"encoder_cos1": 2e-4}),),
+    "clock_slip": (Case("0.1 %", {"clock_slip": 1e-3}),),
+    "sensor_gain": (Case("5 %", {"sensor_gain": 0.05}),),
+    "sensor_offset": (Case("5 % of the mean", {"sensor_offset": 0.05}),),
+    "sensor_drift": (Case("5 % of the mean in a run", {"sensor_drift": 0.05}),),
+}  # fmt: skip
+
+# What an effect is compared with, where it acts only on something that is off by default.
+BACKGROUND: dict[str, Mapping[str, float]] = {"grease_ageing": {"churning_torque": 0.2}}
+
+# The picture that shows an effect best, see ``plots``.
+PICTURES = {
+    "running_in": "hours", "debris_abrasion": "hours", "grease_ageing": "hours", "lubrication_regime": "speed_wear",
+    "stribeck_friction": "torque", "drag": "torque", "thermal_expansion": "loop", "profile_modification": "loop",
+    "support_compliance": "loop", "raceway_wear": "loop", "load_exponent": "load_wear", "hardness_gradient": "hours",
+    "edge_loading": "load_wear", "roller_skidding": "cage", "pin_rotation": "pin_print", "unbalance": "housing",
+    "race_spall": "burst",
+}  # fmt: skip
+
+
+def cases(name: str, effect: Effect) -> tuple[Case, ...]:
+    """The effect's cases; one per group of amplitudes for an effect that is not in the list (a user's own)."""
+    if name in CASES:
+        return CASES[name]
+    groups = dict.fromkeys(p.group for p in effect.amplitudes())
+    return tuple(
+        Case(group or effect.title, {p.variable.name: float(p.variable.start) + (p.sign or 1) * p.scale
+                                     for p in effect.amplitudes() if p.group == group})
+        for group in groups
+    )  # fmt: skip
+
+
+def picture(name: str) -> str:
+    return PICTURES.get(name, "orders")
+
+
+def part_of(name: str) -> str:
+    """Where an effect acts: plant, wear unit, both or measuring chain."""
+    if name in MODULES:
+        return "measuring chain"
+    return "plant and wear unit" if name in PLANT and name in WEAR else "plant" if name in PLANT else "wear unit"

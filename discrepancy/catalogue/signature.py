@@ -1,0 +1,249 @@
+"""The signature of an effect: what the virtual bench shows with it, beside what it shows without.
+
+Orders are those of one turn of the output.  Amplitudes of the transmission error are
+given in arcsec, lost motion and lag in arcsec, depths in um.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, part_of
+from discrepancy.effects import MODULES
+from discrepancy.model_file import every_effect
+from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.observe import OBSERVED
+from discrepancy.problem import Record
+from orchestrator.coupled import COLUMNS
+from orchestrator.life import peak_of_circle
+from orchestrator.reducer import load_reducer
+
+ORDERS = (1, 2, 39, 40, 78, 80, 120, 121, 156, 234, 279, 361, 1440, 1560)
+# Samples of one turn of the output; the mesh's order 1560 needs more than 3120.
+SAMPLES = 4096
+ARCSEC = math.degrees(1.0) * 3600.0
+MICRO = 1e6
+WARMER = 40.0
+# Hours at rated speed to which wear is run, and for growth in time.
+WEAR_HOURS, LATE_HOURS = 1000.0, 5000.0
+SURFACES = ("flank", "pin", "inner_race", "outer_race")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure at one condition, without and with the effect."""
+
+    figure: str
+    unit: str
+    condition: str
+    without: float
+    present: float
+
+    @property
+    def change(self) -> float:
+        return self.present - self.without
+
+    def is_visible(self) -> bool:
+        """More than half a percent, and more than rounding."""
+        floor = {"arcsec": 0.05, "N": 0.05, "N m": 1e-4, "um": 1e-4, "K": 0.01}.get(self.unit, 1e-6)
+        return abs(self.change) > max(0.005 * abs(self.without), floor)
+
+
+@dataclass(frozen=True)
+class Signature:
+    """All figures of one case of an effect."""
+
+    effect: str
+    case: Case
+    rows: tuple[Row, ...]
+
+    def row(self, figure: str, condition: str = "rated") -> Row:
+        return next(r for r in self.rows if r.figure == figure and r.condition == condition)
+
+
+def new_bench(reducer: str = "RV20E-121") -> Bench:
+    return Bench(load_reducer(reducer), {})
+
+
+def rated(bench: Bench) -> Condition:
+    return Condition(bench.rated_speed, bench.rated_load)
+
+
+def conditions(bench: Bench) -> dict[str, Condition]:
+    """The bench's settings by name."""
+    at = rated(bench)
+    return {
+        "rated": at, "load 10 %": replace(at, load=0.1 * at.load), "load 25 %": replace(at, load=0.25 * at.load),
+        "load 150 %": replace(at, load=1.5 * at.load), "no load": replace(at, load=0.0),
+        "speed 10 %": replace(at, speed=0.1 * at.speed), "speed 20 %": replace(at, speed=0.2 * at.speed),
+        "speed 200 %": replace(at, speed=2.0 * at.speed), "40 K warmer": replace(at, temperature=at.temperature + WARMER),
+    }  # fmt: skip
+
+
+def turn(bench: Bench, condition: Condition, values: Mapping[str, float], column: str = "transmission_error") -> np.ndarray:
+    """One turn of the output, SAMPLES long."""
+    angles = np.linspace(0.0, 2.0 * math.pi, SAMPLES, endpoint=False)
+    return bench.running(condition, values, angles)[:, COLUMNS.index(column)]
+
+
+def amplitudes(series: np.ndarray) -> np.ndarray:
+    """Amplitude of every order of a series over one whole turn."""
+    return 2.0 * np.abs(np.fft.rfft(series)) / len(series)
+
+
+def record_of(quantity: str, condition: Condition, axes: Mapping[str, np.ndarray] | None = None, **tags: str) -> Record:
+    """A record to be predicted at a condition."""
+    axes = axes or {}
+    count = max((len(a) for a in axes.values()), default=1)
+    factors = {"speed": condition.speed, "load": condition.load, "temperature": condition.temperature,
+               "hours": condition.hours, "direction": condition.direction}  # fmt: skip
+    return Record(quantity, quantity, "", "", 1, np.zeros(count), axes, factors, tags=tags)
+
+
+def observed(bench: Bench, quantity: str, condition: Condition, values: Mapping[str, float]) -> float:
+    return float(OBSERVED[quantity](bench, record_of(quantity, condition), values)[0])
+
+
+def low_torque_stiffness(bench: Bench, condition: Condition, values: Mapping[str, float]) -> float:
+    """Secant between 5 and 20 % of the rated torque [N m/rad]."""
+    torque = np.array([0.0, 0.05, 0.2]) * bench.rated_load
+    turning = bench.held(condition, values, torque)
+    return float((torque[2] - torque[1]) / (turning[2] - turning[1]))
+
+
+def loop_width(bench: Bench, condition: Condition, values: Mapping[str, float]) -> float:
+    """Distance of the closed loop's branches at half the rated torque [rad]."""
+    up = np.linspace(0.0, 1.0, 9)
+    way = np.concatenate([up, up[-2::-1], -up[1:], -up[-2::-1], up[1:]])
+    turning = bench.held(condition, values, way * bench.rated_load)
+    half = len(up) // 2
+    return float(turning[2 * len(up) - 2 - half] - turning[len(way) - 1 - half])
+
+
+def cage_order(bench: Bench, condition: Condition, values: Mapping[str, float]) -> float:
+    """Turns of a cage against its disc per turn of the output."""
+    return observed(bench, "cage_speed", condition, values) * abs(bench.ratio) / condition.speed
+
+
+def depths(wear: np.ndarray) -> dict[str, float]:
+    """Deepest wear [m] of each kind of surface, the mean over equal parts."""
+    w = wear[0]
+    discs = w["disc_wear"].shape[0]
+    lobes = w["disc_wear"].reshape(discs, -1, w["slide"].shape[0]).mean(axis=1)
+    pins = (w["pin_wear"] + w["pin_even_wear"][..., None]).sum(axis=0).mean(axis=0)
+    found = {"flank": float(peak_of_circle(lobes).mean()), "pin": float(pins.max())}
+    for surface in ("inner_race", "outer_race"):
+        races = w[f"{surface}_wear"].reshape(-1, w[f"{surface}_wear"].shape[-1])
+        found[surface] = float(peak_of_circle(races).mean())
+    return found
+
+
+def worn(bench: Bench, condition: Condition, values: Mapping[str, float], hours: float = WEAR_HOURS) -> dict[str, float]:
+    """Depths [um] after as many turns as ``hours`` have at rated speed."""
+    time = hours * HOUR * bench.rated_speed / condition.speed
+    return {k: v * MICRO for k, v in depths(bench.wear_to(condition, values, [time])[time]).items()}
+
+
+# figure: (unit, conditions, factor to the unit, function).
+FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable]] = {
+    "lost motion": ("arcsec", ("rated", "40 K warmer"), ARCSEC, lambda b, c, v: observed(b, "lost_motion", c, v)),
+    "loop width at half torque": ("arcsec", ("rated",), ARCSEC, loop_width),
+    "stiffness": ("N m/arcmin", ("rated", "40 K warmer"), 60.0 / ARCSEC, lambda b, c, v: observed(b, "torsional_stiffness", c, v)),
+    "stiffness at low torque": ("N m/arcmin", ("rated", "40 K warmer"), 60.0 / ARCSEC, low_torque_stiffness),
+    "input torque": ("N m", ("rated", "no load", "load 10 %", "speed 10 %", "speed 200 %", "40 K warmer"), 1.0,
+                     lambda b, c, v: observed(b, "input_torque", c, v)),
+    "cage order": ("1", ("rated", "load 10 %"), 1.0, cage_order),
+    "temperature": ("K", ("rated", "speed 200 %"), 1.0, lambda b, c, v: b.averages(c, v)["reducer_temperature"]),
+}  # fmt: skip
+SPECTRUM_AT = ("rated", "load 25 %")
+WEAR_AT = ("load 10 %", "load 150 %", "speed 20 %", "speed 200 %", "40 K warmer")
+
+
+def signature(bench: Bench, name: str, case: Case) -> Signature:
+    """Everything that an effect changes, at one strength."""
+    base = BACKGROUND.get(name, {})
+    if name in MODULES:
+        return Signature(name, case, tuple(chain_rows(bench, name, case)))
+    rows = spectrum_rows(bench, base, case.values)
+    at = conditions(bench)
+    for figure, (unit, where, factor, compute) in FIGURES.items():
+        for c in where:
+            pair = (factor * compute(bench, at[c], v) for v in (base, case.values))
+            rows.append(Row(figure, unit, c, *pair))
+    rows += wear_rows(bench, base, case.values, "wear" in part_of(name))
+    if "grease_age" in {p.variable.name for p in every_effect()[name].parameters}:
+        aged = replace(at["rated"], hours=LATE_HOURS * HOUR)
+        rows.append(Row("input torque", "N m", f"{LATE_HOURS:g} h",
+                        *(observed(bench, "input_torque", aged, v) for v in (base, case.values))))
+    return Signature(name, case, tuple(rows))
+
+
+def spectrum_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, float]) -> list[Row]:
+    """Orders and mean of the transmission error, and order 39 of the force on the housing."""
+    rows, at = [], conditions(bench)
+    for c in SPECTRUM_AT:
+        series = [turn(bench, at[c], v) * ARCSEC for v in (base, values)]
+        without, present = map(amplitudes, series)
+        rows += [Row(f"TE order {o}", "arcsec", c, without[o], present[o]) for o in ORDERS]
+        rows.append(Row("mean lag", "arcsec", c, -series[0].mean(), -series[1].mean()))
+        rows.append(Row("TE peak to peak", "arcsec", c, np.ptp(series[0]), np.ptp(series[1])))
+    for c in ("rated", "load 25 %", "speed 200 %"):
+        force = [amplitudes(turn(bench, at[c], v, "housing_force_x"))[39] for v in (base, values)]
+        rows.append(Row("housing force order 39", "N", c, *force))
+    return rows
+
+
+def wear_rows(bench: Bench, base, values, everywhere: bool) -> list[Row]:
+    """Depths after as many turns; for effects of the wear unit at all conditions and with time."""
+    at, rows = conditions(bench), []
+    for c in ("rated", *(WEAR_AT if everywhere else ())):
+        pair = [worn(bench, at[c], v) for v in (base, values)]
+        rows += [Row(f"{s} depth", "um", c, pair[0][s], pair[1][s]) for s in SURFACES]
+    if everywhere:
+        growth = [{s: d[1][s] - d[0][s] for s in SURFACES} for d in (
+            [worn(bench, at["rated"], v, h) for h in (LATE_HOURS - WEAR_HOURS, LATE_HOURS)] for v in (base, values))]
+        rows += [Row(f"{s} depth", "um", f"{LATE_HOURS - WEAR_HOURS:g} to {LATE_HOURS:g} h", growth[0][s], growth[1][s]) for s in SURFACES]
+    return rows
+
+
+def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
+    """What a sensor makes of the transmission error and of the input torque."""
+    rows, at = [], conditions(bench)
+    for c in SPECTRUM_AT:
+        series = turn(bench, at[c], {}) * ARCSEC
+        without, present = amplitudes(series), amplitudes(changed(name, case, "transmission_error", at[c], series))
+        rows += [Row(f"TE order {o}", "arcsec", c, without[o], present[o]) for o in ORDERS]
+    for c in SPECTRUM_AT:
+        torque = np.abs(turn(bench, at[c], {}, "drive_torque"))
+        shown = changed(name, case, "input_torque", at[c], torque)
+        rows.append(Row("input torque", "N m", c, torque.mean(), shown.mean()))
+        rows.append(Row("rise of torque in a run", "N m", c, *(tilt(s) for s in (torque, shown))))
+    return rows
+
+
+def changed(name: str, case: Case, quantity: str, condition: Condition, series: np.ndarray) -> np.ndarray:
+    """A series over one turn as the sensor shows it."""
+    record = record_of(quantity, condition, {"angle": np.linspace(0.0, 2.0 * math.pi, len(series), endpoint=False)})
+    return MODULES[name].change(series, record, lambda p: case.values.get(p, 0.0), max(abs(series.mean()), series.std()))
+
+
+def tilt(series: np.ndarray) -> float:
+    """Rise of the straight line through a series, end over start."""
+    return float(np.polyfit(np.linspace(0.0, 1.0, len(series)), series, 1)[0])
+
+
+def words(found: Signature, most: int = 12) -> list[str]:
+    """The visible changes in words; the largest for their kind first, in the order of the figures."""
+    visible = [r for r in found.rows if r.is_visible()]
+    if len(visible) > most:
+        ranked = sorted(visible, key=lambda r: -abs(r.change) / max(abs(r.without), {"arcsec": 1.0, "N": 1.0}.get(r.unit, abs(r.change))))
+        kept = set(map(id, ranked[:most]))
+        visible = [r for r in visible if id(r) in kept]
+    return [f"{r.figure} ({r.condition}) {number(r.without)} -> {number(r.present)} {r.unit if r.unit != '1' else ''}".strip() for r in visible]
+
+
+def number(value: float) -> str:
+    """Three figures; rounding noise is nothing."""
+    return "0" if abs(value) < 1e-6 else f"{value:.3g}"

@@ -1,0 +1,92 @@
+"""Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.series import stream_of
+from discrepancy.inference.verdict import Settings
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.orders import named_orders
+from discrepancy.prediction.physical_model import PhysicalModel
+
+# A run whose error is this many times its noise is worth a look.
+CONSPICUOUS = 1.5
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Measured against predicted.
+
+    ``runs``: one entry per run with rms error and noise floor in the record's SI unit;
+    ``signals``: the same by signal, apart for training and held-out runs; ``predictions``:
+    predicted values per run, in the order of ``model.records``.
+    """
+
+    model: PhysicalModel
+    diagnostician: Diagnostician
+    runs: list[dict]
+    signals: list[dict]
+    nuisances: dict[str, float]
+    warnings: list[str]
+    predictions: list[np.ndarray]
+
+    def as_json(self) -> dict:
+        return {
+            "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": self.signals, "runs": self.runs,
+            "nuisances": self.nuisances, "warnings": self.warnings, "not_predicted": self.model.unpredicted,
+            "localisation": self.diagnostician.localisation.to_dict(),
+        }  # fmt: skip
+
+
+def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None) -> Comparison:
+    """Hold a model against a campaign; localises the misfit on the way."""
+    model = model or PhysicalModel(file, campaign)
+    diagnostician = Diagnostician(model, settings, named_orders(model.bench))
+    localisation = diagnostician.prepare()
+    space = diagnostician.space
+    every = list(range(len(space.records)))
+    predictions = space.predictions(space.base.values, every)
+    runs = []
+    for record, predicted, whitener in zip(space.records, predictions, space.noise.whiteners):
+        kept = whitener.kept
+        error = float(np.sqrt(np.mean((record.values - predicted)[kept] ** 2))) if kept.any() else float("nan")
+        stream = space.noise.streams[whitener.quantity]
+        floor = float(np.sqrt(np.mean(whitener.scale**2) * (1.0 + sum(stream.patterns.values()))))
+        runs.append({
+            "run": record.name, "signal": stream_of(record), "condition": record.condition, "replicate": record.replicate,
+            "held_out": record.held_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),
+            "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
+        })  # fmt: skip
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values),
+                      warnings_of(model, list(space.noise.warnings), localisation), predictions)
+
+
+def by_signal(runs: list[dict]) -> list[dict]:
+    """Root mean squares over the runs of a signal, training and held-out apart."""
+    cells = defaultdict(list)
+    for run in runs:
+        cells[run["signal"], run["held_out"]].append(run)
+    return [
+        {
+            "signal": signal, "held_out": held_out, "runs": len(members), "unit": members[0]["unit"],
+            "error": rms(m["error"] for m in members), "noise_floor": rms(m["noise_floor"] for m in members),
+            "ratio": rms(m["error"] for m in members) / rms(m["noise_floor"] for m in members),
+        }
+        for (signal, held_out), members in sorted(cells.items())
+    ]  # fmt: skip
+
+
+def rms(values) -> float:
+    return float(np.sqrt(np.mean(np.square(list(values)))))
+
+
+def warnings_of(model: PhysicalModel, warnings: list[str], localisation) -> list[str]:
+    if model.unpredicted:
+        warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
+    if not any(r.held_out for r in model.records):
+        warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
+    return warnings

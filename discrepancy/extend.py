@@ -1,0 +1,119 @@
+"""Step 5: add an effect to the model, and see on runs that were never used whether it helped.
+
+Every attempt becomes a step of the model's ladder, those that did not help too.  A gain on the
+runs that the parameters were fitted to is never called a success.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.compare import by_signal, compare
+from discrepancy.inference.held_out import HeldOutJudge
+from discrepancy.inference.refit import Refit, estimates
+from discrepancy.inference.verdict import Settings
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.physical_model import PhysicalModel
+from orchestrator.faults import InputFault
+
+HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
+# An error within this factor of the old one is no better.
+BETTER = 0.97
+
+
+@dataclass(frozen=True)
+class Extension:
+    """The extended model and the step of its ladder; ``file`` is the old one where the step did not help."""
+
+    file: ModelFile
+    step: dict
+    verdict: str
+
+    def as_json(self) -> dict:
+        return {"model": self.file.name, "verdict": self.verdict, "step": self.step, "effects": self.file.effects}
+
+
+def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False) -> Extension:
+    """Fit the named candidates (``effect`` or ``effect.variant``) and add them.
+
+    ``anyway`` keeps an effect that did not help, for those who know better.
+    """
+    before = compare(file, campaign, settings)
+    diagnostician = before.diagnostician
+    diagnostician.screened()
+    chosen = [candidate for name in names for candidate in resolved(name, diagnostician)]
+    fit = diagnostician.fit([c.name for c in chosen])
+    effects = {k: dict(v) for k, v in file.effects.items()}
+    for candidate in chosen:
+        numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage)}
+        effects.setdefault(candidate.name.partition(".")[0], {}).update({
+            p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
+                     "low": float(numbers[p.name].interval[0]), "high": float(numbers[p.name].interval[1])}
+            for p in candidate.parameters
+        })  # fmt: skip
+    extended = replace(file, effects=effects)
+    # From here on the new model stands alone: the effect is part of it and no longer fitted.
+    after = compare(extended, campaign, settings, PhysicalModel(extended, campaign, zeros=before.model.zeros))
+    judge = HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders)
+    judged = judge.judge(fit) if diagnostician.space.held_out else None
+    outcome, reason = verdict_of(judged, fit, before, after)
+    step = {
+        "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
+        "training_before": total(before, False), "training_after": total(after, False),
+        "held_out_before": total(before, True), "held_out_after": total(after, True),
+        "held_out_error_before": judged.before if judged else None, "held_out_error_after": judged.after if judged else None,
+        "signals": [
+            {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
+             "noise_floor": a["noise_floor"]}
+            for b, a in zip(by_signal(before.runs), by_signal(after.runs))
+        ],
+    }  # fmt: skip
+    keep = outcome != DID_NOT_HELP or anyway
+    step["kept"] = keep
+    return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome)
+
+
+def resolved(name: str, diagnostician):
+    """Candidates of a name: one variant, or the variant of an effect that fits best."""
+    if name in diagnostician.by_name:
+        return [diagnostician.by_name[name]]
+    variants = [c for c in diagnostician.candidates if c.name.partition(".")[0] == name]
+    if not variants:
+        known = ", ".join(sorted({c.name for c in diagnostician.candidates}))
+        raise InputFault(f"effect {name!r}: not among those that this campaign can show and the model lacks: {known}")
+    return [min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)]
+
+
+def total(comparison, held_out: bool) -> float | None:
+    """Error over noise, root mean square over the signals of training or held-out runs."""
+    cells = [s["ratio"] for s in comparison.signals if s["held_out"] == held_out]
+    return float((sum(r * r for r in cells) / len(cells)) ** 0.5) if cells else None
+
+
+def verdict_of(judged, fit: Refit, before, after) -> tuple[str, str]:
+    if judged is None:
+        return NOT_PROVEN, (
+            "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
+            " measure at a condition that was not used, or mark one as held_out"
+        )
+    if judged.after < BETTER * judged.before:
+        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} times the noise"
+    return DID_NOT_HELP, (
+        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} times the noise although that on fitted"
+        " runs fell: the effect fits noise or stands for another one; the model stays as it was"
+    )
+
+
+def extended_reducer(file: ModelFile):
+    """The reducer with settings and effects as start values, for FMUs that carry them."""
+    known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
+    values = {name: value for name, value in file.values().items() if name in known}
+    sources = {name: f"model {file.name}" for name in values}
+    return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
+
+
+def build_units(file: ModelFile, folder: Path) -> list[Path]:
+    """RvPlant.fmu and RvWear.fmu of the extended model."""
+    from orchestrator.building import build_pair
+
+    return build_pair(extended_reducer(file), folder)

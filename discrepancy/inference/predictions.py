@@ -1,0 +1,37 @@
+"""A model's predictions, each computed once."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.problem import Model
+
+
+class Predictions:
+    """Predictions of a model by values and record, each computed once."""
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.off = {p.name: p.off for p in model.nuisances}
+        for c in model.candidates:
+            self.off.update({p.name: p.off for p in c.amplitudes})
+        self.store: dict[tuple, dict[int, np.ndarray]] = {}
+        self.calls = 0
+
+    def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
+        for c in self.model.candidates:
+            if not any(p.name in active for p in c.amplitudes):
+                for p in c.shapes:
+                    active.pop(p.name, None)
+        known = self.store.setdefault(tuple(sorted(active.items())), {})
+        missing = [i for i in which if i not in known]
+        if missing:
+            self.calls += 1
+            for i, y in zip(missing, self.model.predict(active, missing)):
+                known[i] = np.asarray(y, dtype=float)
+        return [known[i] for i in which]
+
+    def forget(self, values: Mapping[str, float]) -> None:
+        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
+        self.store.pop(tuple(sorted(active.items())), None)

@@ -1,0 +1,75 @@
+"""Step 3: which effect the model lacks, as an answer that can be read, kept and acted upon.
+
+The statistics speaks of candidates; several can be variants of one effect (a pin ring off
+centre, or oval).  Here they are put together under the effect's name.
+"""
+
+from dataclasses import dataclass
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.compare import warnings_of
+from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.recover import Recovered, recover
+from discrepancy.inference.verdict import ONE, SET, SEVERAL, UNKNOWN, INCOMPLETE, Diagnosis, Settings
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.orders import named_orders
+from discrepancy.prediction.physical_model import PhysicalModel
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits."""
+
+    model: PhysicalModel
+    diagnosis: Diagnosis
+    verdict: str
+    effects: list[dict]
+    confusable: list[str]
+    laws: list[Recovered]
+    warnings: list[str]
+
+    def as_json(self) -> dict:
+        plain = self.diagnosis.to_dict()
+        return plain | {
+            "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict,
+            "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
+            "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
+        }  # fmt: skip
+
+
+def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None) -> Answer:
+    """The effect that the model lacks, a set that cannot be separated, none, or the law without a name."""
+    model = model or PhysicalModel(file, campaign)
+    found = Diagnostician(model, settings, named_orders(model.bench)).run()
+    effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
+    verdict = found.verdict
+    names = list(dict.fromkeys(e["name"] for e in effects))
+    if verdict in (SET, SEVERAL) and len(names) == 1:
+        verdict = ONE
+    confusable = names if verdict == SET else []
+    laws = []
+    if verdict in (UNKNOWN, INCOMPLETE):
+        space = found.fits["space"]
+        fit = found.fits["members"][0].fit if found.fits["members"] else space.base
+        touched = {finding["signal"] for finding in found.localisation["findings"]}
+        laws = recover(space, fit, sorted(touched) or None)
+    warnings = warnings_of(model, list(found.warnings), None)
+    return Answer(model, found, verdict, effects, confusable, laws, list(dict.fromkeys(warnings)))
+
+
+def merged(effects: list[dict], verdict: str) -> list[dict]:
+    """Variants of one effect under its name; the best variant speaks for those that are alternatives."""
+    found: dict[str, dict] = {}
+    for entry in effects:
+        name, _, variant = entry["name"].partition(".")
+        entry = entry | {"name": name, "variant": variant, "candidates": [entry["name"]]}
+        if name not in found:
+            found[name] = entry
+            continue
+        first = found[name]
+        first["candidates"] += entry["candidates"]
+        if verdict == SEVERAL:
+            first["parameters"] |= entry["parameters"]
+            first["variant"] = f"{first['variant']} + {variant}"
+            first["share_explained"] = min(1.0, first["share_explained"] + entry["share_explained"])
+    return list(found.values())
