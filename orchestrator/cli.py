@@ -84,6 +84,17 @@ def parser() -> argparse.ArgumentParser:
     add_json(modes)
     modes.set_defaults(run=commands.modes)
 
+    dynamics = sub.add_parser("dynamics-wear", help="wear of bodies in motion against equilibria: where dynamics matters")
+    add_reducer_options(dynamics, positions=False)
+    dynamics.add_argument("--speeds", type=float, nargs="+", default=[0.25, 1.0, 2.0], metavar="TIMES",
+                          help="multiples of the set input speed (default 0.25 1 2); light load and resonance come along")
+    dynamics.add_argument("--hours", type=float, default=200.0, help="operating hours at each point (default 200)")
+    dynamics.add_argument("--cycles", type=int, default=4, help="meshing cycles that stand for them (default 4)")
+    dynamics.add_argument("--limit", type=float, default=2.0, help="percent that count as a difference (default 2)")
+    dynamics.add_argument("--output", help="the page (default results/NAME_dynamics.html)")
+    add_json(dynamics)
+    dynamics.set_defaults(run=commands.dynamics_wear)
+
     reproduce = sub.add_parser("reproduce", help="every claim of the sources held against the computation")
     reproduce.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
     reproduce.add_argument("--output", default="results/reproduce.html", help="the page")
@@ -110,7 +121,7 @@ def add_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print figures as JSON, nothing else")
 
 
-def add_reducer_options(command: argparse.ArgumentParser) -> None:
+def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True) -> None:
     command.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
     command.add_argument("--torque", type=float, metavar="NM", help="output torque [N m], opposing the motion")
     command.add_argument("--bearing-clearance", type=float, metavar="UM", help="radial needle clearance [um]")
@@ -122,7 +133,8 @@ def add_reducer_options(command: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE",
         help="any parameter or input, with a unit if it is not SI: --set pin_radius_error[3]=2um",
     )  # fmt: skip
-    command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")
+    if positions:
+        command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")
 
 
 def add_coupling_options(command: argparse.ArgumentParser) -> None:

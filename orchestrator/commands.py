@@ -16,6 +16,8 @@ from orchestrator import results, screen
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
 from orchestrator.component import InProcess
 from orchestrator.duty import load_duty
+from orchestrator.dynamics_wear import as_json as dynamics_as_json
+from orchestrator.dynamics_wear import compare
 from orchestrator.faults import InputFault
 from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, live
@@ -259,6 +261,23 @@ def modes(options: argparse.Namespace) -> int:
         print_json({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
     else:
         screen.modes(f"{reducer.name}: modes under load, input held", found)
+    return 0
+
+
+def dynamics_wear(options: argparse.Namespace) -> int:
+    """``rvwear dynamics-wear``: wear of both fidelities, and where they differ."""
+    from orchestrator.report.dynamics import write_dynamics_page
+
+    reducer = load_reducer(options.reducer)
+    page = Path(options.output or f"results/{reducer.name}_dynamics.html")
+    found = compare(reducer, settings_of(options, reducer), options.speeds, options.hours, options.cycles, options.limit,
+                    lambda text: print(text, file=sys.stderr, flush=True))  # fmt: skip
+    write_dynamics_page(found, page)
+    if options.json:
+        print_json(dynamics_as_json(found) | {"page": str(page)})
+    else:
+        screen.dynamics(found)
+        print(f"page  {page}")
     return 0
 
 

@@ -23,6 +23,11 @@ SURFACES = ("disc_wear", "pin_wear", "pin_even_wear", "inner_race_wear", "outer_
 # What the error estimate looks at: deepest wear of each kind of surface.
 WATCHED = ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")
 
+# Wear added by a jump that its error is relative to, at least, as a share of the depth.
+LEAST_ADDED = 0.01
+# Shortest jump that is cut for its error, as a share of the life: it shall end.
+SHORTEST_SHARE = 0.005
+
 # Harmonics of a profile that place its peak.
 SMOOTH_HARMONICS = 12
 # Points per bin when the peak between bins is looked for.
@@ -122,14 +127,21 @@ def signed_degrees(angle: float) -> float:
 
 
 def run_cycle(pair: Pair, hours: float) -> None:
-    """One full meshing cycle that counts as ``hours``; with a duty, one per segment by its share."""
+    """One full meshing cycle that counts as ``hours``; with a duty, cycles of its segments by their shares.
+
+    Segments really alternate all the time.  Run one after the other, the first would find
+    the surfaces less run in than the last, an error that goes with the hours.  There and
+    back (1 2 3 2 1, the outer ones by halves) all have the same mean age, and it goes with
+    the hours' square.
+    """
     if not pair.duty:
         count_cycle(pair, hours)
         return
-    for segment in pair.duty:
+    *outer, last = pair.duty
+    there = [(segment, 0.5 * segment.share) for segment in outer]
+    for segment, share in [*there, (last, last.share), *reversed(there)]:
         pair.set_operation(segment.speed, segment.torque)
-        count_cycle(pair, hours * segment.share)
-    pair.set_operation(pair.duty[0].speed, pair.duty[0].torque)
+        count_cycle(pair, hours * share)
 
 
 def count_cycle(pair: Pair, hours: float) -> None:
@@ -148,7 +160,7 @@ def depths(pair: Pair) -> np.ndarray:
 def jump(pair: Pair, hours: float) -> float:
     """Advance by ``hours`` in two halves; returns the error of one jump against them.
 
-    The error is relative to the wear added.
+    The error is relative to the wear added, or to a hundredth of the depth if that is more.
     """
     saved, before = pair.master.save(), depths(pair)
     run_cycle(pair, hours)
@@ -158,8 +170,8 @@ def jump(pair: Pair, hours: float) -> float:
     run_cycle(pair, 0.5 * hours)
     halves = depths(pair)
     added = halves - before
-    # Wear below a picometre is rounding, no wear.
-    return float(np.max(np.abs(whole - halves) / np.maximum(added, 1e-6)))
+    # Wear below a picometre is rounding, no wear; a surface that hardly wears on says nothing of the jump.
+    return float(np.max(np.abs(whole - halves) / np.maximum(added, np.maximum(1e-6, LEAST_ADDED * halves))))
 
 
 def controlled_jump(pair: Pair, life: Life, hours: float) -> tuple[float, float, float]:
@@ -169,7 +181,8 @@ def controlled_jump(pair: Pair, life: Life, hours: float) -> tuple[float, float,
     shorter jump is hardly better, the positions per turn limit the accuracy, not the jump:
     it is taken, and its error stands in the result.
     """
-    tolerance, smallest = life.settings.tolerance, life.settings.smallest_jump
+    tolerance = life.settings.tolerance
+    smallest = max(life.settings.smallest_jump, SHORTEST_SHARE * life.settings.hours)
     before = np.inf
     while True:
         saved = pair.master.save()

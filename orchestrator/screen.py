@@ -9,6 +9,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemaini
 from rich.progress import Progress as Bar
 from rich.table import Table
 
+from orchestrator.dynamics_wear import MAPS, VOLUMES, Comparison
 from orchestrator.life import Life
 from orchestrator.modes import Mode
 from orchestrator.results import figure_unit
@@ -121,3 +122,18 @@ def modes(title: str, found: list[Mode]) -> None:
         bodies = ", ".join(f"{body} {100 * share:.0f} %" for body, share in shares if share > 0.02)
         table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", bodies)
     Console().print(table)
+
+
+def dynamics(found: Comparison) -> None:
+    """Change of wear by dynamics at each operating point, in percent."""
+    title = f"{found.reducer}: wear in motion against equilibria, {found.hours:g} h, lowest mode {found.lowest_mode_Hz:.1f} Hz"
+    table = Table(title=title, title_justify="left")
+    table.add_column("point")
+    heads = [name.replace("_", " ") + " %" for name in VOLUMES] + [f"{label} profile %" for label in MAPS.values()]
+    for head in ("teeth pass Hz", *heads, "dynamics"):
+        table.add_column(head, justify="right")
+    for p in found.points:
+        cells = [f"{v:+.2f}" for v in p.volume_change.values()] + [f"{v:.2f}" for v in p.map_difference.values()]
+        table.add_row(p.name, f"{p.passing_Hz:.1f}", *cells, "matters" if p.largest > found.limit else "no matter")
+    Console(width=max(Console().width, 130)).print(table)
+    print(found.sentence())

@@ -106,6 +106,8 @@ def start_motion(r):
     q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
     v[ring + 2] = speed
     settled = settle(r)
+    start_ramp(r)
+    end_ramp(r)
     for i in range(q.shape[0]):
         r.smooth[i] = r.acceleration[i]
     r.drive_speed = r.input_speed
@@ -122,7 +124,8 @@ def start_motion(r):
 def advance(r, duration):
     """Integrate over ``duration`` [s]; True if every step met the tolerance.
 
-    A driven sun goes from the last input speed to the present one along a ramp.
+    A driven sun goes from the last input speed to the present one along a ramp, and so do
+    the profile errors: jumps of them would strike the bodies once a communication step.
     """
     discs = r.roller_force.shape[0]
     carrier, ring = 3 * discs, ring_coordinate(r)
@@ -132,6 +135,7 @@ def advance(r, duration):
     time = 0.0
     r.assemblies = r.substeps = r.rejected = 0
     clear_means(r)
+    start_ramp(r)
     lost = 0.0
     cage_share = r.cage_share * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
     while time < duration * (1.0 - 1e-12):
@@ -148,6 +152,7 @@ def advance(r, duration):
         cage, loss, torque, speed = r.cage, r.dissipation, r.drive_torque, r.v[sun]
         cage_power, load_speed = r.cage_power, r.v[load]
         r.cage = cage + h * (r.v[carrier + 5] - r.v[carrier]) * cage_share
+        ramp_profile_errors(r, (time + h) / duration)
         error = alpha_step(r, h, first_speed + slope * (time + h), slope)
         if not 0.0 <= error <= 1.0:
             back_to_start(r)
@@ -155,6 +160,7 @@ def advance(r, duration):
             r.rejected += 1
             r.internal_step = 0.25 * h if error < 0.0 else next_step_size(r, h, error)
             if r.internal_step < SHORTEST_STEP:
+                end_ramp(r)
                 return False
             continue
         time += h
@@ -171,10 +177,49 @@ def advance(r, duration):
         r.cage_energy += 0.5 * h * (cage_power + r.cage_power)
         if h < left:
             r.internal_step = next_step_size(r, h, error)
+    end_ramp(r)
     r.lost_energy += lost
     r.power_loss = lost / duration if duration > 0.0 else 0.0
     r.drive_speed = r.input_speed
     return True
+
+
+@kernel
+def start_ramp(r):
+    """Keep the profile errors that the step shall end with."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            r.mesh_error_end[d, j] = r.mesh_profile_error[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_error_end[d, c, k] = r.roller_profile_error[d, c, k]
+
+
+@kernel
+def ramp_profile_errors(r, share):
+    """Profile errors at a share of the way from the last communication point to the next."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            start = r.mesh_error_start[d, j]
+            r.mesh_profile_error[d, j] = start + share * (r.mesh_error_end[d, j] - start)
+        for c in range(cranks):
+            for k in range(rollers):
+                start = r.roller_error_start[d, c, k]
+                r.roller_profile_error[d, c, k] = start + share * (r.roller_error_end[d, c, k] - start)
+
+
+@kernel
+def end_ramp(r):
+    """The inputs as they were given; the next ramp starts from them."""
+    discs, cranks, rollers = r.roller_force.shape
+    for d in range(discs):
+        for j in range(r.mesh_force.shape[1]):
+            r.mesh_profile_error[d, j] = r.mesh_error_start[d, j] = r.mesh_error_end[d, j]
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_profile_error[d, c, k] = r.roller_error_start[d, c, k] = r.roller_error_end[d, c, k]
 
 
 @kernel

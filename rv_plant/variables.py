@@ -237,6 +237,8 @@ def plant_table(topology: Topology) -> Table:
         state("mass", "1", "mass or inertia of each coordinate", (z + 2,), ("coordinate",)),
         state("length_scale", "1", "small change of each coordinate", (z + 2,), ("coordinate",)),
         state("multiplier", "N", "forces of the joints' constraints (moments in N m)", (m,), ("constraint",)),
+        state("mesh_error_start", "m", "profile error at the last communication point", mesh, mesh_axes),
+        state("roller_error_start", "m", "profile error at the last communication point", roller, roller_axes),
         state("drive_speed", "rad/s", "input speed at the last communication point"),
         state("internal_step", "s", "next step of the integrator"),
         state("mesh_force_before", "N", "force one internal step earlier", mesh, mesh_axes),
@@ -275,6 +277,7 @@ def plant_table(topology: Topology) -> Table:
         # Two coordinates more than z in motion: sun and load.
         scratch("residual_vector", (z + 2,)), scratch("tangent", (z + 2, z + 2)), scratch("factor", (z + 2, z + 2)),
         scratch("factor_scale", (z + 2,)), scratch("direction", (z + 2,)),
+        scratch("mesh_error_end", mesh), scratch("roller_error_end", roller),
         scratch("mesh_rate", mesh), scratch("roller_rate", roller), scratch("joint_index", (5,), integer=True),
         scratch("unknown", (z + 2,), integer=True),
         scratch("constraint", (m,)), scratch("constraint_rate", (m,)), scratch("constraint_bias", (m,)),

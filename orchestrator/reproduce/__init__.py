@@ -14,7 +14,7 @@ from pathlib import Path
 
 from orchestrator.faults import InputFault
 from orchestrator.reproduce import (  # noqa: F401  each registers its claims
-    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, literature_claims,
+    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, individuality_claims, literature_claims,
     pin_wear_claims, pressure_claims, raceway_claims, raceway_law_claims, sliding_claims, stiffness_claims,
 )  # fmt: skip
 from orchestrator.reproduce.claim import REGISTRY, Claim
@@ -27,7 +27,7 @@ __all__ = ["Claim", "as_json", "available_claims", "print_table", "run", "write_
 
 def available_claims() -> list[str]:
     """The ids of all claims."""
-    return sorted(REGISTRY, key=lambda name: ("TNLC".index(name[0]), name))
+    return sorted(REGISTRY, key=lambda name: ("TNLCI".index(name[0]), name))
 
 
 def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None) -> list[Claim]:

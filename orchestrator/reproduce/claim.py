@@ -24,7 +24,8 @@ TOOTH = "tooth-profile document (BX-40E)"
 NEEDLE = "needle-bearing document (RV20E-121)"
 LITERATURE = "later literature"
 CATALOGUE = "catalogue"
-SOURCES = (TOOTH, NEEDLE, LITERATURE, CATALOGUE)
+INDIVIDUALITY = "individuality of parts"
+SOURCES = (TOOTH, NEEDLE, LITERATURE, CATALOGUE, INDIVIDUALITY)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
     material missing on lobe l of disc d   A1 cos(lambda - d1) + A2 cos 2(lambda - d2)
     pitch error                            s w_ld
 
-with lambda = 2 pi l/z_c + p pi d: p = 0 for discs ground as a pair (the same error on both
+with lambda the angle of the lobe's tip in the disc, 2 pi (l + 1/2 - d/discs)/z_c + p pi d: p = 0 for discs ground as a pair (the same error on both
 after marking), 1 for an opposed pair.
 
 Source: geometry; 3 to 5 um is usual for ground discs.
@@ -18,7 +18,7 @@ from rv_plant.effects.pin_position_errors import scatter
 UM = 1e-6
 EFFECT = Effect(
     8, "disc tooth and pitch errors",
-    "e_l = A1 cos(lambda - d1) + A2 cos 2(lambda - d2), pitch s w_l; lambda = 2 pi l/z_c + p pi d",
+    "e_l = A1 cos(lambda - d1) + A2 cos 2(lambda - d2), pitch s w_l; lambda = 2 pi (l + 1/2 - d/discs)/z_c + p pi d",
     "geometry; sizes: ground discs, 3 to 5 um",
     "fixed to the carrier: order 40 for unpaired discs, 80 only for a pair ground together; does not move when"
     " the ring is clamped anew",
@@ -39,7 +39,8 @@ def prepare(r):
     discs, lobes = r.lobe_gap_added.shape
     for d in range(discs):
         for lobe in range(lobes):
-            place = 2.0 * math.pi * lobe / lobes + math.pi * r.disc_pairing * d
+            # The profiles are cut turned against each other, errors of a pair are not.
+            place = 2.0 * math.pi * (lobe + 0.5 - d / discs) / lobes + math.pi * r.disc_pairing * d
             r.lobe_gap_added[d, lobe] += r.disc_runout * math.cos(place - r.disc_runout_angle) + r.disc_ovality * math.cos(
                 2.0 * (place - r.disc_ovality_angle)
             )

@@ -5,7 +5,8 @@ Along the line of action the flanks lack
     g_c = E cos(z1 psi) + R_s cos(psi - 2 pi c/n) + R_p cos(psi/i1) for planet 1
 
 with psi the sun's turning against the carrier; a crank falls back by g/(r2 cos alpha), the output by that
-over z_c; play b adds b/2 on either flank.
+over z_c; play b adds b/2 on either flank.  With planets evenly spread, what a sun off centre takes from
+one planet it gives to the others: it moves load between the cranks, and the output hardly.
 
 Source: geometry; 10 to 20 um pitch error, 30 to 80 um play in spur first stages.
 """
@@ -22,8 +23,8 @@ EFFECT = Effect(
     15, "first-stage gear error and backlash",
     "g_c = E cos(z1 psi) + R_s cos(psi - 2 pi c/n) + R_p cos(psi/i1); play b/2 on either flank",
     "geometry of the spur stage; 10 to 20 um, play 30 to 80 um",
-    "orders 120 and 121 (sun), 1440 (mesh, 12 teeth), 40 (planet), with side bands; a fortieth at the output,"
-    " the whole at the input; constant with load; play: lost motion at reversal",
+    "orders 1440 (mesh, 12 teeth) and 40 (planet) at the output, reduced by the second stage, whatever the load;"
+    " sun: order 120 in the cranks' shares of the load, which cancels at the output; play: lost motion at reversal",
     (
         amplitude("tooth_error", "m", "profile error of the first stage, amplitude at mesh order", 5 * UM, -100 * UM, 100 * UM,
                   source="ideal part", group="mesh"),

@@ -1,8 +1,8 @@
 """Grease that ages: base oil leaves, viscosity and supply change with the hours run.
 
-    nu(t)/nu(0) = exp(g t/t_a), supply s(t) = exp(-t/t_a) once the effect is on
+    nu(t)/nu(0) = exp(g t/t_a)
 
-In the plant: drag follows the viscosity.  In the wear unit: film and supply.
+In the plant: churning follows the viscosity.  In the wear unit: wear grows as contacts starve.
 
 Source: grease life of reducers, 2000 to 20000 h between changes.
 """

@@ -1,9 +1,10 @@
 """Raceways that are already worn: a smooth hollow on the loaded side of either race.
 
-    inner: depth = D_i max(0, cos(theta - 90 deg))^2 from the lobe's eccentric direction
-    outer: depth = D_o max(0, cos(theta - 90 deg))^2 from the hole's outward radial
+    inner: depth = D_i max(0, -sin theta)^2, theta from the lobe's eccentric direction
+    outer: depth = D_o max(0, -sin theta)^2, theta from the hole's outward radial
 
-The side is that of positive load.  It stands for wear before the campaign, or where no wear unit is connected.
+The side is that of positive load: discs push the cranks forwards, so that lobe and hole touch behind,
+at 270 degrees.  It stands for wear before the campaign, or where no wear unit is connected.
 
 Source: shape of the wear unit's own result (Archard, Janakiraman); 0 to 15 um.
 """
@@ -17,7 +18,7 @@ from rv_plant.poses import disc_offset
 UM = 1e-6
 EFFECT = Effect(
     11, "raceway wear",
-    "depth = D max(0, cos(theta - 90 deg))^2 on inner and outer races",
+    "depth = D max(0, -sin theta)^2 on inner and outer races",
     "the wear unit's own result; 0 to 15 um",
     "lost motion and mean lag grow, on one sign of torque; order 80 hardly grows or falls (clearance raises it)",
     (
@@ -31,7 +32,7 @@ EFFECT = Effect(
 @kernel
 def hollow(angle):
     s = math.sin(angle)
-    return s * s if s > 0.0 else 0.0
+    return s * s if s < 0.0 else 0.0
 
 
 @kernel

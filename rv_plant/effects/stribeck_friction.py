@@ -6,7 +6,8 @@
 Loss shows at the input: torque + loss/omega.  With the input held, the contacts stick and slip
 under the output's torque.  N parallel elastic-slip elements (Jenkins, Iwan 1966) carry at
 most T_s = (mu_c + mu_s) sum F |arm| together and yield one after the other at theta_i = 2 theta_p i/N: the loop
-follows Masing's rules and closes.
+follows Masing's rules and closes.  Their stiffness goes with the contact forces: where it grows an element keeps
+its force, where it falls its stretch, so that a change of load gives no energy away.
 
 Source: Stribeck form after Armstrong-Helouvry 1991; mu 0.04 to 0.12, v_s 5 to 50 mm/s.
 """
@@ -46,6 +47,7 @@ EFFECT = Effect(
 @kernel
 def before(r):
     """What friction can hold at the output, from the last contact forces."""
+    last = r.friction_torque
     r.friction_torque = 0.0
     if r.fidelity != 0 or r.input_speed != 0.0 or r.friction_coefficient + r.friction_excess == 0.0:
         return
@@ -63,6 +65,10 @@ def before(r):
                 arm = r.pin_circle_radius * root + r.eccentricity * lobes * (c - k1) / root - r.pin_radius
                 held += force * abs(arm)
     r.friction_torque = (r.friction_coefficient + r.friction_excess) * held
+    if r.friction_torque > last:
+        carrier = 3 * discs
+        for i in range(ELEMENTS):
+            r.slider[i] = r.z[carrier] - (r.z[carrier] - r.slider[i]) * last / r.friction_torque
 
 
 @kernel
