@@ -111,6 +111,12 @@ def parser() -> argparse.ArgumentParser:
     report.add_argument("result", help="result file of rvwear life (.nc)")
     report.add_argument("--output", help="report file (default beside the result)")
     report.set_defaults(run=commands.report)
+    # The loop of comparison and diagnosis stands above the orchestrator.
+    from discrepancy.campaign.commands import add_campaign
+    from discrepancy.commands import add_loop
+
+    add_campaign(sub)
+    add_loop(sub)
     return top
 
 

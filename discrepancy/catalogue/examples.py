@@ -23,8 +23,8 @@ class Case:
 CASES: dict[str, tuple[Case, ...]] = {
     "running_in": (Case("5 times the wear when new, 200 h", {"running_in_excess": 4.0, "running_in_time": 200 * HOUR}),),
     "debris_abrasion": (
-        Case("gain 10 at 0.1 % iron", {"debris_gain": 10.0}),
-        Case("the same, grease changed every 2,500 h", {"debris_gain": 10.0, "grease_change": 2500 * HOUR}),
+        Case("gain 1 at 0.1 % iron", {"debris_gain": 1.0}),
+        Case("the same, grease changed every 1,000 h", {"debris_gain": 1.0, "grease_change": 1000 * HOUR}),
     ),
     "lubrication_regime": (Case("a thick film spares 90 %", {"film_share": 0.9, "film_lambda": 0.2}),),
     "stribeck_friction": (
@@ -112,7 +112,7 @@ PICTURES = {
     "stribeck_friction": "torque", "drag": "torque", "thermal_expansion": "loop", "profile_modification": "loop",
     "support_compliance": "loop", "raceway_wear": "loop", "load_exponent": "load_wear", "hardness_gradient": "hours",
     "edge_loading": "load_wear", "roller_skidding": "cage", "pin_rotation": "pin_print", "unbalance": "housing",
-    "race_spall": "burst",
+    "race_spall": "burst", "sensor_gain": "trace", "sensor_offset": "trace", "sensor_drift": "trace",
 }  # fmt: skip
 
 

@@ -47,7 +47,7 @@ class Row:
 
     def is_visible(self) -> bool:
         """More than half a percent, and more than rounding."""
-        floor = {"arcsec": 0.05, "N": 0.05, "N m": 1e-4, "um": 1e-4, "K": 0.01}.get(self.unit, 1e-6)
+        floor = {"arcsec": 0.1, "N": 0.1, "N m": 1e-4, "um": 1e-4, "K": 0.01}.get(self.unit, 1e-6)
         return abs(self.change) > max(0.005 * abs(self.without), floor)
 
 
@@ -128,22 +128,22 @@ def cage_order(bench: Bench, condition: Condition, values: Mapping[str, float]) 
 
 
 def depths(wear: np.ndarray) -> dict[str, float]:
-    """Deepest wear [m] of each kind of surface, the mean over equal parts."""
+    """Deepest wear [m] of each kind of surface: the worst disc's mean lobe, the mean pin, the worst race."""
     w = wear[0]
     discs = w["disc_wear"].shape[0]
     lobes = w["disc_wear"].reshape(discs, -1, w["slide"].shape[0]).mean(axis=1)
     pins = (w["pin_wear"] + w["pin_even_wear"][..., None]).sum(axis=0).mean(axis=0)
-    found = {"flank": float(peak_of_circle(lobes).mean()), "pin": float(pins.max())}
+    found = {"flank": float(peak_of_circle(lobes)[0]), "pin": float(pins.max())}
     for surface in ("inner_race", "outer_race"):
         races = w[f"{surface}_wear"].reshape(-1, w[f"{surface}_wear"].shape[-1])
-        found[surface] = float(peak_of_circle(races).mean())
+        found[surface] = float(peak_of_circle(races)[0])
     return found
 
 
 def worn(bench: Bench, condition: Condition, values: Mapping[str, float], hours: float = WEAR_HOURS) -> dict[str, float]:
     """Depths [um] after as many turns as ``hours`` have at rated speed."""
     time = hours * HOUR * bench.rated_speed / condition.speed
-    return {k: v * MICRO for k, v in depths(bench.wear_to(condition, values, [time])[time]).items()}
+    return {k: v * MICRO for k, v in depths(bench.worn(condition, values, time)).items()}
 
 
 # figure: (unit, conditions, factor to the unit, function).
@@ -234,14 +234,24 @@ def tilt(series: np.ndarray) -> float:
     return float(np.polyfit(np.linspace(0.0, 1.0, len(series)), series, 1)[0])
 
 
-def words(found: Signature, most: int = 12) -> list[str]:
-    """The visible changes in words; the largest for their kind first, in the order of the figures."""
+def largest(found: Signature, most: int = 12) -> list[Row]:
+    """The visible rows that say most, in the order of the figures."""
+    def weight(row: Row) -> float:
+        # A small amplitude must not count only because there was none.
+        plain = {"arcsec": 2.0, "N": 20.0}.get(row.unit, 0.0)
+        return abs(row.change) / max(abs(row.without), plain, 1e-9)
+
     visible = [r for r in found.rows if r.is_visible()]
-    if len(visible) > most:
-        ranked = sorted(visible, key=lambda r: -abs(r.change) / max(abs(r.without), {"arcsec": 1.0, "N": 1.0}.get(r.unit, abs(r.change))))
-        kept = set(map(id, ranked[:most]))
-        visible = [r for r in visible if id(r) in kept]
-    return [f"{r.figure} ({r.condition}) {number(r.without)} -> {number(r.present)} {r.unit if r.unit != '1' else ''}".strip() for r in visible]
+    kept = {id(r) for r in sorted(visible, key=lambda r: -weight(r))[:most]}
+    return [r for r in visible if id(r) in kept]
+
+
+def words(found: Signature, most: int = 12) -> list[str]:
+    """The largest changes in words."""
+    return [
+        f"{r.figure} ({r.condition}) {number(r.without)} -> {number(r.present)} {r.unit if r.unit != '1' else ''}".strip()
+        for r in largest(found, most)
+    ]  # fmt: skip
 
 
 def number(value: float) -> str:

@@ -107,7 +107,11 @@ def _numbers(records, residuals, predictions, masks, indices):
         constant = _variance(values, shares)
         relative = _variance(values / reference, shares)
         gain = np.sum(shares * (np.log(constant) - np.log(relative * reference**2)))
-        proportional = bool(everything.max() > 3 * floor / 0.02 * 0.7 and gain > 4 and relative > 0)
+        varied = everything.max() > 2 * np.median(everything)
+        proportional = bool(varied and relative > 0 and gain > -15)
+        if proportional and gain < 5:
+            # too few replicates to tell: the larger of both holds for each number
+            floor = max(floor, float(np.sqrt(constant / relative)))
         variance = relative if proportional else constant
         scale, source, note, known = np.sqrt(variance), "replicates", "", dof
         tiny = 1e-9 * (1.0 if proportional else np.max(everything))

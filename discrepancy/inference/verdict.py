@@ -14,11 +14,11 @@ UNKNOWN = "unknown"
 class Settings:
     """Thresholds.  Levels are for all tests of one kind together."""
 
-    screen_level: float = 0.006
-    localise_level: float = 0.003
-    naming_level: float = 0.03
-    leftover_level: float = 0.003
-    second_level: float = 0.002
+    screen_level: float = 0.002
+    localise_level: float = 0.0008
+    naming_level: float = 0.02
+    leftover_level: float = 0.0015
+    second_level: float = 0.001
     captured: float = 0.70
     second_gain: float = 0.10
     margin: float = 6.0

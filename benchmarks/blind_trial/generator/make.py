@@ -1,0 +1,144 @@
+"""One campaign from a seed and a kind: drawn, scaled to its d', written, sealed."""
+
+import copy
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.blind_trial.generator.designs import Design, make_design
+from benchmarks.blind_trial.generator.faults import FAULTS, faulty
+from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
+from benchmarks.blind_trial.generator.laws import CATALOGUE
+from benchmarks.blind_trial.generator.noise import round_to
+from benchmarks.blind_trial.generator.outside import OUTSIDE
+from benchmarks.blind_trial.generator.strength import Ruler
+from benchmarks.blind_trial.generator.truth import Bench, Truth
+
+LAWS: dict[str, type[Truth]] = {law.name: law for law in CATALOGUE + OUTSIDE}
+TRUE_PARAMETERS = {"mesh_wear_coefficient": 5e-9, "roughness": 0.4e-6, "mesh_stiffness": 3.2e5}
+# Noise may be this much lower or higher than drawn to meet d'.
+NOISE_RANGE = (0.35, 2.8)
+ATTEMPTS = 6
+
+
+@dataclass(frozen=True)
+class Task:
+    """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design."""
+
+    number: int
+    seed: int
+    kind: str
+    laws: tuple[str, ...] = ()
+    strength: float = 0.0
+    size: str = "middle"
+    fault: str = ""
+
+    @property
+    def name(self) -> str:
+        return f"campaign_{self.number:05d}"
+
+
+class CannotMake(Exception):
+    """The strength cannot be met within the physical range of law and noise."""
+
+
+def make(task: Task, folder: Path, sealed: Path) -> dict:
+    """Writes ``folder``/NAME and ``sealed``/NAME.json; returns the truth with its seal."""
+    for attempt in range(ATTEMPTS):
+        try:
+            return attempt_to_make(task, folder, sealed, np.random.default_rng([task.seed, attempt]))
+        except CannotMake:
+            continue
+    raise CannotMake(f"{task}: d' not met in {ATTEMPTS} attempts")
+
+
+def attempt_to_make(task: Task, folder: Path, sealed: Path, rng: np.random.Generator) -> dict:
+    truths = [LAWS[name](rng) for name in task.laws]
+    design = make_design(rng, blocks_for(rng, task, truths), task.size)
+    parameters = true_parameters(rng, task, design)
+    bench = Bench(parameters)
+    sizes = []
+    if truths:
+        ruler = Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench)
+        for k, truth in enumerate(truths):
+            factor = ruler.set_strength(truth, task.strength)
+            if len(truths) == 1 and abs(factor - 1.0) > 0.04:
+                if not NOISE_RANGE[0] < factor < NOISE_RANGE[1]:
+                    raise CannotMake(task.laws[k])
+                for s in design.series:
+                    s.noise = s.noise.scaled(factor)
+                factor = Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench).size([truth]) / task.strength
+            if not 0.9 < factor < 1.1:
+                raise CannotMake(task.laws[k])
+            sizes.append(factor * task.strength)
+    runs = measure(rng, design, bench, truths)
+    done = faulty(rng, task.fault, str(rng.choice(sorted(design.quantities()))), runs) if task.fault else ""
+    for run in runs:
+        run["values"] = round_to(run["values"], run["series"].noise.quantum)
+    truth = {
+        "campaign": task.name, "kind": task.kind, "effects": [t.effect for t in truths], "laws": [t.facts() for t in truths],
+        "strength": task.strength, "d_prime": sizes, "fault": done, "base": parameters, "size": task.size,
+        "acceptable": sorted({name for t in truths for name in t.acceptable}), "seed": task.seed,
+        "noise": {s.quantity: vars(s.noise) for s in design.series}, "samples": int(sum(len(r["values"]) for r in runs)),
+        "conditions": len(design.conditions), "held_out": sorted(design.held_out),
+        # The seal cannot be guessed by trying all truths.
+        "salt": rng.bytes(16).hex(),
+    }  # fmt: skip
+    text, seal = seal_of(truth)
+    sealed.mkdir(parents=True, exist_ok=True)
+    (sealed / f"{task.name}.json").write_text(text, encoding="utf-8")
+    write_campaign(folder / task.name, task.name, design, runs, seal)
+    return {**truth, "seal": seal}
+
+
+def blocks_for(rng, task: Task, truths: list[Truth]) -> list[str]:
+    """Blocks that show the laws, and one that has nothing to do with them."""
+    blocks = list(dict.fromkeys(b for t in truths for b in t.blocks))
+    # The first block of a law shows it; further ones come by chance, except prints, which need their lives.
+    if len(truths) == 1 and len(blocks) > 1 and "prints" not in blocks and rng.random() < 0.5:
+        blocks = blocks[:1]
+    if task.size == "small":
+        return blocks or [str(rng.choice(["te", "loops", "torque", "cage"]))]
+    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks]
+    odds = np.array([0.25, 0.25, 0.3, 0.1, 0.05 if blocks else 0.15, 0.05])[[("te", "loops", "torque", "cage", "wear", "vibration").index(b) for b in others]]
+    count = 1 if blocks else int(rng.integers(1, 4))
+    extra = [str(b) for b in rng.choice(others, count, replace=False, p=odds / odds.sum())]
+    return blocks + (extra if not blocks or rng.random() < 0.5 else [])
+
+
+def true_parameters(rng, task: Task, design: Design) -> dict[str, float]:
+    """True values of what may be calibrated; a wrong base also has contacts that nobody declared."""
+    found = {}
+    for name, entry in design.nuisances.items():
+        unit = 1e-6 if entry["unit"] == "um" else 1.0
+        found[name] = float(unit * np.clip(entry["start"] + entry["prior"] * rng.normal(0.0, 0.8), 1.1 * entry["lower"], 0.95 * entry["upper"]))
+    if task.kind == "wrong base":
+        found["roller_stiffness"] = float(5.1e5 * np.exp(rng.choice([-1, 1]) * rng.uniform(0.15, 0.35)))
+    return found
+
+
+def measure(rng, design: Design, bench: Bench, truths: list[Truth]) -> list[dict]:
+    """Runs with noise; every replicate starts with the cages somewhere else."""
+    runs, kept = [], {}
+    for number, s in enumerate(design.series):
+        for k in range(s.replicates):
+            axes = copy.deepcopy(s.axes)
+            turning = design.turning_cage and s.quantity == "transmission_error"
+            cage = float(rng.uniform(0.0, 6.28)) if turning else 0.3
+            if design.uneven and "angle" in axes:
+                step = axes["angle"][1] - axes["angle"][0]
+                axes["angle"] = np.sort(axes["angle"] + rng.uniform(-0.35, 0.35, len(axes["angle"])) * step)
+            key = (number, cage, design.uneven and k)
+            if key not in kept:
+                kept[key] = bench.values(s, truths, cage, k, axes)
+            y = kept[key]
+            zero = design.zeros.get(design.mounting.get(s.condition, ""), 0.0)
+            if zero and "angle" in axes:
+                axes["angle"] = axes["angle"] - zero
+            values = y + s.noise.draw(rng, y)
+            tag = "_".join(w for w in (s.tags.get("surface", ""),) if w)
+            words = {"transmission_error": "te", "hysteresis": "loop", "input_torque": "torque", "vibration_order": "vib"}
+            runs.append({"id": f"{s.condition}_{words.get(s.quantity, s.quantity)}{'_' + tag if tag else ''}_{k + 1}", "series": s,
+                         "replicate": k + 1, "axes": axes, "values": values})
+    return runs

@@ -1,0 +1,54 @@
+"""The list of all effects: those of plant, wear unit and measuring chain, by number."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from discrepancy.catalogue.examples import Case, cases, part_of
+from discrepancy.effects import EFFECTS as CHAIN
+from discrepancy.model_file import every_effect
+from fmu_src.effect import Effect, EffectParameter
+from orchestrator.faults import InputFault
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An effect with its name, where it acts, and the strengths it is shown at."""
+
+    name: str
+    effect: Effect
+    part: str
+    cases: tuple[Case, ...]
+
+    @property
+    def number(self) -> str:
+        """Its number in the physics audit; the measuring chain's own have none."""
+        return str(self.effect.number) if self.effect.number else "-"
+
+    def as_json(self) -> dict:
+        e = self.effect
+        return {
+            "name": self.name, "number": e.number, "title": e.title, "part": self.part, "law": e.law, "source": e.source,
+            "signature": e.signature, "signals": list(e.signals), "parameters": [parameter_json(p) for p in e.parameters],
+        }  # fmt: skip
+
+
+def parameter_json(p: EffectParameter) -> dict:
+    v = p.variable
+    return {
+        "name": v.name, "kind": p.kind, "unit": v.unit, "off": float(v.start), "minimum": v.minimum, "maximum": v.maximum,
+        "description": v.description, "source": v.source,
+    }  # fmt: skip
+
+
+def entries() -> list[Entry]:
+    """All effects; sensors' own last."""
+    found: Mapping[str, Effect] = every_effect() | CHAIN
+    listed = [Entry(name, effect, part_of(name), cases(name, effect)) for name, effect in found.items()]
+    return sorted(listed, key=lambda e: (e.effect.number == 0, e.effect.number, e.name))
+
+
+def entry(name: str) -> Entry:
+    for found in entries():
+        if name in (found.name, found.number) and name != "-":
+            return found
+    raise InputFault(f"no effect {name!r}; rvwear effects lists them")

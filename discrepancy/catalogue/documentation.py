@@ -1,0 +1,66 @@
+"""The page docs/effects.md: every effect with its law, parameters, and computed signature.
+
+    python -m discrepancy.catalogue.documentation
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from discrepancy.campaign.documentation import table
+from discrepancy.catalogue.catalogue import Entry, entries
+from discrepancy.catalogue.signature import Signature, largest, new_bench, number, signature
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "effects.md"
+COMPUTED = "**Computed**"
+# Rows of a table; the rest is in ``rvwear effects NAME``.
+MOST_ROWS = 10
+HEAD = """# Effects
+
+Made by `python -m discrepancy.catalogue.documentation`. What a real reducer and its sensors may do beyond the ideal
+model: one file each, compiled into the units, off by default (then figures are the same to the last bit).
+*Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121 (quasi-static, radial
+needle clearance 2.5 um, rated 167 N m at 2000 rpm): figure without and with the effect, the largest changes first
+in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
+turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
+"""
+
+
+def static_part(entry: Entry) -> str:
+    """Title, law, source, expectation and parameters."""
+    e = entry.effect
+    parameters = [
+        (f"`{p.variable.name}`", p.kind, p.variable.unit, f"{float(p.variable.start):g}",
+         f"{p.variable.minimum:g} to {p.variable.maximum:g}", p.variable.description)
+        for p in e.parameters
+    ]  # fmt: skip
+    heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
+    return "\n".join((
+        f"## {entry.number}. {e.title}" if e.number else f"## {e.title}", "",
+        f"`{entry.name}`, acts in the {entry.part}.", "", f"**Law:** {e.law}", "", f"**Source:** {e.source}", "",
+        f"**Expected:** {e.signature}", "", table(heads, parameters),
+    ))  # fmt: skip
+
+
+def computed_part(found: list[Signature]) -> str:
+    """One table per case."""
+    parts = []
+    for s in found:
+        rows = [(r.figure, r.condition, number(r.without), number(r.present), "" if r.unit == "1" else r.unit)
+                for r in largest(s, MOST_ROWS)]
+        shown = table(("figure", "condition", "without", "with", "unit"), rows) if rows else "nothing that the bench measures changes\n"
+        parts.append(f"{COMPUTED}, {s.case.title}:\n\n{shown}")
+    return "\n".join(parts)
+
+
+def page(found: Mapping[str, list[Signature]]) -> str:
+    return "\n".join((HEAD, *(f"{static_part(e)}\n{computed_part(found[e.name])}" for e in entries())))
+
+
+def main() -> None:
+    bench = new_bench()
+    found = {e.name: [signature(bench, e.name, case) for case in e.cases] for e in entries()}
+    PAGE.write_text(page(found), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

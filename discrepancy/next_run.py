@@ -1,0 +1,142 @@
+"""Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
+
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign, Rig
+from discrepancy.inference.next_experiment import Experiment, NextExperiment, next_experiment, rival_of
+from discrepancy.inference.series import stream_of
+from discrepancy.inference.verdict import Settings
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import Record
+from discrepancy.verdict import Answer, diagnose
+
+HOUR = 3600.0
+# Quantities whose condition has these factors; the others are taken with the input held.
+RUNNING = {"transmission_error", "input_torque", "efficiency", "vibration_order", "cage_speed", "no_load_torque"}
+AGED = {"wear_depth", "wear_profile", "mass_loss", "debris_iron"}
+LEVELS = 3
+ANGLES = 400
+MOST_RIVALS = 4
+# Several runs of a proposed experiment are averaged.
+REPEATS = 2
+
+
+@dataclass(frozen=True)
+class NextRun:
+    """``proposals`` best first; ``rivals`` are what they separate."""
+
+    answer: Answer
+    result: NextExperiment | None
+    rivals: list[str]
+    verdict: str
+
+    def as_json(self) -> dict:
+        plain = self.result.to_dict() if self.result else {"separable": None, "proposals": [], "at_stake": {}}
+        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict}
+
+
+def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings()) -> NextRun:
+    """Diagnose, and propose what to measure next."""
+    answer = diagnose(file, campaign, settings)
+    fits = answer.diagnosis.fits
+    members = list(fits["members"]) or list(fits["rivals"])[:MOST_RIVALS]
+    names: dict[str, object] = {}
+    for member in members:
+        # Variants of one effect need no separation: the effect is known.
+        names.setdefault(member.name.partition(".")[0], member)
+    if len(names) < 2:
+        known = next(iter(names), None)
+        text = f"nothing is left to separate: {known} stands alone" if known else "nothing is left to separate: no effect was found"
+        return NextRun(answer, None, list(names), text)
+    chosen = list(names.values())[:MOST_RIVALS]
+    least = min(member.fit.chi2 for member in chosen)
+    rivals = [rival_of(member, None, least) for member in chosen]
+    experiments = possible(answer.model, campaign, fits["space"])
+
+    def predict(rival, values, experiment) -> np.ndarray:
+        return answer.model.one(experiment.settings["record"], {**answer.model.zeros, **values})
+
+    shown = [replace(e, settings={k: v for k, v in e.settings.items() if k != "record"}) for e in experiments]
+    result = next_experiment(predict, experiments, rivals, interests=experiments[:1])
+    plain = {e.name: e.settings for e in shown}
+    result = replace(result, proposals=[replace(p, settings=plain[p.experiment]) for p in result.proposals])
+    return NextRun(answer, result, [r.name for r in rivals], result.verdict)
+
+
+def possible(model: PhysicalModel, campaign: Campaign, space) -> list[Experiment]:
+    """Every experiment of a grid over what the rig can set and measure."""
+    rig = campaign.rig
+    signals = {stream_of(r): r for r in model.records}
+    measured = set(rig.quantities) if rig and rig.quantities else {r.quantity for r in model.records}
+    found = []
+    for signal, example in signals.items():
+        if example.quantity not in measured:
+            continue
+        stream = space.noise.streams.get(signal) or next(iter(space.noise.streams.values()))
+        for condition in conditions(example, model, rig, campaign):
+            record = blank(example, condition)
+            hours = condition.get("hours", 0.0) if example.quantity in AGED else 0.0
+            run_cost, hour_cost = (rig.cost_per_run, rig.cost_per_hour) if rig else (1.0, 0.01)
+            cost = REPEATS * run_cost + hour_cost * hours / HOUR
+            found.append(Experiment(
+                f"{signal} at {describe(condition)}", cost, stream.scale / np.sqrt(REPEATS) * correlation_loss(stream, record),
+                settings={**condition, "record": record},
+            ))  # fmt: skip
+    return found
+
+
+def correlation_loss(stream, record: Record) -> float:
+    """How much worse correlated samples average than independent ones."""
+    if "angle" not in record.axes or not stream.length:
+        return 1.0
+    spacing = float(np.median(np.abs(np.diff(record.axes["angle"]))))
+    return float(np.sqrt(1.0 + 2.0 * (1.0 - stream.nugget) * stream.length / max(spacing, 1e-12)))
+
+
+def conditions(example: Record, model: PhysicalModel, rig: Rig | None, campaign: Campaign) -> list[dict[str, float]]:
+    """Corners and middles of what can be set, for this quantity."""
+    names = ["temperature"]
+    if example.quantity in RUNNING | AGED:
+        names = ["speed", "load", "temperature"]
+    if example.quantity in AGED:
+        names.append("hours")
+    levels = []
+    for name in names:
+        low, high = limits(name, model, rig, campaign)
+        levels.append([low] if high <= low else list(np.linspace(low, high, LEVELS)))
+    return [dict(zip(names, map(float, values))) for values in product(*levels)]
+
+
+def limits(name: str, model: PhysicalModel, rig: Rig | None, campaign: Campaign) -> tuple[float, float]:
+    """The rig's range of a factor, or that of the campaign's own conditions."""
+    if rig and name in rig.ranges:
+        return rig.ranges[name]
+    seen = [c.factors[name] for c in campaign.conditions.values() if name in c.factors]
+    seen += [float(v) for r in model.records for v in np.atleast_1d(r.axes.get(name, r.factors.get(name, np.nan))) if np.isfinite(v)]
+    if seen:
+        return min(seen), max(seen)
+    return {"speed": model.bench.rated_speed, "load": model.bench.rated_load, "temperature": 293.15, "hours": 1000.0 * HOUR}[name], 0.0
+
+
+def blank(example: Record, condition: dict[str, float]) -> Record:
+    """A record of that quantity at another condition, with nothing measured yet."""
+    axes = {}
+    if "angle" in example.axes and example.quantity == "transmission_error":
+        axes = {"angle": np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)}
+    elif example.quantity in ("hysteresis", "wear_profile", "vibration_order"):
+        axes = {k: v for k, v in example.axes.items() if k in ("torque", "depth_angle", "order")}
+    size = len(next(iter(axes.values()))) if axes else 1
+    factors = {**example.factors, **condition}
+    return replace(example, name="proposed", values=np.zeros(size), axes=axes, factors=factors, held_out=False)
+
+
+def describe(condition: dict[str, float]) -> str:
+    texts = {
+        "speed": lambda v: f"{v * 60.0 / (2.0 * np.pi):.0f} rpm", "load": lambda v: f"{v:.0f} N m",
+        "temperature": lambda v: f"{v - 273.15:.0f} degC", "hours": lambda v: f"{v / HOUR:.0f} h",
+    }  # fmt: skip
+    return ", ".join(texts[k](v) for k, v in condition.items())
