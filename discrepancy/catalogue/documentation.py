@@ -8,12 +8,13 @@ from pathlib import Path
 
 from discrepancy.campaign.documentation import table
 from discrepancy.catalogue.catalogue import Entry, entries
-from discrepancy.catalogue.signature import Signature, largest, new_bench, number, signature
+from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_bench, number, signature
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "effects.md"
 COMPUTED = "**Computed**"
 # Rows of a table; the rest is in ``rvwear effects NAME``.
 MOST_ROWS = 10
+DEPTH = " depth"
 HEAD = """# Effects
 
 Made by `python -m discrepancy.catalogue.documentation`. What a real reducer and its sensors may do beyond the ideal
@@ -41,19 +42,30 @@ def static_part(entry: Entry) -> str:
     ))  # fmt: skip
 
 
-def computed_part(found: list[Signature]) -> str:
-    """One table per case."""
+def computed_part(entry: Entry, found: list[Signature]) -> str:
+    """Per case the figures that change, and for effects of the wear unit how much faster which surface wears."""
     parts = []
     for s in found:
+        wears = "wear" in entry.part
         rows = [(r.figure, r.condition, number(r.without), number(r.present), "" if r.unit == "1" else r.unit)
-                for r in largest(s, MOST_ROWS)]
-        shown = table(("figure", "condition", "without", "with", "unit"), rows) if rows else "nothing that the bench measures changes\n"
-        parts.append(f"{COMPUTED}, {s.case.title}:\n\n{shown}")
+                for r in largest(s, MOST_ROWS, DEPTH if wears else "")]
+        shown = [table(("figure", "condition", "without", "with", "unit"), rows)] if rows else []
+        shown += [wear_table(s)] if wears else []
+        parts.append(f"{COMPUTED}, {s.case.title}:\n\n" + "\n".join(shown or ["nothing that the bench measures changes\n"]))
     return "\n".join(parts)
 
 
+def wear_table(s: Signature) -> str:
+    """Depth with over depth without the effect, by condition and surface."""
+    rows = {}
+    for r in s.rows:
+        if r.figure.endswith(DEPTH):
+            rows.setdefault(r.condition, []).append(f"{r.present / r.without:.2f}")
+    return table(("wear with / without", *(name.replace("_", " ") for name in SURFACES)), [(c, *ratios) for c, ratios in rows.items()])
+
+
 def page(found: Mapping[str, list[Signature]]) -> str:
-    return "\n".join((HEAD, *(f"{static_part(e)}\n{computed_part(found[e.name])}" for e in entries())))
+    return "\n".join((HEAD, *(f"{static_part(e)}\n{computed_part(e, found[e.name])}" for e in entries())))
 
 
 def main() -> None:

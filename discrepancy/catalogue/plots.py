@@ -31,9 +31,9 @@ def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     """Bars of the transmission error's orders."""
     at, spectra = rated(bench), []
     if name in MODULES:
-        series = turn(bench, at, {}) * ARCSEC
-        spectra = [(WITHOUT, amplitudes(series))]
-        spectra += [(c.title, amplitudes(changed(name, c, "transmission_error", at, series))) for c in cases]
+        series = turn(bench, at, {})
+        spectra = [(WITHOUT, amplitudes(series) * ARCSEC)]
+        spectra += [(c.title, amplitudes(changed(name, c, "transmission_error", at, series)) * ARCSEC) for c in cases]
     else:
         spectra = [(label, amplitudes(turn(bench, at, v) * ARCSEC)) for label, v in versions(name, cases)]
     data = [

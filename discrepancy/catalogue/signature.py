@@ -212,8 +212,9 @@ def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
     """What a sensor makes of the transmission error and of the input torque."""
     rows, at = [], conditions(bench)
     for c in SPECTRUM_AT:
-        series = turn(bench, at[c], {}) * ARCSEC
-        without, present = amplitudes(series), amplitudes(changed(name, case, "transmission_error", at[c], series))
+        series = turn(bench, at[c], {})
+        shown = changed(name, case, "transmission_error", at[c], series)
+        without, present = (ARCSEC * amplitudes(s) for s in (series, shown))
         rows += [Row(f"TE order {o}", "arcsec", c, without[o], present[o]) for o in ORDERS]
     for c in SPECTRUM_AT:
         torque = np.abs(turn(bench, at[c], {}, "drive_torque"))
@@ -234,14 +235,14 @@ def tilt(series: np.ndarray) -> float:
     return float(np.polyfit(np.linspace(0.0, 1.0, len(series)), series, 1)[0])
 
 
-def largest(found: Signature, most: int = 12) -> list[Row]:
-    """The visible rows that say most, in the order of the figures."""
+def largest(found: Signature, most: int = 12, but: str = "") -> list[Row]:
+    """The visible rows that say most, in the order of the figures; without figures that end in ``but``."""
     def weight(row: Row) -> float:
         # A small amplitude must not count only because there was none.
         plain = {"arcsec": 2.0, "N": 20.0}.get(row.unit, 0.0)
         return abs(row.change) / max(abs(row.without), plain, 1e-9)
 
-    visible = [r for r in found.rows if r.is_visible()]
+    visible = [r for r in found.rows if r.is_visible() and not (but and r.figure.endswith(but))]
     kept = {id(r) for r in sorted(visible, key=lambda r: -weight(r))[:most]}
     return [r for r in visible if id(r) in kept]
 

@@ -1,0 +1,47 @@
+"""Which campaigns a trial has: kinds, laws, strengths and sizes in fixed shares, in random order."""
+
+import numpy as np
+
+from benchmarks.blind_trial.generator.faults import FAULTS
+from benchmarks.blind_trial.generator.laws import CATALOGUE
+from benchmarks.blind_trial.generator.make import Task
+from benchmarks.blind_trial.generator.outside import OUTSIDE
+
+STRENGTHS = (4.0, 6.0, 8.0, 12.0, 20.0, 40.0)
+OUTSIDE_STRENGTHS = (6.0, 10.0, 20.0, 40.0)
+SIZE_ODDS = {"small": 0.25, "middle": 0.55, "rich": 0.2}
+# One round; a trial repeats rounds with other seeds.
+NULLS, PAIRS, WRONG_BASES, POOR_EFFECTS, POOR_NULLS = 90, 40, 24, 30, 12
+
+
+def one_round(rng: np.random.Generator) -> list[dict]:
+    found = [{"kind": "null"} for _ in range(NULLS)] + [{"kind": "null", "size": "poor"} for _ in range(POOR_NULLS)]
+    found += [{"kind": "effect", "laws": (law.name,), "strength": s} for law in CATALOGUE for s in STRENGTHS]
+    found += [{"kind": "outside", "laws": (law.name,), "strength": s} for law in OUTSIDE for s in OUTSIDE_STRENGTHS]
+    for _ in range(PAIRS):
+        while True:
+            first, second = (CATALOGUE[i] for i in rng.choice(len(CATALOGUE), 2, replace=False))
+            if first.effect != second.effect and {first.blocks[0], second.blocks[0]} != {"wear"}:
+                break
+        found.append({"kind": "pair", "laws": (first.name, second.name), "strength": float(rng.choice([12.0, 20.0]))})
+    for _ in range(WRONG_BASES):
+        laws = [law for law in CATALOGUE if law.blocks[0] in ("te", "loops")]
+        found.append({"kind": "wrong base", "laws": (laws[int(rng.integers(len(laws)))].name,), "strength": float(rng.choice([12.0, 20.0]))})
+    for _ in range(POOR_EFFECTS):
+        law = CATALOGUE[int(rng.integers(len(CATALOGUE)))]
+        found.append({"kind": "effect", "laws": (law.name,), "strength": float(rng.choice([8.0, 12.0, 20.0])), "size": "poor"})
+    found += [{"kind": "fault", "fault": fault} for fault in FAULTS for _ in range(6)]
+    return found
+
+
+def plan(count: int, seed: int, sizes: dict[str, float] = SIZE_ODDS) -> list[Task]:
+    """``count`` tasks; the first ones of a longer plan with the same seed."""
+    rng = np.random.default_rng(seed)
+    tasks: list[Task] = []
+    while len(tasks) < count:
+        entries = one_round(rng)
+        for i in rng.permutation(len(entries)):
+            entry = dict(entries[i])
+            entry.setdefault("size", str(rng.choice(list(sizes), p=list(sizes.values()))))
+            tasks.append(Task(len(tasks), int(rng.integers(2**31)), **entry))
+    return tasks[:count]

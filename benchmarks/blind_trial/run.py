@@ -1,0 +1,170 @@
+"""The blind trial: makes campaigns, seals their truths, asks the tool, unseals and scores.
+
+    python -m benchmarks.blind_trial.run --campaigns 1000 --folder /tmp/trial
+    python -m benchmarks.blind_trial.run --folder /tmp/trial --scheduler tcp://10.0.0.1:8786      # a Dask cluster
+    python -m benchmarks.blind_trial.run --folder /tmp/trial --publish                            # docs/blind_trial.md
+
+Run from the repository's root.  It resumes: campaigns that have a line in results.jsonl are not done again.
+The seals (SHA-256 of every truth) are printed and stored before the tool sees anything.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from benchmarks.blind_trial.generator.make import CannotMake, Task, make
+from benchmarks.blind_trial.plan import SIZE_ODDS, plan
+
+RESULTS, SEALS, ABOUT = "results.jsonl", "seals.txt", "about.json"
+
+
+def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
+    """Makes, seals, diagnoses and unseals one campaign."""
+    from benchmarks.blind_trial import tool
+    from benchmarks.blind_trial.generator.folder import seal_of
+
+    started = time.perf_counter()
+    try:
+        seal = make(task, folder / "campaigns", folder / "sealed")["seal"]
+    except (CannotMake, RuntimeError) as problem:
+        return {"number": task.number, "task": vars(task), "not_made": str(problem), "seconds": time.perf_counter() - started}
+    made = time.perf_counter() - started
+    campaign = folder / "campaigns" / task.name
+    answer = tool.answer_of(campaign)
+    others = {}
+    if peers:
+        from benchmarks.blind_trial.peers import peers_of
+
+        others = peers_of(campaign)
+    # Only now is the truth looked at.
+    truth = json.loads((folder / "sealed" / f"{task.name}.json").read_text(encoding="utf-8"))
+    if seal_of(truth)[1] != seal:
+        raise RuntimeError(f"{task.name}: the truth was changed after it was sealed")
+    if not keep:
+        shutil.rmtree(campaign)
+    return {"number": task.number, "task": vars(task), "seal": seal, "truth": truth, "answer": shortened(answer), "peers": others,
+            "making": made, "seconds": time.perf_counter() - started}
+
+
+def shortened(answer: dict) -> dict:
+    keys = ("verdict", "effects", "confusable", "alternatives", "captured", "held_out", "p_screen", "p_localise", "warnings", "reason",
+            "error", "times", "calls")
+    return {k: answer[k] for k in keys if k in answer}
+
+
+def finished(folder: Path) -> dict[int, dict]:
+    """Results so far; a last line that was cut off is ignored."""
+    found = {}
+    path = folder / RESULTS
+    if path.is_file():
+        for line in path.read_text(encoding="utf-8").splitlines():
+            try:
+                result = json.loads(line)
+            except json.JSONDecodeError:
+                continue
+            found[result["number"]] = result
+    return found
+
+
+def results_of(tasks: list[Task], folder: Path, keep: bool, peers: set[int], jobs: int, scheduler: str) -> Iterator[dict]:
+    """Results as they come."""
+    if scheduler:
+        from dask.distributed import Client, as_completed
+
+        client = Client(scheduler)
+        futures = [client.submit(one, t, folder, keep, t.number in peers, pure=False) for t in tasks]
+        for future in as_completed(futures):
+            yield future.result()
+        return
+    from joblib import Parallel, delayed
+
+    yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(
+        delayed(one)(t, folder, keep, t.number in peers) for t in tasks
+    )
+
+
+def commit() -> str:
+    found = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
+def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: set[int] = frozenset(), jobs: int = -1, scheduler: str = "",
+          quiet: bool = False) -> dict[int, dict]:
+    """Runs what is missing; returns all results by number."""
+    folder.mkdir(parents=True, exist_ok=True)
+    done = finished(folder)
+    missing = [t for t in tasks if t.number not in done]
+    started, count = time.perf_counter(), 0
+    with (folder / RESULTS).open("a", encoding="utf-8") as lines, (folder / SEALS).open("a", encoding="utf-8") as seals:
+        try:
+            for result in results_of(missing, folder, keep, peers, jobs, scheduler):
+                done[result["number"]] = result
+                lines.write(json.dumps(result, default=float) + "\n")
+                lines.flush()
+                seals.write(f"{result.get('seal', 'not made')}  {result['number']}\n")
+                seals.flush()
+                count += 1
+                if not quiet:
+                    left = (time.perf_counter() - started) / count * (len(missing) - count)
+                    print(line_of(result), f"[{len(done)} of {len(tasks)}, {left / 60.0:.0f} min left]", flush=True)
+        except KeyboardInterrupt:
+            print(f"\nstopped; {len(done)} of {len(tasks)} are done, the same command goes on from here", file=sys.stderr)
+    return done
+
+
+def line_of(result: dict) -> str:
+    if "not_made" in result:
+        return f"{result['number']:5d} not made: {result['not_made'][:90]}"
+    truth, answer = result["truth"], result["answer"]
+    laws = " + ".join(law["law"] for law in truth["laws"]) or truth["fault"] or "nothing"
+    names = ", ".join(e["name"] for e in answer["effects"])
+    return (f"{result['number']:5d} {truth['seal'] if 'seal' in truth else result['seal'][:12]} {truth['kind']} {truth['size']} d'={truth['strength']:g}"
+            f" {laws} -> {answer['verdict']}: {names}{answer.get('error', '')} ({result['answer']['times']['whole']:.0f} s)")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--campaigns", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=20261)
+    parser.add_argument("--folder", type=Path, default=Path("blind_trial_results"))
+    parser.add_argument("--jobs", type=int, default=-1)
+    parser.add_argument("--scheduler", default="", help="address of a Dask scheduler; workers must see the same folder")
+    parser.add_argument("--size", choices=("small", "poor", "middle", "rich"), help="this size of design only")
+    parser.add_argument("--kinds", nargs="+", help="these kinds only (null, effect, outside, pair, wrong base, fault)")
+    parser.add_argument("--laws", nargs="+", help="campaigns with a law whose name contains one of these words")
+    parser.add_argument("--numbers", nargs="+", type=int, help="these campaigns of the plan only")
+    parser.add_argument("--peers", type=int, default=0, help="every nth campaign is also given to the peers")
+    parser.add_argument("--keep", action="store_true", help="keep the campaign folders")
+    parser.add_argument("--publish", action="store_true", help="write docs/blind_trial.md from the results")
+    arguments = parser.parse_args()
+    # Workers of joblib share the cores; more threads in each would only wait.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    sizes = {arguments.size: 1.0} if arguments.size else SIZE_ODDS
+    tasks = plan(arguments.campaigns, arguments.seed, sizes)
+    if arguments.kinds:
+        tasks = [t for t in tasks if t.kind in arguments.kinds]
+    if arguments.laws:
+        tasks = [t for t in tasks if any(word in law for word in arguments.laws for law in t.laws)]
+    if arguments.numbers:
+        tasks = [t for t in tasks if t.number in arguments.numbers]
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    if arguments.publish:
+        from benchmarks.blind_trial.publish import publish
+
+        publish(finished(arguments.folder), Path("docs/blind_trial.md"), json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8")))
+        return 0
+    (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "campaigns": arguments.campaigns}), encoding="utf-8")
+    peers = {t.number for t in tasks if arguments.peers and t.number % arguments.peers == 0}
+    trial(tasks, arguments.folder.resolve(), arguments.keep, peers, arguments.jobs, arguments.scheduler)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+"""SI values in the units of a bench, for axes and for text."""
+
+import math
+
+import numpy as np
+
+from discrepancy.scales import USUAL
+from fmu_src.units import UnitError, conversion, parse, registry
+from orchestrator.report.result import number
+
+# Factors and axes, as one reads them: (unit, factor, offset).
+AXES = {
+    "speed": ("rpm", 30.0 / math.pi, 0.0), "load": ("N·m", 1.0, 0.0), "temperature": ("°C", 1.0, -273.15),
+    "hours": ("h", 1.0 / 3600.0, 0.0), "angle": ("°", 180.0 / math.pi, 0.0), "depth_angle": ("°", 180.0 / math.pi, 0.0),
+    "torque": ("N·m", 1.0, 0.0), "time": ("s", 1.0, 0.0), "order": ("", 1.0, 0.0), "direction": ("", 1.0, 0.0),
+    "normal_force": ("N", 1.0, 0.0), "sliding_speed": ("m/s", 1.0, 0.0), "sliding_distance": ("m", 1.0, 0.0),
+}  # fmt: skip
+TITLES = {
+    "speed": "input speed", "load": "load torque", "hours": "operating hours", "angle": "output angle", "depth_angle": "place on the surface",
+    "order": "order of the output's turn",
+}  # fmt: skip
+
+
+def pretty(unit: str) -> str:
+    """A unit's name in print."""
+    return "" if unit == "1" else unit.replace("um", "µm").replace("N.m", "N·m").replace("degC", "°C").replace("^2", "²")
+
+
+def scale(unit: str) -> tuple[float, str]:
+    """(factor, unit) of a signal's SI unit; differences of temperature stay in kelvin."""
+    usual = USUAL.get(unit, unit)
+    return (1.0, pretty(unit)) if usual in ("degC", unit) else (conversion(unit, usual)[0], pretty(usual))
+
+
+def text(value: float | None, unit: str) -> str:
+    """A signal's value with its unit."""
+    if value is None:
+        return "–"
+    factor, name = scale(unit)
+    return f"{number(factor * value)} {name}".rstrip()
+
+
+def axis_values(name: str, values) -> np.ndarray:
+    _, factor, offset = AXES.get(name, ("", 1.0, 0.0))
+    return np.asarray(values, float) * factor + offset
+
+
+def axis_title(name: str) -> str:
+    unit = AXES.get(name, ("", 1.0, 0.0))[0]
+    title = TITLES.get(name, name.replace("_", " "))
+    return f"{title} [{unit}]" if unit else title
+
+
+def signal_title(signal: str) -> str:
+    """``wear_depth[surface=pin]`` as words."""
+    name, _, tags = signal.partition("[")
+    words = name.replace("_", " ")
+    return words + (f" ({tags.rstrip(']').replace('=', ' ').replace(',', ', ').replace('_', ' ')})" if tags else "")
+
+
+def signal_axis(signal: str, unit: str) -> str:
+    name = scale(unit)[1]
+    return signal_title(signal) + (f" [{name}]" if name else "")
+
+
+def estimate(entry: dict) -> tuple[str, str, str]:
+    """(value, interval, unit) of a parameter, all in one unit that suits its size."""
+    low, high = entry["interval"]
+    size = max((abs(v) for v in (entry["value"], low, high) if math.isfinite(v)), default=0.0)
+    factor, unit = fitting(size, entry["unit"])
+    return number(factor * entry["value"]), f"{number(factor * low)} to {number(factor * high)}", unit
+
+
+def fitting(size: float, unit: str) -> tuple[float, str]:
+    """(factor, unit): the usual unit, or the SI unit with a prefix; pint knows them."""
+    if unit in USUAL:
+        return scale(unit)
+    try:
+        quantity = registry.Quantity(size, parse(unit))
+    except UnitError:
+        return 1.0, pretty(unit)
+    if quantity.dimensionless or not 0.0 < size < math.inf or len(dict(quantity.unit_items())) > 1:
+        return 1.0, pretty(unit)
+    compact = quantity.to_compact()
+    return float(compact.magnitude / size), f"{compact.units:~P}"

@@ -1,0 +1,69 @@
+"""What a page is made of."""
+
+from dataclasses import dataclass, field
+
+from orchestrator.report.look import Figure
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One entry of a figure's selector: an update for each trace, and what changes in the layout."""
+
+    label: str
+    traces: list[dict]
+    layout: dict = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Choosable(Figure):
+    """A figure with a selector; it starts with the first choice."""
+
+    asks: str = ""
+    choices: list[Choice] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Card:
+    """One number; ``start`` is given where it came from another one.  ``tone``: good, fair, bad or plain."""
+
+    label: str
+    value: str
+    note: str = ""
+    start: str = ""
+    unit: str = ""
+    tone: str = "plain"
+
+
+@dataclass(frozen=True)
+class Table:
+    """``right`` numbers the columns with numbers in them."""
+
+    title: str
+    head: list[str]
+    rows: list[list[str]]
+    right: tuple[int, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Section:
+    """Figures, then tables; with neither, the lead says why."""
+
+    id: str
+    title: str
+    lead: str
+    figures: list[Figure] = field(default_factory=list)
+    tables: list[Table] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Page:
+    """``finding`` is the result in a sentence."""
+
+    kind: str
+    title: str
+    conditions: str
+    finding: str
+    cards: list[Card]
+    sections: list[Section]
+    warnings: list[str]
