@@ -1,6 +1,7 @@
 """``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``."""
 
 import argparse
+import os
 from pathlib import Path
 
 from discrepancy import screen
@@ -63,6 +64,11 @@ def inputs(options: argparse.Namespace):
     return file, campaign
 
 
+def all_cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def write_html(options: argparse.Namespace, result) -> None:
     if options.html:
         from discrepancy.page import write_page
@@ -72,7 +78,7 @@ def write_html(options: argparse.Namespace, result) -> None:
 
 def run_compare(options: argparse.Namespace) -> int:
     with busy("comparing"):
-        comparison = compare(*inputs(options))
+        comparison = compare(*inputs(options), jobs=all_cores())
     write_html(options, comparison)
     if options.json:
         print_json(comparison.as_json())
@@ -95,7 +101,7 @@ def run_localise(options: argparse.Namespace) -> int:
 
 def run_diagnose(options: argparse.Namespace) -> int:
     with busy("diagnosing"):
-        answer = diagnose(*inputs(options))
+        answer = diagnose(*inputs(options), jobs=all_cores())
     write_html(options, answer)
     draft = None
     if options.draft:
@@ -115,7 +121,7 @@ def run_extend(options: argparse.Namespace) -> int:
     names = options.effect
     if not names:
         with busy("diagnosing"):
-            answer = diagnose(file, campaign)
+            answer = diagnose(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             raise InputFault(
                 f"the diagnosis says {answer.verdict!r}: nothing to add by itself; name what you want with --effect"
@@ -123,7 +129,7 @@ def run_extend(options: argparse.Namespace) -> int:
             )
         names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
     with busy(f"adding {', '.join(names)}"):
-        extension = extend(file, campaign, names, anyway=options.anyway)
+        extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
     target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
     save_model(extension.file, target)
     fmus = []
@@ -153,7 +159,7 @@ def run_ladder(options: argparse.Namespace) -> int:
 
 def run_next(options: argparse.Namespace) -> int:
     with busy("looking for an experiment"):
-        run = next_run(*inputs(options))
+        run = next_run(*inputs(options), jobs=all_cores())
     write_html(options, run)
     if options.json:
         print_json(run.as_json())

@@ -42,9 +42,10 @@ class Comparison:
         }  # fmt: skip
 
 
-def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None) -> Comparison:
+def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
+            jobs: int = 1) -> Comparison:
     """Hold a model against a campaign; localises the misfit on the way."""
-    model = model or PhysicalModel(file, campaign)
+    model = model or PhysicalModel(file, campaign, jobs=jobs)
     diagnostician = Diagnostician(model, settings, named_orders(model.bench))
     localisation = diagnostician.prepare()
     space = diagnostician.space

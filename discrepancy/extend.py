@@ -33,12 +33,13 @@ class Extension:
         return {"model": self.file.name, "verdict": self.verdict, "step": self.step, "effects": self.file.effects}
 
 
-def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False) -> Extension:
+def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
+           jobs: int = 1) -> Extension:
     """Fit the named candidates (``effect`` or ``effect.variant``) and add them.
 
     ``anyway`` keeps an effect that did not help, for those who know better.
     """
-    before = compare(file, campaign, settings)
+    before = compare(file, campaign, settings, jobs=jobs)
     diagnostician = before.diagnostician
     diagnostician.screened()
     chosen = [candidate for name in names for candidate in resolved(name, diagnostician)]

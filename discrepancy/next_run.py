@@ -39,9 +39,9 @@ class NextRun:
         return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict}
 
 
-def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings()) -> NextRun:
+def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
     """Diagnose, and propose what to measure next."""
-    answer = diagnose(file, campaign, settings)
+    answer = diagnose(file, campaign, settings, jobs=jobs)
     fits = answer.diagnosis.fits
     members = list(fits["members"]) or list(fits["rivals"])[:MOST_RIVALS]
     names: dict[str, object] = {}

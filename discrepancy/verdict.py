@@ -37,9 +37,10 @@ class Answer:
         }  # fmt: skip
 
 
-def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None) -> Answer:
+def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
+             jobs: int = 1) -> Answer:
     """The effect that the model lacks, a set that cannot be separated, none, or the law without a name."""
-    model = model or PhysicalModel(file, campaign)
+    model = model or PhysicalModel(file, campaign, jobs=jobs)
     found = Diagnostician(model, settings, named_orders(model.bench)).run()
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict

@@ -35,6 +35,10 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
     except (CannotMake, RuntimeError) as problem:
         return {"number": task.number, "task": vars(task), "not_made": str(problem), "seconds": time.perf_counter() - started}
     made = time.perf_counter() - started
+    # Before the tool sees anything.
+    with (folder / SEALS).open("a", encoding="utf-8") as seals:
+        seals.write(f"{seal}  {task.name}\n")
+    print(f"{task.name} sealed {seal}", flush=True)
     campaign = folder / "campaigns" / task.name
     answer = tool.answer_of(campaign)
     others = {}
@@ -101,14 +105,12 @@ def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: set[int] =
     done = finished(folder)
     missing = [t for t in tasks if t.number not in done]
     started, count = time.perf_counter(), 0
-    with (folder / RESULTS).open("a", encoding="utf-8") as lines, (folder / SEALS).open("a", encoding="utf-8") as seals:
+    with (folder / RESULTS).open("a", encoding="utf-8") as lines:
         try:
             for result in results_of(missing, folder, keep, peers, jobs, scheduler):
                 done[result["number"]] = result
                 lines.write(json.dumps(result, default=float) + "\n")
                 lines.flush()
-                seals.write(f"{result.get('seal', 'not made')}  {result['number']}\n")
-                seals.flush()
                 count += 1
                 if not quiet:
                     left = (time.perf_counter() - started) / count * (len(missing) - count)
@@ -124,7 +126,7 @@ def line_of(result: dict) -> str:
     truth, answer = result["truth"], result["answer"]
     laws = " + ".join(law["law"] for law in truth["laws"]) or truth["fault"] or "nothing"
     names = ", ".join(e["name"] for e in answer["effects"])
-    return (f"{result['number']:5d} {truth['seal'] if 'seal' in truth else result['seal'][:12]} {truth['kind']} {truth['size']} d'={truth['strength']:g}"
+    return (f"{result['number']:5d} {truth['kind']} {truth['size']} d'={truth['strength']:g}"
             f" {laws} -> {answer['verdict']}: {names}{answer.get('error', '')} ({result['answer']['times']['whole']:.0f} s)")
 
 

@@ -30,7 +30,7 @@ def run_effects(options: argparse.Namespace) -> int:
         found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
         print_json(found[0] if options.name else {"effects": found})
     elif options.name:
-        screen.show_one(chosen[0], computed[options.name if options.name in computed else chosen[0].name])
+        screen.show_one(chosen[0], computed[chosen[0].name])
     else:
         screen.show_list(chosen)
     if options.html and not options.json:

@@ -88,7 +88,7 @@ def cage(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
                  curves_of(name, cases, against_load), "load [N m]", "order", 12, 320)
 
 
-def wear_against(name, bench, cases, what, title, x_title, places, condition, scale):
+def wear_against(bench, name, cases, what, title, x_title, places, condition, scale):
     """Deepest wear of the surface that changes most, over a setting of the bench."""
     def all_depths(values):
         return {s: np.array([worn(bench, condition(p), values)[s] for p in places]) for s in SURFACES}
@@ -104,13 +104,13 @@ def wear_against(name, bench, cases, what, title, x_title, places, condition, sc
 
 def load_wear(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at = rated(bench)
-    return wear_against(name, bench, cases, "After 1,000 h at rated speed.", "Wear against load", "load [N m]",
+    return wear_against(bench, name, cases, "After 1,000 h at rated speed.", "Wear against load", "load [N m]",
                         [0.1, 0.25, 0.5, 1.0, 1.5], lambda s: replace(at, load=s * at.load), at.load)
 
 
 def speed_wear(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at = rated(bench)
-    return wear_against(name, bench, cases, "After as many turns as 1,000 h have at rated speed.", "Wear against speed",
+    return wear_against(bench, name, cases, "After as many turns as 1,000 h have at rated speed.", "Wear against speed",
                         "input speed [rpm]", [0.1, 0.2, 0.5, 1.0, 2.0], lambda s: replace(at, speed=s * at.speed),
                         at.speed * 30.0 / math.pi)
 

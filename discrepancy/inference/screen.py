@@ -66,6 +66,7 @@ class Screen:
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
     stacks, blocks, width = [], [], 0
+    space.predictions.prefetch(_requests(space, candidates, values))
     for k, candidate in enumerate(candidates):
         which = [i for i in space.touched(candidate) if i in space.rows]
         if not which:
@@ -99,11 +100,25 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
 
 
+def _requests(space, candidates, values):
+    """Most of the predictions that the columns will need."""
+    for candidate in candidates:
+        which = [i for i in space.touched(candidate) if i in space.rows]
+        for n, shape in enumerate(candidate.shape_grid or ({},)):
+            at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
+            for p in candidate.amplitudes:
+                for size in (TYPICAL, SMALL) if n == 0 else (TYPICAL,):
+                    yield {**at, p.name: p.off + _step(p, size)}, which
+
+
+def _step(p, size):
+    return float(np.clip(p.off + (p.sign or 1) * size * p.scale, p.lower, p.upper) - p.off)
+
+
 def _block(space, candidate, at, which, size):
     columns = []
     for p in candidate.amplitudes:
-        direction = (p.sign or 1) * size
-        step = float(np.clip(p.off + direction * p.scale, p.lower, p.upper) - p.off)
+        step = _step(p, size)
         if step == 0.0:
             columns.append(np.zeros(space.size))
             continue

@@ -1,5 +1,6 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
+import multiprocessing
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -26,8 +27,9 @@ class PhysicalModel:
     ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
     """
 
-    def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None):
-        self.file, self.campaign = model, campaign
+    def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
+                 jobs: int = 1):
+        self.file, self.campaign, self.jobs = model, campaign, jobs
         self.records: list[Record] = [r for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
@@ -84,6 +86,19 @@ class PhysicalModel:
         values = {**self.zeros, **{p.name: p.off for p in self.declared}, **values}
         return [self.one(self.records[i], values) for i in (range(len(self.records)) if which is None else which)]
 
+    def predict_many(self, requests: Sequence[tuple[Mapping[str, float], Sequence[int]]]) -> list[list[np.ndarray]]:
+        """``predict`` for several sets of values, on ``jobs`` processes that share the base model's runs."""
+        if self.jobs <= 1 or len(requests) < 2 * self.jobs or "fork" not in multiprocessing.get_all_start_methods():
+            return [self.predict(values, which) for values, which in requests]
+        self.predict({})
+        global _FORKED
+        _FORKED = self
+        try:
+            with multiprocessing.get_context("fork").Pool(self.jobs) as pool:
+                return pool.starmap(_predict_forked, requests, chunksize=1)
+        finally:
+            _FORKED = None
+
     def one(self, record: Record, values: Mapping[str, float]) -> np.ndarray:
         own = self.for_record(record, values)
         predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
@@ -109,6 +124,14 @@ class PhysicalModel:
             if place is not None and f"{name}[{place}]" in values:
                 own[name] = values[f"{name}[{place}]"]
         return own
+
+
+# The model that forked processes inherit; it is too large to be sent.
+_FORKED: PhysicalModel | None = None
+
+
+def _predict_forked(values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+    return _FORKED.predict(values, which)
 
 
 def typical_size(records: list[Record]) -> float:

@@ -1,0 +1,164 @@
+"""The same campaigns put through methods that others use: BIC with white noise, PySINDy, selection as PEtab Select does it.
+
+All get the residual of the calibrated base model and the same library: the response of every candidate at
+every shape of its grid, by finite differences.  None of them knows the noise from replicates.
+"""
+
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from discrepancy.campaign import load_campaign
+from discrepancy.model_file import load_model
+from discrepancy.prediction.physical_model import PhysicalModel
+
+MODEL = "RV20E-121"
+MOST_TERMS = 5
+
+
+def library(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[tuple[str, list[int]]]]:
+    """(residual, nuisance columns, columns, [(candidate, its columns)]), quantities scaled to one residual size."""
+    campaign = load_campaign(folder)
+    model = PhysicalModel(load_model(MODEL), campaign)
+    which = [i for i, r in enumerate(model.records) if not r.held_out]
+    records = [model.records[i] for i in which]
+    values = {p.name: p.off for p in model.nuisances}
+    quantities = [r.quantity for r in records]
+
+    def stack(arrays):
+        return np.concatenate([np.asarray(a, float) for a in arrays])
+
+    def difference(change: dict[str, float], base: list[np.ndarray]) -> np.ndarray:
+        return stack([a - b for a, b in zip(model.predict({**values, **change}, which), base)])
+
+    measured = stack([r.values for r in records])
+    nuisances = []
+    for _ in range(2):
+        base = model.predict(values, which)
+        residual = measured - stack(base)
+        nuisances = [difference({p.name: values[p.name] + 0.01 * p.scale}, base) / (0.01 * p.scale) for p in model.nuisances]
+        if not nuisances:
+            break
+        scale = np.array([p.scale for p in model.nuisances])
+        weights = weights_of(residual, quantities, records)
+        shift = np.linalg.lstsq(np.column_stack(nuisances) * scale * weights[:, None], residual * weights, rcond=None)[0] * scale
+        values = {p.name: float(np.clip(values[p.name] + s, p.lower, p.upper)) for p, s in zip(model.nuisances, shift)}
+    base = model.predict(values, which)
+    residual = measured - stack(base)
+    weights = weights_of(residual, quantities, records)
+    columns, owners = [], []
+    for c in model.candidates:
+        own = []
+        for shapes in c.shape_grid or ({},):
+            for p in c.amplitudes:
+                step = 0.1 * p.scale * (-1.0 if p.sign < 0 else 1.0)
+                column = difference({**shapes, p.name: p.off + step}, base) * weights
+                size = np.linalg.norm(column)
+                if size > 1e-9:
+                    own.append(len(columns))
+                    columns.append(column / size)
+        if own:
+            owners.append((c.name, own))
+    ok = np.isfinite(residual)
+    free = np.column_stack(nuisances)[ok] * weights[ok, None] if nuisances else np.zeros((ok.sum(), 0))
+    return (residual * weights)[ok], free, np.column_stack(columns)[ok], owners
+
+
+def weights_of(residual, quantities, records) -> np.ndarray:
+    """One over the size of the residual of a record's quantity: no quantity outweighs another by its unit."""
+    sizes, start = {}, 0
+    parts: dict[str, list] = {}
+    for q, r in zip(quantities, records):
+        parts.setdefault(q, []).append(residual[start : start + len(r.values)])
+        start += len(r.values)
+    for q, found in parts.items():
+        sizes[q] = float(np.nanstd(np.concatenate(found))) or 1.0
+    return np.concatenate([np.full(len(r.values), 1.0 / sizes[q]) for q, r in zip(quantities, records)])
+
+
+def squares(residual: np.ndarray, columns: np.ndarray) -> float:
+    if not columns.shape[1]:
+        return float(residual @ residual)
+    left = residual - columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
+    return float(left @ left)
+
+
+def criterion(rss: float, n: int, k: int, kind: str) -> float:
+    """AIC or BIC of white normal noise of unknown size."""
+    return n * np.log(max(rss, 1e-300) / n) + (np.log(n) if kind == "BIC" else 2.0) * (k + 1)
+
+
+def best_of(residual, free, columns, own: list[int], chosen: list[int], groups: int) -> tuple[float, list[int]]:
+    """Least squares of one candidate beside those chosen: its best shape."""
+    found = (np.inf, own)
+    for k in range(0, len(own), groups):
+        use = own[k : k + groups]
+        found = min(found, (squares(residual, np.column_stack([free, columns[:, chosen + use]])), use))
+    return found
+
+
+def forward(residual, free, columns, owners, kind: str, most: int) -> list[str]:
+    """Candidates added while the criterion falls."""
+    n, names, chosen = len(residual), [], []
+    now = criterion(squares(residual, free), n, free.shape[1], kind)
+    while len(names) < most:
+        trials = []
+        for name, own in owners:
+            if name not in names:
+                rss, use = best_of(residual, free, columns, own, chosen, 1 if len(own) > 4 else len(own))
+                trials.append((criterion(rss, n, free.shape[1] + len(chosen) + len(use), kind), name, use))
+        best = min(trials)
+        if best[0] >= now:
+            break
+        now, name, use = best
+        names.append(name)
+        chosen += use
+    return names
+
+
+def sparse(residual, free, columns, owners) -> list[str]:
+    """PySINDy's STLSQ on the library, its threshold a tenth of the largest coefficient."""
+    from pysindy.optimizers import STLSQ
+
+    if free.shape[1]:
+        basis = np.linalg.qr(free)[0]
+        residual = residual - basis @ (basis.T @ residual)
+        columns = columns - basis @ (basis.T @ columns)
+    owner = {i: name for name, own in owners for i in own}
+    first = np.linalg.lstsq(columns, residual, rcond=1e-6)[0]
+    optimiser = STLSQ(threshold=float(0.1 * np.abs(first).max()), alpha=1e-3, max_iter=20)
+    optimiser.fit(columns, residual[:, None])
+    weights = np.abs(np.asarray(optimiser.coef_).ravel())
+    names: dict[str, float] = {}
+    for i in np.argsort(-weights):
+        if weights[i] > 0.0:
+            names.setdefault(owner[int(i)], float(weights[i]))
+    return list(names)
+
+
+def peers_of(folder: Path) -> dict[str, list[str]]:
+    """Names by method, best first; empty: nothing is missing."""
+    started = time.perf_counter()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            residual, free, columns, owners = library(folder)
+        except Exception as problem:  # noqa: BLE001
+            return {"error": [str(problem)[:200]]}
+        found = {
+            "BIC, white noise": forward(residual, free, columns, owners, "BIC", 1),
+            "forward selection by BIC": forward(residual, free, columns, owners, "BIC", MOST_TERMS),
+            "forward selection by AIC (PEtab Select)": petab(residual, free, columns, owners, "AIC"),
+        }
+        try:
+            found["PySINDy STLSQ"] = sparse(residual, free, columns, owners)
+        except ImportError:
+            pass
+    found["seconds"] = [f"{time.perf_counter() - started:.1f}"]
+    return found
+
+
+def petab(residual, free, columns, owners, kind: str) -> list[str]:
+    return forward(residual, free, columns, owners, kind, MOST_TERMS)

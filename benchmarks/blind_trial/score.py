@@ -1,0 +1,197 @@
+"""What the answers are worth: figures of a trial against the unsealed truths."""
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
+    "none", "one effect", "set", "several effects", "named but incomplete", "unknown", "crash")  # fmt: skip
+PLAIN = (ONE, SEVERAL)
+CHAIN = ("sensor_gain", "sensor_offset", "sensor_drift", "clock_slip", "encoder_eccentricity")
+
+
+def effect_of(name: str) -> str:
+    """The effect of a candidate's name: what stands before the dot."""
+    return name.partition(".")[0]
+
+
+class Case:
+    """One campaign: what was hidden and what was answered, by effect."""
+
+    def __init__(self, result: dict):
+        truth, answer = result["truth"], result["answer"]
+        self.result, self.truth, self.answer = result, truth, answer
+        self.number, self.kind, self.size, self.strength = result["number"], truth["kind"], truth["size"], truth["strength"]
+        self.laws = [law["law"] for law in truth["laws"]]
+        self.effects = [e for e in truth["effects"] if e]
+        self.acceptable = set(truth["acceptable"]) | set(self.effects)
+        self.verdict = answer["verdict"]
+        self.names = list(dict.fromkeys(effect_of(e["name"]) for e in answer["effects"]))
+        more = [effect_of(n) for n in answer.get("confusable", [])]
+        more += [effect_of(n) for names in answer.get("alternatives", {}).values() for n in names]
+        self.set = list(dict.fromkeys(self.names + more)) if self.verdict != NONE else []
+        self.seconds = answer["times"]["whole"]
+
+    @property
+    def first(self) -> bool:
+        """The right name stands first."""
+        return self.verdict not in (NONE, CRASH) and bool(self.names) and self.names[0] in self.acceptable
+
+    @property
+    def covered(self) -> bool:
+        """Every hidden effect is in what was named."""
+        return self.verdict not in (NONE, CRASH) and all(e in self.set for e in self.effects)
+
+    @property
+    def plainly(self) -> bool:
+        return self.verdict in PLAIN
+
+    @property
+    def physical_alarm(self) -> bool:
+        """A part of the reducer is blamed, plainly or as a set without any sensor."""
+        return self.verdict in (ONE, SEVERAL, SET) and bool(self.set) and not any(n in CHAIN for n in self.set)
+
+    @property
+    def held_out(self) -> tuple[float, float] | None:
+        """Error on unused conditions before and after what stands first."""
+        for e in self.answer["effects"][:1]:
+            before, after = e.get("held_out_error_before"), e.get("held_out_error_after")
+            if before is not None and after is not None and before > 0.0:
+                return before, after
+        return None
+
+    def coverage(self) -> Iterable[tuple[str, bool, bool]]:
+        """(parameter, whether its interval holds the truth, whether the answer was plain)."""
+        for law in self.truth["laws"]:
+            for name, value in law["parameters"].items():
+                for e in self.answer["effects"]:
+                    entry = e["parameters"].get(name)
+                    if entry and entry.get("interval"):
+                        yield name, entry["interval"][0] <= value <= entry["interval"][1], self.verdict == ONE
+
+
+def share(cases: list, test: Callable) -> float | None:
+    return float(np.mean([bool(test(c)) for c in cases])) if cases else None
+
+
+def wilson(k: float, n: int, z: float = 1.96) -> tuple[float, float]:
+    """Interval of a share."""
+    if n == 0:
+        return 0.0, 1.0
+    middle = (k + 0.5 * z * z) / (n + z * z)
+    half = z / (n + z * z) * np.sqrt(k * (n - k) / n + 0.25 * z * z)
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def cases_of(results: dict[int, dict]) -> list[Case]:
+    return [Case(r) for _, r in sorted(results.items()) if "truth" in r]
+
+
+def score(results: dict[int, dict]) -> dict:
+    """All figures as plain data."""
+    cases = cases_of(results)
+    of = defaultdict(list)
+    for c in cases:
+        of[c.kind].append(c)
+    nulls, faults, outside, pairs = of["null"], of["fault"], of["outside"], of["pair"]
+    single = [c for c in of["effect"] if c.size != "poor"]
+    named_once = [c for c in cases if c.verdict == ONE and c.kind in ("effect", "wrong base")]
+    strengths = sorted({c.strength for c in of["effect"]})
+    figures = {
+        "campaigns": len(cases), "not_made": sum("not_made" in r for r in results.values()),
+        "crashes": [(c.number, c.answer.get("error", "")) for c in cases if c.verdict == CRASH],
+        "false_alarms": counted(nulls, lambda c: c.verdict != NONE),
+        "false_alarms_poor": counted([c for c in nulls if c.size == "poor"], lambda c: c.verdict != NONE),
+        "false_alarms_with_faults": counted(faults, lambda c: c.physical_alarm),
+        "any_answer_with_faults": counted(faults, lambda c: c.verdict != NONE),
+        "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
+        "one_name_is_right_all_kinds": counted([c for c in cases if c.verdict == ONE], lambda c: c.names[0] in c.acceptable),
+        "first_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.first),
+        "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
+        "set_holds_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.covered),
+        "set_size": mean([len(c.set) for c in single if c.verdict in (ONE, SET) and c.strength >= 6]),
+        "pairs_both": counted(pairs, lambda c: c.covered),
+        "pairs_one": counted(pairs, lambda c: any(e in c.set for e in c.effects)),
+        "wrong_base_not_misnamed": counted(of["wrong base"], lambda c: not c.plainly or c.first),
+        "by_strength": {}, "outside": {}, "held_out": {}, "poor": {},
+        "coverage": counted([x for c in cases for x in c.coverage() if x[2]], lambda x: x[1]),
+        "seconds": {"median": quantile(cases, 0.5), "90 %": quantile(cases, 0.9), "longest": quantile(cases, 1.0)},
+    }  # fmt: skip
+    for s in strengths:
+        here = [c for c in single if c.strength == s]
+        figures["by_strength"][s] = {
+            "campaigns": len(here), "first": share(here, lambda c: c.first), "set": share(here, lambda c: c.covered),
+            "detected": share(here, lambda c: c.verdict != NONE), "size": mean([len(c.set) for c in here if c.verdict in (ONE, SET)]),
+            "verdicts": dict(Counter(c.verdict for c in here)),
+        }  # fmt: skip
+        errors = [c.held_out for c in here if c.verdict in (ONE, SET, SEVERAL, INCOMPLETE) and c.held_out]
+        figures["held_out"][s] = {"campaigns": len(errors), "median_ratio": mean([b / a for a, b in errors], np.median),
+                                  "worse": mean([b > a for a, b in errors])}  # fmt: skip
+    for s in sorted({c.strength for c in outside}):
+        here = [c for c in outside if c.strength == s]
+        figures["outside"][s] = counted(here, lambda c: not c.plainly or c.first)
+    poor = [c for c in of["effect"] if c.size == "poor"]
+    figures["poor"] = {"campaigns": len(poor), "set": share(poor, lambda c: c.covered), "misnamed": share(poor, lambda c: c.plainly and not c.first)}
+    return figures
+
+
+def counted(cases: list, test: Callable) -> dict:
+    """Share of cases that pass, with its 95 % interval."""
+    k = sum(bool(test(c)) for c in cases)
+    return {"share": k / len(cases) if cases else None, "of": len(cases), "count": k, "interval": wilson(k, len(cases))}
+
+
+def mean(values: list, how: Callable = np.mean) -> float | None:
+    return float(how(values)) if values else None
+
+
+def quantile(cases: list[Case], q: float) -> float | None:
+    return mean([c.seconds for c in cases], lambda x: np.quantile(x, q))
+
+
+def confusion(cases: list[Case]) -> dict[str, Counter]:
+    """Hidden effect (or kind) against what was said: name, or verdict where none is given."""
+    table: dict[str, Counter] = defaultdict(Counter)
+    for c in cases:
+        if c.kind in ("pair", "wrong base"):
+            continue
+        row = c.effects[0] if c.kind == "effect" else f"({c.kind})"
+        said = c.names[0] if c.verdict in (ONE, SET, SEVERAL, INCOMPLETE) and c.names else f"({c.verdict})"
+        table[row][said] += 1
+    return dict(table)
+
+
+def calibration(cases: list[Case]) -> list[dict]:
+    """Share of right first names by what the diagnosis says it captures; p-values of the screening on null data."""
+    rows = []
+    for low, high in ((0.0, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.97), (0.97, 1.01)):
+        here = [c for c in cases if c.kind in ("effect", "outside") and c.names and low <= c.answer.get("captured", 0.0) < high]
+        rows.append({"low": low, "high": min(high, 1.0), **counted(here, lambda c: c.first)})
+    return rows
+
+
+def null_levels(cases: list[Case]) -> list[tuple[float, float, float]]:
+    """(level, share of null campaigns with a smaller p of the screening, of the localisation)."""
+    nulls = [c for c in cases if c.kind == "null" and "p_screen" in c.answer]
+    return [(level, share(nulls, lambda c: c.answer["p_screen"] < level) or 0.0, share(nulls, lambda c: c.answer["p_localise"] < level) or 0.0)
+            for level in (0.5, 0.2, 0.1, 0.05, 0.01)] if nulls else []  # fmt: skip
+
+
+def misses(cases: list[Case]) -> list[Case]:
+    """Everything that was not as it should be, strong effects first."""
+
+    def wrong(c: Case) -> bool:
+        if c.verdict == CRASH:
+            return True
+        if c.kind == "null":
+            return c.verdict != NONE
+        if c.kind == "fault":
+            return c.physical_alarm
+        if c.kind == "outside":
+            return c.plainly and not c.first
+        if c.kind == "wrong base":
+            return c.plainly and not c.first
+        return not c.covered or (c.kind == "effect" and not c.first)
+
+    return sorted((c for c in cases if wrong(c)), key=lambda c: (c.kind, -c.strength, c.number))

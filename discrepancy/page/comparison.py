@@ -1,0 +1,125 @@
+"""The page of a comparison: measured against predicted, and where they differ."""
+
+from dataclasses import asdict
+
+from discrepancy.compare import CONSPICUOUS, Comparison
+from discrepancy.page import amounts, maps, numbers, series
+from discrepancy.page.content import Card, Page, Section, Table
+from discrepancy.page.runs import Run, by_signal, runs_of
+from orchestrator.report.look import Figure
+from orchestrator.report.result import number
+
+FITTED, HELD = "fitted", "held out"
+
+
+def page(result: Comparison) -> Page:
+    space = result.diagnostician.space
+    runs = runs_of(space, result.predictions)
+    sections = [
+        errors(result), localisation_section([asdict(g) for g in result.diagnostician.localisation.groups],
+                                             result.diagnostician.localisation.conditions, result.diagnostician.localisation.level),
+        Section("runs", "Measured against predicted", "Every run of the campaign beside the model's prediction of it.", run_figures("run", runs)),
+        nuisances(result),
+    ]  # fmt: skip
+    return Page("Model against measurement", title(result.model), conditions(result.model, runs), finding(result), cards(result), sections,
+                list(dict.fromkeys(result.warnings)))
+
+
+def title(model) -> str:
+    name, campaign = model.file.name, model.campaign.name
+    return f"{name} against {campaign}" if campaign else name
+
+
+def conditions(model, runs: list[Run]) -> str:
+    """How much was measured, and what the model carries."""
+    held = sum(run.record.held_out for run in runs)
+    count = len({run.record.condition for run in runs})
+    effects = ", ".join(name.replace("_", " ") for name in model.file.effects)
+    return f"{len(runs)} runs at {count} conditions, {held} of them held out; " + (f"model with {effects}" if effects else "model without further effects")
+
+
+def finding(result: Comparison) -> str:
+    """Worst signal, and whether the localisation finds anything."""
+    found = result.diagnostician.localisation.findings
+    worst = max(result.signals, key=lambda s: s["ratio"], default=None)
+    if worst is None:
+        return "Nothing that was measured can be predicted by this model."
+    off = [r for r in result.runs if r["ratio"] > CONSPICUOUS]
+    start = f"{len(off)} of {len(result.runs)} runs err by more than {CONSPICUOUS:g} times their noise; the worst signal is {place(worst)} with {number(worst['ratio'])} times its noise."
+    if not found:
+        return start + " No place, order or dependence carries a significant misfit."
+    best = found[0]
+    where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
+    return start + f" The misfit is most significant in the {best.feature} of {amounts.signal_title(best.signal)}, {where} (p = {best.p:.1g})."
+
+
+def place(row: dict) -> str:
+    return f"{amounts.signal_title(row['signal'])} ({HELD if row['held_out'] else FITTED})"
+
+
+def tone(ratio: float) -> str:
+    return "bad" if ratio > 2.0 else "fair" if ratio > 1.3 else "good"
+
+
+def cards(result: Comparison) -> list[Card]:
+    return [Card(place(row)[:1].upper() + place(row)[1:], number(row["ratio"]),
+                 f"{amounts.text(row['error'], row['unit'])}, noise {amounts.text(row['noise_floor'], row['unit'])}", unit="times noise", tone=tone(row["ratio"]))
+            for row in result.signals]  # fmt: skip
+
+
+def errors(result: Comparison) -> Section:
+    """Table per signal, heat map per signal and condition."""
+    cells: dict[tuple[str, str], list[float]] = {}
+    for run in result.runs:
+        cells.setdefault((run["signal"], run["condition"]), []).append(run["ratio"])
+    held = {run["condition"] for run in result.runs if run["held_out"]}
+    heat = maps.grid("Error over noise by signal and condition", "Root mean square over the replicates; white is as good as the noise allows.",
+                     "error_map", {k: series.rms(v) for k, v in cells.items()}, held)  # fmt: skip
+    rows = [
+        [amounts.signal_title(s["signal"]), HELD if s["held_out"] else FITTED, str(s["runs"]), amounts.text(s["error"], s["unit"]),
+         amounts.text(s["noise_floor"], s["unit"]), number(s["ratio"])]
+        for s in result.signals
+    ]  # fmt: skip
+    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5))
+    lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
+    return Section("errors", "Error against noise", lead, [heat] if cells else [], [table])
+
+
+def localisation_section(places: list[dict], by_condition: dict[str, dict[str, float]], level: float) -> Section:
+    """Where the misfit is; also of a diagnosis."""
+    findings = [p for p in places if p["p"] <= level]
+    lead = (f"Generic functions of the misfit, signal by signal, tested against the noise of replicates and corrected for their number. {len(findings)} of {len(places)} are significant."
+            if findings else "No place, order or dependence carries a significant misfit.")  # fmt: skip
+    figures = maps.localisation("place", places, level)
+    cells = {(signal, c): float(v) ** 0.5 for signal, row in by_condition.items() for c, v in row.items()}
+    if cells:
+        figures.insert(0, maps.grid("Misfit by signal and condition", "Of the generic functions alone, root of the variance ratio: much sharper than the error over all samples.",
+                                    "misfit_map", cells, bar="misfit / noise"))  # fmt: skip
+    return Section("localisation", "Where the model fails", lead, figures)
+
+
+def run_figures(prefix: str, runs: list[Run], **words) -> list[Figure]:
+    """A figure per signal: series over their axis, numbers over their factors; series first."""
+    drawn = []
+    for signal, members in by_signal(runs).items():
+        lines = [r for r in members if r.series]
+        single = [r for r in members if not r.series]
+        if lines:
+            drawn.append(series.figure(prefix, signal, lines, **words))
+        if single:
+            drawn.append(numbers.figure(f"{prefix}_number", signal, single, **words))
+    return sorted(drawn, key=lambda f: -f.columns)
+
+
+def nuisances(result: Comparison) -> Section:
+    known = {p.name: p for p in result.model.nuisances}
+    rows = []
+    for name, value in result.nuisances.items():
+        parameter = known.get(name)
+        unit = parameter.unit if parameter else "1"
+        factor, unit_name = amounts.fitting(abs(value), unit)
+        prior = f"{number(factor * parameter.off)} ± {number(factor * parameter.prior)}" if parameter and parameter.prior else ""
+        rows.append([name, number(factor * value, 4), unit_name, prior, parameter.description if parameter else ""])
+    lead = "Fitted to the campaign before anything was compared." if rows else "Nothing was declared for calibration: the model stands as it is."
+    table = Table("", ["parameter", "value", "unit", "known before", "meaning"], rows, (1,))
+    return Section("nuisances", "Calibrated", lead, [], [table] if rows else [])

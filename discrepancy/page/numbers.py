@@ -1,0 +1,94 @@
+"""Single numbers over the factors of their conditions, with error bars."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from discrepancy.page import amounts, panels
+from discrepancy.page.content import Choice, Choosable
+from discrepancy.page.runs import Run, slug
+from orchestrator.report import look
+from orchestrator.report.look import Figure, short
+
+CONDITION = "condition"
+
+
+def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+           caption: str = "") -> Figure:
+    """All numbers of one signal; the selector chooses what they are drawn over."""
+    unit = runs[0].record.unit
+    names = [*varying(runs), CONDITION]
+    choices = []
+    for name in names:
+        axis = panels.x_axis(CONDITION, type="category") if name == CONDITION else panels.x_axis(amounts.axis_title(name), type="linear")
+        choices.append(Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis}))
+    layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=choices[0].layout["xaxis"])
+    traces = [t | u for t, u in zip(template(words), choices[0].traces)]
+    text = caption or f"Bars are two standard deviations of the noise; below, {words[2]}."
+    return Choosable(f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, traces, layout, 6, 360,
+                     asks="over", choices=choices)
+
+
+def varying(runs: Sequence[Run]) -> list[str]:
+    """Factors, and axes of short rows, that are given everywhere and differ."""
+    names = dict.fromkeys(n for run in runs for n in (*run.record.factors, *run.record.axes))
+    found = []
+    for name in names:
+        values = [places(run, name) for run in runs]
+        if all(v is not None and np.all(np.isfinite(v)) for v in values):
+            every = np.concatenate(values)
+            if np.ptp(every) > 1e-9 * np.max(np.abs(every)):
+                found.append(name)
+    return found
+
+
+def places(run: Run, name: str) -> np.ndarray | None:
+    """The factor's value at each number of a run."""
+    if name in run.record.axes and np.size(run.record.axes[name]) == run.kept.size:
+        return np.asarray(run.record.axes[name], float)[run.kept]
+    if name in run.record.factors:
+        return np.full(run.measured.size, float(run.record.factors[name]))
+    return None
+
+
+def template(words: tuple[str, str, str]) -> list[dict]:
+    """Measured (fitted, held out), predicted, differences (fitted, held out)."""
+    traces = []
+    for label, colour, symbol in (("fitted runs", panels.MEASURED, "circle"), ("held-out runs", panels.HELD, "diamond")):
+        for axis, word in (("y", words[0]), ("y2", words[2])):
+            traces.append({
+                "type": "scatter", "mode": "markers", "yaxis": axis, "name": f"{word}, {label}", "showlegend": axis == "y",
+                "marker": {"color": colour, "symbol": symbol, "size": 7, "opacity": 0.85},
+                "hovertemplate": f"%{{text}}<br>{word}: %{{y}}<extra></extra>",
+            })  # fmt: skip
+    return [*traces, {
+        "type": "scatter", "mode": "markers", "name": words[1],
+        "marker": {"color": panels.PREDICTED, "symbol": "line-ew-open", "size": 15, "line": {"width": 2.4}},
+        "hovertemplate": f"{words[1]}: %{{y}}<extra></extra>",
+    }]  # fmt: skip
+
+
+def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict]:
+    factor, _ = amounts.scale(unit)
+    found = []
+    for held in (False, True):
+        members = [r for r in runs if r.record.held_out == held]
+        x = where(members, name)
+        bars = {"type": "data", "array": short(2.0 * factor * joined(members, lambda r: r.noise), 3), "thickness": 1, "width": 3, "visible": True}
+        texts = [r.record.name for r in members for _ in r.measured]
+        both = {"x": x, "error_y": bars, "text": texts}
+        found.append(both | {"y": short(factor * joined(members, lambda r: r.measured), 5)})
+        found.append(both | {"y": short(factor * joined(members, lambda r: r.measured - r.predicted), 3)})
+    # Replicates have the same prediction: drawn once.
+    marks = dict.fromkeys(zip(where(runs, name), short(factor * joined(runs, lambda r: r.predicted), 5)))
+    return [*found, {"x": [a for a, _ in marks], "y": [b for _, b in marks]}]
+
+
+def where(runs: Sequence[Run], name: str) -> list:
+    if name == CONDITION:
+        return [r.record.condition for r in runs for _ in r.measured]
+    return short(amounts.axis_values(name, joined(runs, lambda r: places(r, name))), 5)
+
+
+def joined(runs: Sequence[Run], take) -> np.ndarray:
+    return np.concatenate([take(r) for r in runs]) if runs else np.zeros(0)

@@ -1,0 +1,60 @@
+"""Runs side by side with what the model says of them, ready to be drawn."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.inference.fit import Workspace
+from discrepancy.inference.noise import SHORT
+from discrepancy.inference.series import stream_of
+from discrepancy.problem import Record
+
+
+@dataclass(frozen=True)
+class Run:
+    """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included."""
+
+    record: Record
+    kept: np.ndarray
+    measured: np.ndarray
+    predicted: np.ndarray
+    noise: np.ndarray
+
+    @property
+    def series(self) -> bool:
+        return self.record.values.size >= SHORT and axis_name(self.record) is not None
+
+
+def axis_name(record: Record) -> str | None:
+    """The axis that a series is drawn over."""
+    moving = [n for n, v in record.axes.items() if np.size(v) == np.size(record.values) and np.ptp(v) > 0]
+    for name in ("angle", "torque", "order", "depth_angle", *moving):
+        if name in moving:
+            return name
+    return None
+
+
+def runs_of(space: Workspace, predicted: list[np.ndarray], minus: list[np.ndarray] | None = None) -> list[Run]:
+    """All runs; ``minus`` is taken off the measured values."""
+    found = []
+    for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
+        kept = whitener.kept
+        measured = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0)
+        between = sum(space.noise.streams[whitener.quantity].patterns.values())
+        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + between)))
+    return found
+
+
+def by_signal(runs: list[Run]) -> Mapping[str, list[Run]]:
+    """Runs of each signal that have any samples; signals in alphabetical order."""
+    found: dict[str, list[Run]] = {}
+    for run in runs:
+        if run.measured.size:
+            found.setdefault(stream_of(run.record), []).append(run)
+    return dict(sorted(found.items()))
+
+
+def slug(text: str) -> str:
+    """A name that may stand in an id."""
+    return "".join(c if c.isalnum() else "_" for c in text)

@@ -1,0 +1,106 @@
+"""Measured and predicted series, one figure per signal, condition by condition."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from discrepancy.page import amounts, panels
+from discrepancy.page.content import Choice, Choosable
+from discrepancy.page.runs import Run, axis_name, slug
+from orchestrator.report import look
+from orchestrator.report.look import Figure, short
+
+MOST_SAMPLES = 1200
+MOST_REPLICATES = 4
+EMPTY = {"x": [], "y": []}
+
+
+def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+           caption: str = "") -> Figure:
+    """Every condition of one signal behind a selector; ``words`` name measured, predicted and their difference."""
+    unit = runs[0].record.unit
+    cells = by_condition(runs)
+    width = min(max(len(members) for members in cells.values()), MOST_REPLICATES)
+    axis = axis_name(runs[0].record)
+    title = amounts.axis_title(axis)
+    traces = template(words, width)
+    choices = [Choice(label, updates(members[:width], unit, width)) for label, members in cells.items()]
+    step = max(stride(run) for run in runs)
+    longest = max(len(members) for members in cells.values())
+    text = caption or f"The band is two standard deviations of the noise between replicates around what is {words[1]}."
+    text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
+    text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
+    layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=panels.x_axis(title))
+    first = [t | u for t, u in zip(traces, choices[0].traces)]
+    return Choosable(f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, first, layout, 12, 380,
+                     asks="condition", choices=choices)
+
+
+def by_condition(runs: Sequence[Run]) -> dict[str, list[Run]]:
+    """Runs that repeat each other, fitted conditions first; those of another mounting count angles from elsewhere."""
+    mounted: dict[str, set[str]] = {}
+    for run in runs:
+        mounted.setdefault(run.record.condition, set()).add(run.record.mounting)
+    cells: dict[str, list[Run]] = {}
+    for run in sorted(runs, key=lambda r: r.record.held_out):
+        record = run.record
+        label = record.condition + (f", mounting {record.mounting}" if len(mounted[record.condition]) > 1 else "")
+        cells.setdefault(label + (" (held out)" if record.held_out else ""), []).append(run)
+    return cells
+
+
+def template(words: tuple[str, str, str], width: int) -> list[dict]:
+    """The traces without data: bands, measured, predicted, differences."""
+    area = {"type": "scatter", "mode": "lines", "fill": "toself", "fillcolor": panels.BAND, "line": {"width": 0}, "hoverinfo": "skip"}
+    dots = {"type": "scatter", "mode": "lines", "line": {"color": panels.MEASURED, "width": 1}}
+    traces = [area | {"name": "noise, 2 σ"}, area | {"yaxis": "y2", "showlegend": False}]
+    for k in range(width):
+        look_of = {"opacity": 0.9 - 0.15 * k, "hovertemplate": f"{words[0]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"}
+        traces.append(dots | look_of | {"name": words[0], "legendgroup": "measured", "showlegend": k == 0})
+        traces.append(dots | look_of | {"name": words[2], "yaxis": "y2", "showlegend": False,
+                                       "hovertemplate": f"{words[2]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"})
+    traces.append({"type": "scatter", "mode": "lines", "line": {"color": panels.PREDICTED, "width": 1.6}, "name": words[1],
+                   "hovertemplate": f"{words[1]}: %{{y}} at %{{x}}<extra></extra>"})
+    return traces
+
+
+def updates(members: Sequence[Run], unit: str, width: int) -> list[dict]:
+    """What the traces show at one condition."""
+    factor, _ = amounts.scale(unit)
+    first = thinned(members[0])
+    x, predicted, noise = first[0], factor * first[2], 2.0 * factor * rms(members[0].noise)
+    ends = np.array([x.min(), x.max()])
+    found = [points(panels.band(x, predicted - noise, predicted + noise, "")),
+             points(panels.band(ends, np.full(2, -noise), np.full(2, noise), ""))]
+    for k in range(width):
+        if k < len(members):
+            at, measured, own = thinned(members[k])
+            found.append({"x": short(at, 5), "y": short(factor * measured, 4)})
+            found.append({"x": short(at, 5), "y": short(factor * (measured - own), 3)})
+        else:
+            found += [EMPTY, EMPTY]
+    return [*found, {"x": short(x, 5), "y": short(predicted, 4)}]
+
+
+def points(trace: dict) -> dict:
+    return {k: trace[k] for k in ("x", "y")}
+
+
+def thinned(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(axis, measured, predicted) with at most MOST_SAMPLES samples."""
+    name, step = axis_name(run.record), stride(run)
+    x = amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])
+    return x[::step], run.measured[::step], run.predicted[::step]
+
+
+def stride(run: Run) -> int:
+    return max(1, int(np.ceil(run.measured.size / MOST_SAMPLES)))
+
+
+def rms(values) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def ordinal(n: int) -> str:
+    ending = "th" if 10 <= n % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th")
+    return f"{n}{ending}"

@@ -1,0 +1,52 @@
+"""Effects of the measuring chain: what sensors add, by their formulas."""
+
+import numpy as np
+import pytest
+
+from discrepancy.catalogue.examples import Case
+from discrepancy.catalogue.signature import ARCSEC, amplitudes, conditions, changed, new_bench, turn
+from discrepancy.effects import MODULES, STAGES
+from discrepancy.problem import Record
+
+ANGLE = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
+
+
+def shown(name, values, size=1.0, quantity="transmission_error", axis=ANGLE, kind="angle", **parameters):
+    record = Record("", quantity, "", "", 1, values, {kind: axis}, {})
+    return MODULES[name].change(values, record, lambda p: parameters.get(p, 0.0), size)
+
+
+def test_every_module_has_its_stage():
+    assert set(STAGES) == set(MODULES)
+
+
+def test_gain_offset_and_drift():
+    signal = 3.0 + np.sin(40.0 * ANGLE)
+    assert np.allclose(shown("sensor_gain", signal, sensor_gain=0.05), 1.05 * signal)
+    assert np.allclose(shown("sensor_offset", signal, size=3.0, sensor_offset=0.05), signal + 0.15)
+    drift = shown("sensor_drift", signal, size=3.0, sensor_drift=0.1) - signal
+    assert drift.mean() == pytest.approx(0.0, abs=1e-12) and np.allclose(np.diff(drift), 0.3 / len(ANGLE))
+
+
+def test_slipping_clock_stretches_the_axis():
+    """Phases run away in proportion to the order."""
+    slip = 1e-3
+    for order in (5, 40):
+        found = shown("clock_slip", np.sin(order * ANGLE), clock_slip=slip)
+        inside = ANGLE * (1.0 + slip) < ANGLE[-1]
+        assert np.allclose(found[inside], np.sin(order * ANGLE * (1.0 + slip))[inside], atol=0.02)
+    time = np.linspace(0.0, 1.0, 500)
+    found = shown("clock_slip", time**2, axis=time, kind="time", clock_slip=-slip)
+    assert np.allclose(found, (time * (1.0 - slip)) ** 2, atol=1e-5)
+
+
+def test_encoder_off_centre_is_order_1_at_any_load():
+    """2 eps/D: 5 um on 50 mm is 41 arcsec; other quantities know nothing of it."""
+    bench, case = new_bench(), Case("", {"encoder_cos1": 2 * 5e-6 / 50e-3, "encoder_sin2": 1e-5})
+    for c in ("rated", "load 25 %", "speed 200 %", "40 K warmer"):
+        at = conditions(bench)[c]
+        series = turn(bench, at, {})
+        added = amplitudes(changed("encoder_eccentricity", case, "transmission_error", at, series) - series) * ARCSEC
+        assert added[1] == pytest.approx(41.25, rel=1e-3) and added[2] == pytest.approx(1e-5 * ARCSEC, rel=1e-6)
+        assert np.delete(added, [1, 2]).max() < 1e-6
+    assert np.array_equal(changed("encoder_eccentricity", case, "input_torque", at, series), series)
