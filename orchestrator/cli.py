@@ -113,9 +113,11 @@ def parser() -> argparse.ArgumentParser:
     report.set_defaults(run=commands.report)
     # The loop of comparison and diagnosis stands above the orchestrator.
     from discrepancy.campaign.commands import add_campaign
+    from discrepancy.catalogue.commands import add_effects
     from discrepancy.commands import add_loop
 
     add_campaign(sub)
+    add_effects(sub)
     add_loop(sub)
     return top
 

@@ -31,7 +31,7 @@ def run_effects(options: argparse.Namespace) -> int:
         print_json(found[0] if options.name else {"effects": found})
     elif options.name:
         screen.show_one(chosen[0], computed[chosen[0].name])
-    else:
+    elif not options.html:
         screen.show_list(chosen)
     if options.html and not options.json:
         print(options.html)

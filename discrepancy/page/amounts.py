@@ -8,6 +8,10 @@ from discrepancy.scales import USUAL
 from fmu_src.units import UnitError, conversion, parse, registry
 from orchestrator.report.result import number
 
+# A fit moves nothing along directions that the data do not see; its interval then has no width.
+UNDETERMINED = "not determined"
+# Units of two parts that read well with a prefix.
+PREFIXED = ("m/N", "N/m", "m/s")
 # Factors and axes, as one reads them: (unit, factor, offset).
 AXES = {
     "speed": ("rpm", 30.0 / math.pi, 0.0), "load": ("N·m", 1.0, 0.0), "temperature": ("°C", 1.0, -273.15),
@@ -51,6 +55,12 @@ def axis_title(name: str) -> str:
     return f"{title} [{unit}]" if unit else title
 
 
+def effect_title(name: str) -> str:
+    """``sensor_gain.input_torque`` as words."""
+    effect, _, variant = name.replace("_", " ").partition(".")
+    return effect + (f" ({variant})" if variant else "")
+
+
 def signal_title(signal: str) -> str:
     """``wear_depth[surface=pin]`` as words."""
     name, _, tags = signal.partition("[")
@@ -68,6 +78,8 @@ def estimate(entry: dict) -> tuple[str, str, str]:
     low, high = entry["interval"]
     size = max((abs(v) for v in (entry["value"], low, high) if math.isfinite(v)), default=0.0)
     factor, unit = fitting(size, entry["unit"])
+    if high - low <= 1e-9 * size:
+        return number(factor * entry["value"]), UNDETERMINED, unit
     return number(factor * entry["value"]), f"{number(factor * low)} to {number(factor * high)}", unit
 
 
@@ -79,7 +91,7 @@ def fitting(size: float, unit: str) -> tuple[float, str]:
         quantity = registry.Quantity(size, parse(unit))
     except UnitError:
         return 1.0, pretty(unit)
-    if quantity.dimensionless or not 0.0 < size < math.inf or len(dict(quantity.unit_items())) > 1:
+    if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):
         return 1.0, pretty(unit)
     compact = quantity.to_compact()
     return float(compact.magnitude / size), f"{compact.units:~P}"

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from discrepancy.page.amounts import signal_title
 from orchestrator.report import look
 from orchestrator.report.look import Figure, short
 
@@ -29,17 +30,17 @@ def pairs(name: str, title: str, caption: str, groups: Sequence[str], before: Se
             "marker": {"color": colour}, "customdata": list(texts), "hovertemplate": f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>",
             "text": [f"{v:.2f}" if v is not None else "" for v in values], "textposition": "outside", "cliponaxis": False,
         }
-        for word, values, colour, texts in ((words[1], after, AFTER, hover[1]), (words[0], before, BEFORE, hover[0]))
+        for word, values, colour, texts in ((words[0], before, BEFORE, hover[0]), (words[1], after, AFTER, hover[1]))
     ]  # fmt: skip
     shape, label = noise_line(horizontal=False)
-    legend = {"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yanchor": "bottom", "traceorder": "reversed", "font": {"size": 11.5}}
+    legend = {"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yref": "container", "yanchor": "top", "font": {"size": 11.5}}
     most = max([v for v in (*before, *after) if v is not None], default=1.0)
     layout = look.layout(
         barmode="group", bargap=0.35, showlegend=True, legend=legend, shapes=[shape], annotations=[label],
         xaxis=look.axis("error over noise", range=[0.0, 1.12 * max(most, 1.1)]), yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
-        margin={"l": 60, "r": 20, "t": 36, "b": 46},
+        margin={"l": 60, "r": 20, "t": 48, "b": 46},
     )  # fmt: skip
-    return Figure(name, title, caption, data, layout, columns, 120 + 46 * max(len(groups), 2))
+    return Figure(name, title, caption, data, layout, columns, 132 + 46 * max(len(groups), 2))
 
 
 def single(name: str, title: str, caption: str, groups: Sequence[str], values: Sequence[float], x_title: str, colours: Sequence[str], texts: Sequence[str],
@@ -59,6 +60,4 @@ def single(name: str, title: str, caption: str, groups: Sequence[str], values: S
 
 def signal_rows(rows: Sequence[dict]) -> list[str]:
     """Names of signals, held-out ones marked."""
-    from discrepancy.page.amounts import signal_title
-
     return [signal_title(r["signal"]) + (", held out" if r["held_out"] else ", fitted") for r in rows]

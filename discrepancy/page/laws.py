@@ -33,6 +33,13 @@ def figures(law: Recovered, unit: str) -> list[Figure]:
     return made
 
 
+def sentence(law: Recovered) -> str:
+    """The best form in words; a constant is no law."""
+    text = law.text.replace(law.signal, amounts.signal_title(law.signal))
+    more = " (no closed form does better on points left out than a constant)" if law.forms and law.forms[0].name == "constant" else ""
+    return text[:1].upper() + text[1:] + more + "."
+
+
 def leading(name: str, law: Recovered, curve, factor: float, title: str, columns: int) -> Figure:
     x, y, deviation = (np.asarray(law.points[k], float) for k in ("x", "y", "deviation"))
     # Curves are centred; the points carry the level.

@@ -15,7 +15,8 @@ from orchestrator.report.result import number
 MOST_RATIO = 10.0
 # p down to ten to the power of minus this.
 MOST_DIGITS = 12.0
-MOST_NAMED = 24
+MOST_ROWS = 48
+TESTED = "#eef1f4"
 
 
 def heat(z, x: list[str], y: list[str], text, hover, title: str, low: float, high: float, ticks: Mapping[float, str] | None = None,
@@ -58,39 +59,41 @@ def grid(title: str, caption: str, name: str, cells: Mapping[tuple[str, str], fl
 
 
 def localisation(prefix: str, places: Sequence[Mapping], level: float) -> list[Figure]:
-    """One map per signal: feature by dependence, coloured by significance; and the single orders."""
-    figures = []
+    """The map of all signals, feature by dependence, coloured by significance; and the single orders of each signal."""
+    named = [p for p in places if not p["feature"].startswith("order ")]
+    figures = [place_map(prefix, named, level)] if named else []
     for signal in sorted({p["signal"] for p in places}):
-        own = [p for p in places if p["signal"] == signal]
-        named = [p for p in own if not p["feature"].startswith("order ")]
-        if named:
-            figures.append(place_map(prefix, signal, named, level))
-        single = [p for p in own if p["feature"].startswith("order ")]
+        single = [p for p in places if p["signal"] == signal and p["feature"].startswith("order ")]
         if single:
             figures.append(comb(prefix, signal, single, level))
-    return sorted(figures, key=lambda f: -f.columns)
+    return figures
 
 
-def place_map(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> Figure:
-    rows = list(dict.fromkeys(p["feature"] for p in places))[:MOST_NAMED]
-    columns = list(dict.fromkeys(p["dependence"] for p in places))
-    columns.sort(key=lambda c: (c != "everywhere", c))
-    at = {(p["feature"], p["dependence"]): p for p in places}
+def place_map(prefix: str, places: Sequence[Mapping], level: float) -> Figure:
+    def row_of(p) -> str:
+        return f"{signal_title(p['signal'])} · {p['feature']}"
+
+    at = {(row_of(p), p["dependence"]): p for p in places}
+    rows = list(dict.fromkeys(row_of(p) for p in sorted(places, key=lambda p: p["signal"])))
+    columns = sorted(dict.fromkeys(p["dependence"] for p in places), key=lambda c: (c != "everywhere", c))
+    dropped = 0
+    if len(rows) > MOST_ROWS:
+        telling = [r for r in rows if any(at[r, c]["p"] <= level for c in columns if (r, c) in at)]
+        dropped, rows = len(rows) - len(telling or rows[:MOST_ROWS]), telling or rows[:MOST_ROWS]
     z = np.array([[strength(at[r, c]["p"]) if (r, c) in at else math.nan for c in columns] for r in rows])
     text = [[f"{100.0 * at[r, c]['share']:.0f} %" if (r, c) in at and at[r, c]["p"] <= level else "" for c in columns] for r in rows]
     hover = [[described(at.get((r, c)), level) for c in columns] for r in rows]
     labels = ["everywhere alike" if c == "everywhere" else f"changes with {c.replace('_', ' ')}" for c in columns]
-    threshold = min(-math.log10(level), 0.8 * MOST_DIGITS)
-    # Below the level all is white: only what is significant takes colour.
-    scale = [[0.0, "#ffffff"], [threshold / MOST_DIGITS, "#f3f5f7"],
-             *[[threshold / MOST_DIGITS + (1.0 - threshold / MOST_DIGITS) * (0.001 + 0.999 * i / 5), c] for i, c in enumerate(look.DEPTH)]]  # fmt: skip
-    ticks = {0.0: "1", threshold: f"{level:.0e}".replace("e-0", "e−"), MOST_DIGITS: f"≤ 1e−{MOST_DIGITS:.0f}"}
+    # Up to the level all is grey: only what is significant takes colour.
+    start = min(-math.log10(max(level, 1e-300)), 0.8 * MOST_DIGITS) / MOST_DIGITS
+    scale = [[0.0, TESTED], [start, TESTED], *[[start + (1.0 - start) * (0.001 + 0.999 * i / 5), c] for i, c in enumerate(look.DEPTH)]]
+    ticks = {0.0: "1", start * MOST_DIGITS: f"{level:.0e}".replace("e-0", "e−"), MOST_DIGITS: f"≤ 1e−{MOST_DIGITS:.0f}"}
     trace = heat(z, labels, rows, text, hover, "p", 0.0, MOST_DIGITS, ticks) | {"colorscale": scale}
     found = sum(p["p"] <= level for p in places)
-    caption = (f"{found} of {len(places)} tests are significant at {level:g} over all tests together; numbers are shares of the whole"
-               " significant misfit, which overlap where features do.")  # fmt: skip
-    wide = 6 if len(columns) <= 3 else 12
-    return Figure(f"{prefix}_{slug(signal)}", signal_title(signal).capitalize(), caption, [trace], layout(rows), wide, 120 + 26 * max(len(rows), 4))
+    caption = (f"Colour: p over all tests together; grey is tested and not significant at {level:g} ({found} of {len(places)} are). Numbers:"
+               " share of the whole significant misfit; features overlap, so shares need not add to 100 %.")  # fmt: skip
+    caption += f" {dropped} rows without findings are left out." if dropped else ""
+    return Figure(prefix, "Map of the misfit", caption, [trace], layout(rows), 12, 110 + 27 * max(len(rows), 3))
 
 
 def strength(p: float) -> float:
@@ -116,4 +119,4 @@ def comb(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> F
     }  # fmt: skip
     picture = look.layout(xaxis=look.axis("order of the output's turn"), yaxis=look.axis("misfit over noise [variance]", rangemode="tozero"))
     caption = "Orders that belong to no named part. 1 is what noise alone gives; significant ones are coloured."
-    return Figure(f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 6, 250)
+    return Figure(f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 12, 200)

@@ -24,7 +24,7 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str,
         choices.append(Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis}))
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=choices[0].layout["xaxis"])
     traces = [t | u for t, u in zip(template(words), choices[0].traces)]
-    text = caption or f"Bars are two standard deviations of the noise; below, {words[2]}."
+    text = caption or f"Dots: {words[0]}; bars are two standard deviations of the noise. Below, {words[2]}."
     return Choosable(f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, traces, layout, 6, 360,
                      asks="over", choices=choices)
 
@@ -57,9 +57,9 @@ def template(words: tuple[str, str, str]) -> list[dict]:
     for label, colour, symbol in (("fitted runs", panels.MEASURED, "circle"), ("held-out runs", panels.HELD, "diamond")):
         for axis, word in (("y", words[0]), ("y2", words[2])):
             traces.append({
-                "type": "scatter", "mode": "markers", "yaxis": axis, "name": f"{word}, {label}", "showlegend": axis == "y",
+                "type": "scatter", "mode": "markers", "yaxis": axis, "name": label, "showlegend": axis == "y",
                 "marker": {"color": colour, "symbol": symbol, "size": 7, "opacity": 0.85},
-                "hovertemplate": f"%{{text}}<br>{word}: %{{y}}<extra></extra>",
+                "hovertemplate": f"%{{text}}, {label}<br>{word}: %{{y}}<extra></extra>",
             })  # fmt: skip
     return [*traces, {
         "type": "scatter", "mode": "markers", "name": words[1],

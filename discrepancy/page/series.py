@@ -27,7 +27,7 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str,
     choices = [Choice(label, updates(members[:width], unit, width)) for label, members in cells.items()]
     step = max(stride(run) for run in runs)
     longest = max(len(members) for members in cells.values())
-    text = caption or f"The band is two standard deviations of the noise between replicates around what is {words[1]}."
+    text = caption or "The band is two standard deviations of the noise between replicates around the blue line."
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
     text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=panels.x_axis(title))

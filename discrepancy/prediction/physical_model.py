@@ -19,6 +19,8 @@ ZEROED = ("transmission_error", "hysteresis")
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
+# Share of the rated torque below which a held output has no defined place.
+FLOATING = 0.01
 
 
 class PhysicalModel:
@@ -30,7 +32,7 @@ class PhysicalModel:
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
                  jobs: int = 1):
         self.file, self.campaign, self.jobs = model, campaign, jobs
-        self.records: list[Record] = [r for r in campaign.records if r.quantity in OBSERVED]
+        self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
         self.bench = Bench(model.reducer, {n: v for n, v in present.items() if "[" not in n})
@@ -132,6 +134,18 @@ _FORKED: PhysicalModel | None = None
 
 def _predict_forked(values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
     return _FORKED.predict(values, which)
+
+
+def defined(record: Record, campaign: Campaign) -> Record:
+    """A loop without the samples near no torque, where the output floats in its clearances."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes:
+        return record
+    torque = np.asarray(record.axes["torque"], float)
+    rated = campaign.rated_torque or float(np.abs(torque).max())
+    kept = np.abs(torque) > FLOATING * rated
+    if kept.all():
+        return record
+    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
 
 
 def typical_size(records: list[Record]) -> float:

@@ -244,7 +244,7 @@ class DahlLoop(Truth):
         grid, first = np.unique(torque[order], return_index=True)
         curve = y[order][first]
         slope = np.gradient(curve, grid)
-        total, force, out = 0.0, 0.0, np.zeros(len(torque))
+        total, force, out = float(torque[0]), 0.0, np.zeros(len(torque))
         place = np.interp(torque[0], grid, curve)
         for i in range(len(torque)):
             step = torque[i] - torque[i - 1] if i else 0.0
