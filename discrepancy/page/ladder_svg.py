@@ -10,6 +10,8 @@ from discrepancy.page.ladder import KINDS, WIDE, attempts, label, stairs
 from orchestrator.report.look import FONT, GRID, INK, QUIET
 
 LEFT, RIGHT, TOP, BOTTOM, STEP, HEIGHT = 64.0, 40.0, 62.0, 74.0, 190.0, 250.0
+# The names of fonts stand inside an attribute.
+QUOTES = {'"': "'"}
 NOISE, POOR = "#00705a", "#b3401b"
 TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 
@@ -55,7 +57,8 @@ def svg(name: str, steps: Sequence[dict]) -> str:
     right = scale.x(max(len(steps), 1) + 0.6)
     width, height = right + RIGHT, TOP + HEIGHT + BOTTOM
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}" role="img" font-family="{escape(FONT, {chr(34): chr(39)})}" font-size="13">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}"'
+        f' role="img" font-family="{escape(FONT, QUOTES)}" font-size="13">',
         f"<title>{escape(name)}: error over noise, step by step</title>",
         f'<rect width="{width:.0f}" height="{height:.0f}" rx="6" fill="#ffffff"/>',
         text(LEFT, 24, f"{name}: error over noise", INK, weight=600),
@@ -86,7 +89,9 @@ def staircase(xs, ys, scale: Scale, colour: str, thick: float) -> list[str]:
         if y is not None:
             run.append(f"{scale.x(x):.1f},{scale.y(y):.1f}")
         elif run:
-            found.append(f'<polyline points="{" ".join(run)}" fill="none" stroke="{colour}" stroke-width="{thick:g}" stroke-linejoin="round"/>')
+            found.append(
+                f'<polyline points="{" ".join(run)}" fill="none" stroke="{colour}" stroke-width="{thick:g}" stroke-linejoin="round"/>'
+            )
             run = []
     return found
 
@@ -95,7 +100,11 @@ def failed(row, scale: Scale, colour: str, labelled: bool) -> list[str]:
     """A dotted way to a cross."""
     k, before, after, _ = row
     x, y = scale.x(k), scale.y(after)
-    found = [line(x, scale.y(before), x, y, colour, 1.2, "2 3"), line(x - 4, y - 4, x + 4, y + 4, colour, 1.8), line(x - 4, y + 4, x + 4, y - 4, colour, 1.8)]
+    found = [
+        line(x, scale.y(before), x, y, colour, 1.2, "2 3"),
+        line(x - 4, y - 4, x + 4, y + 4, colour, 1.8),
+        line(x - 4, y + 4, x + 4, y - 4, colour, 1.8),
+    ]
     return found + ([text(x + 9, y + (-6 if after > before else 15), f"{after:.2f}", colour)] if labelled else [])
 
 
@@ -104,15 +113,26 @@ def caption(k: int, step: dict, scale: Scale) -> list[str]:
     x, base, kept = scale.x(k), TOP + HEIGHT, step.get("kept", True)
     verdict = step["verdict"] + ("" if kept else ", not kept")
     found = [text(x, base + 24 + 16 * i, part, INK, "middle") for i, part in enumerate(wrapped(label(step)))]
-    found.append(text(x, base + 60, verdict, NOISE if step["verdict"] == "helped" else POOR if step["verdict"] == "did not help" else QUIET, "middle", style="italic"))
+    found.append(
+        text(
+            x,
+            base + 60,
+            verdict,
+            NOISE if step["verdict"] == "helped" else POOR if step["verdict"] == "did not help" else QUIET,
+            "middle",
+            style="italic",
+        )
+    )
     kind, colour = ("held_out", KINDS[1][2]) if step.get("held_out_after") is not None else ("training", QUIET)
     if step.get(f"{kind}_after") is None:
         return found
     if k == 1:
         found.append(text(scale.x(0.5), scale.y(step[f"{kind}_before"]) - 8, f"{step[f'{kind}_before']:.2f}", colour, weight=600))
     if kept:
-        found += [f'<circle cx="{x:.1f}" cy="{scale.y(step[f"{kind}_after"]):.1f}" r="4.5" fill="{colour}"/>',
-                  text(x + 9, scale.y(step[f"{kind}_after"]) - 8, f"{step[f'{kind}_after']:.2f}", colour, weight=600)]
+        found += [
+            f'<circle cx="{x:.1f}" cy="{scale.y(step[f"{kind}_after"]):.1f}" r="4.5" fill="{colour}"/>',
+            text(x + 9, scale.y(step[f"{kind}_after"]) - 8, f"{step[f'{kind}_after']:.2f}", colour, weight=600),
+        ]
     return found
 
 
@@ -132,4 +152,7 @@ def line(x0: float, y0: float, x1: float, y1: float, colour: str, width: float =
 
 
 def text(x: float, y: float, words: str, colour: str, anchor: str = "start", weight: int = 400, style: str = "normal") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" text-anchor="{anchor}" font-weight="{weight}" font-style="{style}" stroke="#ffffff" stroke-width="3" paint-order="stroke">{escape(words)}</text>'
+    place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"'
+    # The white rim keeps words readable on lines.
+    rim = 'stroke="#ffffff" stroke-width="3" paint-order="stroke"'
+    return f'<text {place} fill="{colour}" font-weight="{weight}" font-style="{style}" {rim}>{escape(words)}</text>'

@@ -21,8 +21,11 @@ def section(answer: Answer) -> Section:
     base = space.predictions(space.base.values, every)
     full = space.predictions(best.fit.values, every)
     runs = runs_of(space, [a - b for a, b in zip(full, base)], base)
-    touched = {signal for signal, members in by_signal(runs).items()
-               if any(abs(run.predicted).max(initial=0.0) > 0.05 * run.noise.max(initial=0.0) for run in members)}
+    touched = {
+        signal
+        for signal, members in by_signal(runs).items()
+        if any(abs(run.predicted).max(initial=0.0) > 0.05 * run.noise.max(initial=0.0) for run in members)
+    }
     runs = [run for signal, members in by_signal(runs).items() if signal in touched for run in members]
     figures = comparison.run_figures("response", averaged(runs), words=WORDS)
     for signal, members in by_signal(runs).items():
@@ -31,8 +34,17 @@ def section(answer: Answer) -> Section:
         if found:
             figures.append(found)
     figures.sort(key=lambda f: -f.columns)
-    lead = f"In blue what {' + '.join(effect_title(c.name) for c in best.candidates)} adds with its fitted parameters, in grey what the base model leaves (of series the mean of the replicates); held-out conditions were not fitted."
-    return Section("response", "The effect beside the misfit", lead if figures else "The effect changes no signal by more than a twentieth of its noise.", figures)
+    lead = (
+        f"In blue what {' + '.join(effect_title(c.name) for c in best.candidates)} adds with its fitted parameters, "
+        "in grey what the base model leaves (of series the mean of the replicates); held-out conditions were not "
+        "fitted."
+    )
+    return Section(
+        "response",
+        "The effect beside the misfit",
+        lead if figures else "The effect changes no signal by more than a twentieth of its noise.",
+        figures,
+    )
 
 
 def averaged(runs: list[Run]) -> list[Run]:
@@ -46,4 +58,4 @@ def averaged(runs: list[Run]) -> list[Run]:
     return [
         replace(members[0], measured=np.mean([r.measured for r in members], axis=0), noise=members[0].noise / np.sqrt(len(members)))
         for members in cells.values()
-    ]  # fmt: skip
+    ]

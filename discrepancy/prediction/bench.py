@@ -4,8 +4,8 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from orchestrator.life import HOUR
 from orchestrator.reducer import Reducer
 from rv_plant import plant
 from rv_plant.gear_stage import total_ratio
+from rv_plant.needle_bearing import cage_rate
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
@@ -48,8 +49,8 @@ class Condition:
 class Bench:
     """Runs of one reducer with settings; every method takes the values of further parameters."""
 
-    def __init__(self, reducer: Reducer, settings: Mapping[str, float]):
-        self.reducer = Reducer(**{**reducer.__dict__, "resolution": RESOLUTION})
+    def __init__(self, reducer: Reducer, settings: Mapping[str, float], resolution: Resolution = RESOLUTION):
+        self.reducer = replace(reducer, resolution=resolution)
         self.tables: tuple[Table, Table] = (self.reducer.plant, self.reducer.wear)
         self.templates = []
         for table in self.tables:
@@ -83,16 +84,20 @@ class Bench:
             if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
         ))  # fmt: skip
 
-    def pair(self, condition: Condition, values: Mapping[str, float], **plant_values):
-        """Records of both units, initialised at a condition."""
+    def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, **plant_values):
+        """Records of both units, initialised at a condition and an output angle [rad]."""
         plants, wears = (t.copy() for t in self.templates)
         for table, records in zip(self.tables, (plants, wears)):
             for name, value in values.items():
                 if name in table.by_name:
                     records[name] = value
             records["temperature"] = condition.temperature
-        plants["input_speed"] = condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
+        plants["input_speed"] = self.input_speed(condition)
         plants["load_torque"] = condition.direction * condition.load
+        plants["ideal_output"] = first_angle
+        # Where the cages have rolled with the output from 0.
+        rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
+        plants["cage"] = rate * within_turn(first_angle)
         if "grease_age" in self.tables[0].by_name:
             plants["grease_age"] = condition.hours
         for name, value in plant_values.items():
@@ -106,6 +111,10 @@ class Bench:
         if fault:
             raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
         return plants, wears
+
+    def input_speed(self, condition: Condition) -> float:
+        """Speed of the sun [rad/s] with its sign."""
+        return condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
 
     def check(self, status: tuple[int, int], plants, wears) -> None:
         for code, faults, table, records in zip(status, (plant.FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
@@ -131,19 +140,14 @@ class Bench:
             plants, wears = self.pair(fresh, values, largest_crank_step=1.0)
             step = self.turning_time(condition) / POSITIONS
             steps = turns * POSITIONS
-            found, done, jump = {}, 0.0, FIRST_JUMP
             wears["acceleration"] = 0.0
             self.check(coupled.run_pair(plants, wears, 2, step), plants, wears)
-            for target in sorted(set(inspections)):
-                while target - done > 1e-6 * HOUR:
-                    left = target - done
-                    stretch = left / max(1, math.ceil(left / jump - 1e-9))
-                    wears["acceleration"] = stretch / (steps * step)
-                    if "grease_age" in self.tables[0].by_name:
-                        plants["grease_age"] = done + 0.5 * stretch
-                    self.check(coupled.run_pair(plants, wears, steps, step), plants, wears)
-                    done += stretch
-                    jump = min(LONGEST_JUMP, 2.0 * jump)
+            found = {target: wears.copy() for target in inspections}
+            for done, stretch, target in stretches(inspections):
+                wears["acceleration"] = stretch / (steps * step)
+                if "grease_age" in self.tables[0].by_name:
+                    plants["grease_age"] = done + 0.5 * stretch
+                self.check(coupled.run_pair(plants, wears, steps, step), plants, wears)
                 found[target] = wears.copy()
             return found
 
@@ -159,7 +163,7 @@ class Bench:
         key = ("running", condition, relevant, angles.tobytes())
 
         def run():
-            plants, wears = self.pair(condition, values, ideal_output=angles[0], largest_crank_step=1.0)
+            plants, wears = self.pair(condition, values, angles[0], largest_crank_step=1.0)
             if condition.hours > 0.0:
                 worn = self.worn(condition, values, condition.hours)
                 wears[:] = worn
@@ -198,7 +202,7 @@ class Bench:
             total = np.zeros(len(torques))
             for k in range(HELD_ANGLES):
                 angle = 2.0 * math.pi * k / (HELD_ANGLES * self.reducer.topology.lobes)
-                plants, wears = self.pair(condition, values, input_speed=0.0, load_torque=torques[0], ideal_output=angle)
+                plants, wears = self.pair(condition, values, angle, input_speed=0.0, load_torque=torques[0])
                 if condition.hours > 0.0:
                     self.put_wear(condition, values, plants, wears)
                 turning = np.zeros(len(torques))
@@ -219,6 +223,23 @@ class Bench:
         self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]
+
+
+def stretches(inspections: list[float]) -> Iterator[tuple[float, float, float]]:
+    """What the wear cycles of a life stand for: (time before, length, inspection it leads to) [s], growing in length."""
+    done, jump = 0.0, FIRST_JUMP
+    for target in sorted(set(inspections)):
+        while target - done > 1e-6 * HOUR:
+            left = target - done
+            stretch = left / max(1, math.ceil(left / jump - 1e-9))
+            yield done, stretch, target
+            done += stretch
+            jump = min(LONGEST_JUMP, 2.0 * jump)
+
+
+def within_turn(angle: float) -> float:
+    """The same place of the output by the shorter way from 0 [rad]."""
+    return math.remainder(angle, 2.0 * math.pi)
 
 
 def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
