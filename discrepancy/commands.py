@@ -31,6 +31,9 @@ def add_loop(sub: argparse._SubParsersAction) -> None:
         command = sub.add_parser(name, help=text)
         add_common(command)
         command.set_defaults(run=run)
+        if name != "next":
+            command.add_argument("--fmus", metavar="FOLDER",
+                                 help="step RvPlant.fmu and RvWear.fmu of this folder instead of their kernels in this process")
         if name == "diagnose":
             command.add_argument("--draft", metavar="FILE", help="write an effect file from the recovered law, if nothing is named")
     add = sub.add_parser("extend", help="add an effect to a model and judge it on runs that were not used")
@@ -64,6 +67,10 @@ def inputs(options: argparse.Namespace):
     return file, campaign
 
 
+def fmu_folder(options: argparse.Namespace) -> Path | None:
+    return Path(options.fmus) if options.fmus else None
+
+
 def all_cores() -> int:
     """Cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -78,7 +85,7 @@ def write_html(options: argparse.Namespace, result) -> None:
 
 def run_compare(options: argparse.Namespace) -> int:
     with busy("comparing"):
-        comparison = compare(*inputs(options), jobs=all_cores())
+        comparison = compare(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
     write_html(options, comparison)
     if options.json:
         print_json(comparison.as_json())
@@ -89,7 +96,7 @@ def run_compare(options: argparse.Namespace) -> int:
 
 def run_localise(options: argparse.Namespace) -> int:
     with busy("localising"):
-        comparison = compare(*inputs(options))
+        comparison = compare(*inputs(options), fmus=fmu_folder(options))
     write_html(options, comparison)
     if options.json:
         print_json(comparison.as_json()["localisation"])
@@ -101,7 +108,7 @@ def run_localise(options: argparse.Namespace) -> int:
 
 def run_diagnose(options: argparse.Namespace) -> int:
     with busy("diagnosing"):
-        answer = diagnose(*inputs(options), jobs=all_cores())
+        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
     write_html(options, answer)
     draft = None
     if options.draft:

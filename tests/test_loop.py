@@ -90,7 +90,7 @@ def test_wider_needle_bearings_are_found_and_added(file, wide, tmp_path):
 
 def test_effect_that_only_fits_noise_is_refused(file):
     extension = extend(file, campaign_of(file, {}, 3), ["pin_position_errors.scatter"])
-    assert extension.verdict == DID_NOT_HELP
+    assert extension.verdict in (DID_NOT_HELP, NOT_PROVEN)
     assert extension.file.effects == {} and extension.file.steps[0]["kept"] is False
 
 

@@ -132,8 +132,8 @@ def peers_section(cases: list[Case]) -> list[str]:
     if not with_peers:
         return []
     lines = ["## The same files put through other methods", "",
-             "BIC with white noise over the same candidates; PySINDy's STLSQ on the same columns; forward selection by AIC and BIC as PEtab Select"
-             " does it. None of them can say that nothing is missing unless no term enters, and none that the law is unknown.", ""]  # fmt: skip
+             "BIC with white noise over the same candidates; PySINDy's STLSQ on the same columns; PEtab Select's forward method"
+             " with AIC and BIC. None of them can say that nothing is missing unless no term enters, and none that the law is unknown.", ""]  # fmt: skip
     names = sorted({name for c in with_peers for name in c.result["peers"] if "seconds" not in name})
     rows = []
 

@@ -54,33 +54,41 @@ class FmuBench(Bench):
             if name in unit.signals and unit.signals[name].causality != "output":
                 unit.set(name, value)
 
-    def renew_plant(self, condition: Condition, values: Mapping[str, float], **plant_values) -> None:
+    def renew_plant(self, condition: Condition, values: Mapping[str, float], load: float) -> None:
         self.renew(self.plant, {
             **values, "temperature": condition.temperature, "input_speed": self.input_speed(condition),
-            "load_torque": condition.direction * condition.load, "grease_age": condition.hours, **plant_values,
+            "load_torque": load, "grease_age": condition.hours, "largest_crank_step": 1.0,
         })  # fmt: skip
 
-    def start_plant(self, condition: Condition, values: Mapping[str, float], **plant_values) -> None:
-        """The plant alone at output angle 0."""
-        self.renew_plant(condition, values, **plant_values)
+    def start_plant(self, condition: Condition, values: Mapping[str, float], load: float) -> None:
+        """The plant alone, at output angle 0."""
+        self.renew_plant(condition, values, load)
         self.plant.enter_initialisation(0.0)
-        # Here the values may come from a search: what they do not allow is a fault of the run, as in ``Bench``.
+        # Values come from a search here: those that the plant refuses end a run, they are no fault of the user.
         self.plant.attempt(self.plant.slave.exitInitializationMode)
 
     def turn_plant(self, condition: Condition, angle: float) -> None:
-        """Move the output by ``angle`` [rad], at the speed of the condition in either direction."""
+        """Move the output by ``angle`` [rad], at the condition's speed whichever the direction."""
+        if angle == 0.0:
+            # A step on the spot would let heat that follows the losses at once settle further than in ``Bench``.
+            return
         self.plant.set("input_speed", math.copysign(condition.speed, angle * self.ratio))
         self.plant.step(0.0, abs(angle * self.ratio) / condition.speed)
 
     def place_wear(self, state: bytes) -> None:
         """Put worn surfaces under the plant's contacts; they wear no further."""
-        self.wear.restore(state)
-        self.wear.set("acceleration", 0.0)
-        self.wear.set("contact_lead", 0.0)
-        start, end = self.wear.get("crank_angle"), self.plant.get("crank_angle")
-        for angle in np.linspace(start, end, 1 + math.ceil(abs(end - start) / LONGEST_WEAR_STEP))[1:]:
-            self.wear.set("crank_angle", angle)
-            self.wear.step(0.0, 0.0)
+        wear, plant = self.wear, self.plant
+        wear.restore(state)
+        wear.set("acceleration", 0.0)
+        wear.set("contact_lead", 0.0)
+        for name in ("output_angle", "cage_angle"):
+            wear.set(name, plant.get(name))
+        start, end = wear.get("crank_angle"), plant.get("crank_angle")
+        for angle in np.linspace(start, end, 2 + int(abs(end - start) / LONGEST_WEAR_STEP))[1:]:
+            wear.set("crank_angle", angle)
+            wear.step(0.0, 0.0)
+        for name in ("mesh_profile_error", "roller_profile_error"):
+            plant.set(name, wear.get(name))
 
     def worn_state(self, condition: Condition, values: Mapping[str, float]) -> bytes | None:
         """The wear unit's FMU state after the condition's hours, if there are any."""
@@ -102,7 +110,7 @@ class FmuBench(Bench):
         fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
 
         def run():
-            self.renew_plant(fresh, values, largest_crank_step=1.0)
+            self.renew_plant(fresh, values, fresh.direction * fresh.load)
             self.renew(self.wear, {**values, "temperature": fresh.temperature})
             try:
                 self.master.initialise()
@@ -125,17 +133,15 @@ class FmuBench(Bench):
     def running(self, condition, values, angles):
         def run():
             worn = self.worn_state(condition, values)
-            self.start_plant(condition, values, largest_crank_step=1.0)
+            self.start_plant(condition, values, condition.direction * condition.load)
             start = within_turn(angles[0])
             self.turn_plant(condition, start)
             self.plant.set("input_speed", self.input_speed(condition))
             if worn:
                 self.place_wear(worn)
-                self.step_pair(0.0)
             move = self.step_pair if worn else lambda duration: self.plant.step(0.0, duration)
-            seen = [self.plant.signal(name).references[0] for name in COLUMNS]
             row, series = np.zeros(len(COLUMNS)), np.zeros((len(angles), len(COLUMNS)))
-            read = self.plant.reader(tuple(seen), row)
+            read = self.plant.reader(tuple(self.plant.signal(name).references[0] for name in COLUMNS), row)
             durations = np.abs(np.diff(angles, prepend=angles[0])) * abs(self.ratio) / condition.speed
             for i, duration in enumerate(durations):
                 move(float(duration))
@@ -158,7 +164,7 @@ class FmuBench(Bench):
         def run():
             worn = self.worn_state(condition, values)
             total = np.zeros(len(torques))
-            self.start_plant(condition, values, load_torque=torques[0])
+            self.start_plant(condition, values, torques[0])
             placed = self.plant.save()
             for k in range(HELD_ANGLES):
                 if k > 0:
@@ -168,8 +174,6 @@ class FmuBench(Bench):
                 self.plant.set("input_speed", 0.0)
                 if worn:
                     self.place_wear(worn)
-                    for transfers in self.master.incoming.values():
-                        ...
                 for i, torque in enumerate(torques):
                     self.plant.set("load_torque", torque)
                     self.plant.step(0.0, 1.0)
@@ -178,3 +182,13 @@ class FmuBench(Bench):
 
         key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes())
         return self.kept(key, run)
+
+
+def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
+    """An FMU is that of the model's reducer, or of the extended model; the rest is set at each run."""
+    # Not above: extending a model needs the bench.
+    from discrepancy.extend import extended_reducer
+
+    extended = extended_reducer(model)
+    built_extended = unit.specification() == extended.specification(name)
+    require_built_from(extended if built_extended else model.reducer, unit, name)

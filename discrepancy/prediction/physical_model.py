@@ -3,6 +3,7 @@
 import multiprocessing
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, angle_zero
 from discrepancy.problem import Candidate, Parameter, Record
 from orchestrator.faults import RunFault
@@ -27,18 +29,19 @@ FLOATING = 0.01
 
 
 class PhysicalModel:
-    """Predicts a campaign's records with the compiled kernels.
+    """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
     ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
     """
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
-                 jobs: int = 1):
+                 jobs: int = 1, fmus: Path | None = None):
         self.file, self.campaign, self.jobs = model, campaign, jobs
         self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
-        self.bench = Bench(model.reducer, {n: v for n, v in present.items() if "[" not in n})
+        settings = {n: v for n, v in present.items() if "[" not in n}
+        self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         self.per = {n.parameter.name: n.per for n in campaign.nuisances}
