@@ -1,0 +1,5 @@
+"""The co-simulation master."""
+
+from orchestrator.master.master import SCHEMES, Master
+
+__all__ = ["SCHEMES", "Master"]
