@@ -18,8 +18,8 @@ from orchestrator.faults import InputFault, RunFault
 from orchestrator.master.connections import Link, Transfer, group_links, make_transfer
 
 METHODS = ("newton", "fixed-point")
-# Relaxation stays within these: Aitken's factor may jump at the first steps.
-LEAST_RELAXATION, MOST_RELAXATION = 0.02, 1.5
+# Iterations that the relaxation looks back on.
+DEPTH = 5
 
 
 @dataclass(frozen=True)
@@ -79,18 +79,19 @@ class Loop:
         return bool(np.abs(residual).max() <= self.settings.tolerance * max(1e-12, np.abs(values).max()))
 
     def fixed_point(self, values: np.ndarray, time: float) -> np.ndarray:
-        """Relaxed iteration; Aitken's factor turns a diverging one round."""
-        relaxation, previous = 1.0, None
+        """Iteration relaxed by what the last ones showed (Anderson's mixing), so that a diverging one turns round."""
+        tried: list[np.ndarray] = []
+        residuals: list[np.ndarray] = []
         for _ in range(self.settings.iterations):
             residual = self.residual(values, time)
             if self.is_solved(values, residual):
                 return values
-            if previous is not None:
-                change = residual - previous
-                relaxation = -relaxation * float(previous @ change) / max(float(change @ change), 1e-300)
-                size = min(max(abs(relaxation), LEAST_RELAXATION), MOST_RELAXATION)
-                relaxation = size if relaxation >= 0.0 else -size
-            values, previous = values + relaxation * residual, residual
+            tried, residuals = [*tried, values][-DEPTH:], [*residuals, residual][-DEPTH:]
+            values = values + residual
+            if len(tried) > 1:
+                differences = np.diff(residuals, axis=0).T
+                share = np.linalg.lstsq(differences, residual, rcond=None)[0]
+                values = values - (np.diff(tried, axis=0).T + differences) @ share
         raise self.fault(time, residual)
 
     def newton(self, values: np.ndarray, time: float) -> np.ndarray:

@@ -13,8 +13,11 @@ that its signal has had:
   they are.  One step for one.  With units that cannot restore their state nothing can be
   taken back: the estimate then only sets the length of the next step.
 
-The tolerance is the error allowed per base step, shared by its parts in proportion to
-their length, so that the error at the end falls with the tolerance.
+The tolerance is the error allowed per base step: for doubling, whose estimate is that of the
+units' states, shared by its parts in proportion to their length; for extrapolation, whose
+estimate is that of the inputs (states feel it times the step), for each part in full.  In
+both cases the error at the end falls with the tolerance.  The estimate sees connected values
+only: where positions are exchanged but the error enters velocities, name these in ``watch``.
 """
 
 from dataclasses import dataclass
@@ -22,8 +25,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator.component import Component, Signal
 from orchestrator.faults import InputFault, RunFault
-from orchestrator.master.connections import Link
+from orchestrator.master.connections import Link, resolve
 from orchestrator.master.extrapolation import History
 
 if TYPE_CHECKING:
@@ -36,11 +40,15 @@ SAFETY = 0.8
 
 @dataclass(frozen=True)
 class StepControl:
-    """``tolerance`` relative error per base step; at most ``halvings`` divisions of it by two."""
+    """``tolerance`` relative error per base step; at most ``halvings`` divisions of it by two.
+
+    ``watch`` names outputs (``component.variable``) whose error counts beside the connected ones'.
+    """
 
     tolerance: float = 1e-4
     method: str = "auto"
     halvings: int = 12
+    watch: tuple[str, ...] = ()
 
     def __post_init__(self):
         if self.method not in METHODS:
@@ -52,20 +60,19 @@ class StepControl:
 
 
 class Probe:
-    """All connected outputs as one vector, with the size that errors are measured by."""
+    """Outputs as one vector, with the size that their errors are measured by."""
 
-    def __init__(self, master: "Master", links: list[Link]):
-        chosen = list({(k.source_name, k.source.name): k for k in links if k.source.dtype == "f8"}.values())
-        self.values = np.zeros(sum(len(k.source.references) for k in chosen))
-        self.size = np.zeros(len(chosen))
+    def __init__(self, components: dict[str, Component], outputs: list[tuple[str, Signal]]):
+        chosen = list({(name, signal.name): (name, signal) for name, signal in outputs if signal.dtype == "f8"}.values())
+        self.values = np.zeros(sum(len(signal.references) for _, signal in chosen))
+        self.size = np.array([signal.nominal or 0.0 for _, signal in chosen])
         self.parts, self.reads = [], []
         first = 0
-        for i, link in enumerate(chosen):
-            part = self.values[first : first + len(link.source.references)]
+        for name, signal in chosen:
+            part = self.values[first : first + len(signal.references)]
             first += part.size
             self.parts.append(part)
-            self.reads.append(master.components[link.source_name].reader(link.source.references, part))
-            self.size[i] = link.source.nominal or 0.0
+            self.reads.append(components[name].reader(signal.references, part))
         self.lengths = [part.size for part in self.parts]
 
     def read(self) -> np.ndarray:
@@ -103,8 +110,10 @@ class Controller:
             )
         method = settings.method
         self.doubles = method == "doubling" or method == "auto" and self.can_reject
-        self.order = master.coupling_order if self.doubles else master.extrapolation
-        self.probe = Probe(master, links)
+        # Power of the step by which estimate over allowance changes.
+        self.order = master.coupling_order if self.doubles else master.extrapolation + 1
+        watched = [resolve(master.components, path) for path in settings.watch]
+        self.probe = Probe(master.components, [(k.source_name, k.source) for k in links] + watched)
         self.history = History(master.extrapolation, self.probe.values.size)
         # Without a way back the first step must be a careful one.
         self.level = 0 if self.can_reject else settings.halvings
@@ -121,7 +130,7 @@ class Controller:
         while done < ticks:
             length = ticks >> self.level
             at, step = start + duration * done / ticks, duration * length / ticks
-            allowed = self.settings.tolerance * length / ticks
+            allowed = self.allowed(step)
             error = self.attempt(at, step)
             if error > allowed and self.can_reject and self.level < self.settings.halvings:
                 self.rejected += 1
@@ -135,6 +144,9 @@ class Controller:
             elif error <= SAFETY * allowed / 2.0**self.order and self.level > 0 and done % (2 * length) == 0:
                 self.level -= 1
 
+    def allowed(self, step: float) -> float:
+        return self.settings.tolerance * (step / self.master.step_size if self.doubles else 1.0)
+
     def attempt(self, at: float, step: float) -> float:
         """Try a step; its error.  On return the units stand at its end, ``undo`` holds the way back."""
         master = self.master
@@ -146,7 +158,7 @@ class Controller:
                 raise
             error = np.inf
         if self.undo is not None:
-            if error > self.settings.tolerance * step / master.step_size and self.level < self.settings.halvings:
+            if error > self.allowed(step) and self.level < self.settings.halvings:
                 master.revert(self.undo)
             master.forget(self.undo)
         return error
