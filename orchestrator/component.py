@@ -62,6 +62,7 @@ class Component(ABC):
 
     What it can do is declared: ``can_restore`` (state), ``can_vary_step``, and
     ``input_derivatives``, the highest derivative of an input that it takes.
+    ``usual_step`` [s] is the communication step that it suggests.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Component(ABC):
     can_restore = True
     can_vary_step = True
     input_derivatives = 0
+    usual_step: float | None = None
 
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         """Output element -> the input elements that it depends on at once; none is the usual case."""
@@ -133,6 +135,13 @@ class Component(ABC):
     @abstractmethod
     def step(self, time: float, duration: float) -> None:
         """Advance from ``time`` by ``duration`` [s]; RunFault if that fails."""
+
+    def begin_step(self, time: float, duration: float) -> None:
+        """Start a step; a unit in a process of its own goes on while others start theirs."""
+        self.step(time, duration)
+
+    def end_step(self) -> None:
+        """Wait for the end of the step begun."""
 
     @abstractmethod
     def save(self) -> bytes:

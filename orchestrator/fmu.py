@@ -48,6 +48,8 @@ class Fmu(Component):
         self.can_vary_step = capability.canHandleVariableCommunicationStepSize
         # FMI 2 does not say up to which order; FMI 3 has dropped input derivatives.
         self.input_derivatives = int(capability.canInterpolateInputs and version == "2.0")
+        experiment = self.description.defaultExperiment
+        self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         try:
             self.calls = VERSIONS[version](name, self.described, self.folder, self.messages.append)
             self.calls.instantiate()

@@ -45,7 +45,7 @@ class Described:
         self.is_fmi3 = description.fmiVersion.startswith("3")
         self.variables = [
             v for v in description.modelVariables
-            if v.type in KINDS and v.causality not in ("local", "independent", "structuralParameter")
+            if v.type in KINDS and v.causality not in ("independent", "structuralParameter")
         ]  # fmt: skip
         self.texts = {v.name: v.valueReference for v in description.modelVariables if v.type == "String"}
         self.base_units = {

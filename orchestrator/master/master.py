@@ -170,16 +170,22 @@ class Master:
                     transfer.fetch(start)
             for name in due:
                 for transfer in incoming[name]:
-                    transfer.deliver(start, end)
-        reached: set[str] = set()
-        for name in due:
-            first = start - (self.ratios[name] - 1) * duration
-            if self.scheme == "gauss-seidel":
+                    transfer.deliver(start - (self.ratios[name] - 1) * duration, end)
+            for name in due:
+                ratio = self.ratios[name]
+                self.components[name].begin_step(start - (ratio - 1) * duration, ratio * duration)
+            for name in due:
+                self.components[name].end_step()
+        else:
+            reached: set[str] = set()
+            for name in due:
+                ratio = self.ratios[name]
+                first = start - (ratio - 1) * duration
                 for transfer in incoming[name]:
                     transfer.fetch(end if transfer.source in reached else start)
                     transfer.deliver(first, end)
-            self.components[name].step(first, self.ratios[name] * duration)
-            reached.add(name)
+                self.components[name].step(first, ratio * duration)
+                reached.add(name)
         if self.settle is not None:
             self.settle(end)
         for bond in self.bonds:
