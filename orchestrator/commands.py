@@ -19,13 +19,14 @@ from orchestrator.duty import load_duty
 from orchestrator.faults import InputFault
 from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, live
-from orchestrator.master import Master
+from orchestrator.master import SCHEMES, Master
 from orchestrator.modes import modes as natural_modes
-from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, make_pair
+from orchestrator.pair import CONNECTIONS, POSITIONS_PER_TURN, Pair, crank_turn_time, make_pair
 from orchestrator.reducer import Reducer, load_reducer
-from orchestrator.scenario import load_scenario, run_scenario
 from orchestrator.settings import Setting, apply, parse_setting
 from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
+from orchestrator.ssp.exporter import Experiment, export_ssp
+from orchestrator.system_commands import run_system
 
 # Options that are shorthands of settings: option -> (variable, unit).
 SHORTHANDS = {
@@ -48,11 +49,6 @@ def settings_of(options: argparse.Namespace, reducer: Reducer) -> list[Setting]:
     return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
 
 
-def print_json(content: dict) -> None:
-    """NaN and infinity are not JSON: they become null."""
-    print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))
-
-
 def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     positions = require_positions(options.positions)
@@ -69,32 +65,27 @@ def solve(options: argparse.Namespace) -> int:
         half = record_turn(pair, positions)
         figures = figures_of(reducer, plant, full, half, torque)
     if options.json:
-        print_json({"reducer": reducer.name, "positions": positions} | figures)
+        screen.json_text({"reducer": reducer.name, "positions": positions} | figures)
     else:
         screen.figures(f"{reducer.name} over one crank turn", figures)
     return 0
 
 
 def run(options: argparse.Namespace) -> int:
-    """``rvwear run``: a scenario file, or the pair of a reducer."""
-    if options.scenario:
+    """``rvwear run``: a system from a file, or the pair of a reducer."""
+    if options.system:
         refuse_pair_options(options)
-        scenario = load_scenario(options.scenario)
-        path = result_path(options.output, scenario.name)
-        with screen.Progress(scenario.steps, "steps") as progress:
-            series = run_scenario(scenario, progress.advance)
-        units = {f"{name}.{signal}": scenario.master.components[name].signal(signal).unit
-                 for name, signal in scenario.recorded}
-        name, inputs = scenario.name, {"scenario": scenario.text}
-        scenario.master.close()
+        name = options.system
+        summary, last = run_system(options, result_path)
     else:
+        refuse_system_options(options)
         positions = require_positions(options.positions)
         reducer = load_reducer(options.reducer)
         settings = settings_of(options, reducer)
         path = result_path(options.output, f"{reducer.name}_run")
         if not 0.0 < options.turns <= 1e5:
             raise InputFault(f"turns = {options.turns}: between one position ({1 / positions:.3g} turns) and 100,000")
-        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme or SCHEMES[0], positions)
         pair.wear.set("acceleration", options.acceleration)
         steps = round(options.turns * positions)
         if steps < 1:
@@ -109,20 +100,23 @@ def run(options: argparse.Namespace) -> int:
                   "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
                   "parameters": {"plant": results.parameters_of(pair.plant), "wear": results.parameters_of(pair.wear)}}
         pair.master.close()
-    results.write(results.series_dataset(series, units, inputs), path)
-    summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
-    summary |= {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+        results.write(results.series_dataset(series, units, inputs), path)
+        summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
+        last = {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+    summary |= last
     if options.json:
-        print_json(summary)
+        screen.json_text(summary)
     else:
         screen.figures(f"{name}: values at the end (largest of an array)", summary)
     return 0
 
 
-def result_path(text: str | None, name: str) -> Path:
+def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)) -> Path:
     """Where a result goes; checked before the work, so that none is lost."""
     path = Path(text or f"results/{name}.nc")
-    if path.suffix != ".nc":
+    if path.suffix not in endings:
+        if len(endings) > 1:
+            raise InputFault(f"--output {path}: the name must end in {' or '.join(endings)}")
         raise InputFault(f"--output {path}: a result is a NetCDF file; give a name that ends in .nc")
     if path.is_dir():
         raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
@@ -133,12 +127,19 @@ def result_path(text: str | None, name: str) -> Path:
 
 
 def refuse_pair_options(options: argparse.Namespace) -> None:
-    """A scenario file says all: options of the pair beside it would be ignored."""
-    given = [f"--{name.replace('_', '-')}" for name in (*SHORTHANDS, "set", "fmus") if getattr(options, name)]
-    given += [f"--{name}" for name, usual in (("turns", 1.0), ("acceleration", 1.0), ("positions", 72),
-                                              ("scheme", "gauss-seidel")) if getattr(options, name) != usual]
+    """A system's file says all: options of the pair beside it would be ignored."""
+    given = [f"--{name.replace('_', '-')}" for name in (*SHORTHANDS, "fmus") if getattr(options, name)]
+    given += [f"--{name}" for name, usual in (("turns", 1.0), ("acceleration", 1.0), ("positions", 72))
+              if getattr(options, name) != usual]
     if given:
-        raise InputFault(f"{', '.join(given)} with a scenario file: set it in the file, or leave the file out")
+        raise InputFault(f"{', '.join(given)} with a system's file: use --set component.variable=value, or set it in the file")
+
+
+def refuse_system_options(options: argparse.Namespace) -> None:
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record")
+    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name)]
+    if given:
+        raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
 
 
 def folder(text: str | None) -> Path | None:
@@ -219,7 +220,7 @@ def show_life(options: argparse.Namespace, dataset: xr.Dataset, path: Path) -> i
 
         write_report(dataset, page)
     if options.json:
-        print_json({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
+        screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
     else:
         screen.life_table(dataset)
         print(f"result  {path}")
@@ -244,7 +245,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     }
     if options.json:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
-        print_json({"reducer": reducer.name} | figures | curve)
+        screen.json_text({"reducer": reducer.name} | figures | curve)
     else:
         screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
     return 0
@@ -256,7 +257,7 @@ def modes(options: argparse.Namespace) -> int:
     with screen.busy("linearising the plant in motion"):
         found = natural_modes(reducer, settings_of(options, reducer))
     if options.json:
-        print_json({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+        screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
     else:
         screen.modes(f"{reducer.name}: modes under load, input held", found)
     return 0
@@ -270,7 +271,7 @@ def reproduce(options: argparse.Namespace) -> int:
     claims = judge(options.claims or None, lambda text: print(text, file=sys.stderr, flush=True))
     page = write_page(claims, Path(options.output))
     if options.json:
-        print_json(as_json(claims) | {"page": str(page)})
+        screen.json_text(as_json(claims) | {"page": str(page)})
     else:
         print_table(claims)
         print(f"page  {page}")
@@ -292,13 +293,25 @@ def build(options: argparse.Namespace) -> int:
                 build_fmu(name, specification, step, f"rvwear {results.version('rvwear')}", path.parent)
         validate(path)
         built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": not fresh, "problems": 0})
+    package = export_pair(reducer, Path(options.output), step)
     if options.json:
-        print_json({"reducer": reducer.name, "fmus": built})
+        screen.json_text({"reducer": reducer.name, "fmus": built, "ssp": str(package)})
     else:
         for entry in built:
             state = "built" if entry["built"] else "up to date"
             print(f"{entry['fmu']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+        print(f"{package}  {package.stat().st_size / 1e3:.0f} kB  both, connected")
     return 0
+
+
+def export_pair(reducer: Reducer, folder: Path, step: float) -> Path:
+    """RvReducer.ssp: the pair through one crank turn, in the same folder as its FMUs."""
+    return export_ssp(
+        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
+        # Tools exchange values at the step's start: each unit sees the other one step later.
+        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", f"rvwear {results.version('rvwear')}",
+    )  # fmt: skip
 
 
 def is_current(path: Path, identity: str) -> bool:

@@ -16,7 +16,7 @@ from orchestrator.component import Component
 from orchestrator.faults import InputFault
 from orchestrator.fmu import Fmu
 from orchestrator.isolation import Isolated
-from orchestrator.master import Connection, Master
+from orchestrator.master import SCHEMES, Connection, Master
 from orchestrator.master.connections import resolve
 from orchestrator.settings import parse_value
 from orchestrator.ssp.importer import read_ssp
@@ -132,7 +132,8 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
     for name, variable, parameter in structure.parameters:
         apply(parameter, components[name], variable)
     size = step or structure.step or usual_step(components, structure.stop)
-    made = Master(components, structure.connections, size, **{"start_time": structure.start} | master)
+    usual = {"start_time": structure.start, "scheme": structure.scheme or SCHEMES[0]}
+    made = Master(components, structure.connections, size, **usual | master)
     stop = structure.stop if structure.stop is not None else structure.start + USUAL_STEPS * size
     return System(structure.name, made, whole_steps(stop - structure.start, size), [], str(path), structure.folders)
 

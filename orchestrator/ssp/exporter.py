@@ -28,9 +28,12 @@ WIDTH, HEIGHT, GAP = 60.0, 40.0, 40.0
 
 @dataclass(frozen=True)
 class Experiment:
+    """``scheme`` is what this project's master is to use; other tools have their own."""
+
     step: float
     stop: float
     start: float = 0.0
+    scheme: str = "jacobi"
 
 
 class Unit:
@@ -112,7 +115,7 @@ def structure(name: str, description: str, tool: str, units: dict[str, Unit], pa
     times = {"startTime": repr(experiment.start), "stopTime": repr(experiment.stop)}
     annotations = SubElement(SubElement(root, "ssd:DefaultExperiment", times), "ssd:Annotations")
     own = SubElement(annotations, "ssc:Annotation", type="rvwear.master")
-    SubElement(own, "Master", step=repr(experiment.step))
+    SubElement(own, "Master", step=repr(experiment.step), scheme=experiment.scheme)
     other = SubElement(annotations, "ssc:Annotation", type="com.opensimulationplatform")
     algorithm = SubElement(other, "osp:Algorithm", {"xmlns:osp": OSP})
     SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=repr(experiment.step))

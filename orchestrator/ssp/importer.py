@@ -48,6 +48,7 @@ class Structure:
     start: float = 0.0
     stop: float | None = None
     step: float | None = None
+    scheme: str | None = None
     folders: list[TemporaryDirectory] = field(default_factory=list)
 
 
@@ -199,6 +200,7 @@ class Importer:
             for element in root.iter():
                 if local(element) == name and element.get(attribute) and structure.step is None:
                     structure.step = number(element, attribute, 0.0)
+                    structure.scheme = element.get("scheme")
         return structure
 
 
