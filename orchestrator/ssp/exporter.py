@@ -99,7 +99,8 @@ def element_pairs(units: dict[str, Unit], source: str, target: str) -> list[tupl
 def structure(name: str, description: str, tool: str, units: dict[str, Unit], pairs: list, experiment: Experiment) -> Element:
     """SystemStructure.ssd."""
     root = Element("ssd:SystemStructureDescription", {
-        "xmlns:ssd": f"{STANDARD}Description", "xmlns:ssc": f"{STANDARD}Common",
+        # libcosim takes an attribute of osp:Algorithm for another algorithm: its namespace is declared here.
+        "xmlns:ssd": f"{STANDARD}Description", "xmlns:ssc": f"{STANDARD}Common", "xmlns:osp": OSP,
         "version": "1.0", "name": name, "generationTool": tool,
     })  # fmt: skip
     system = SubElement(root, "ssd:System", name=name, description=description or name)
@@ -117,7 +118,7 @@ def structure(name: str, description: str, tool: str, units: dict[str, Unit], pa
     own = SubElement(annotations, "ssc:Annotation", type="rvwear.master")
     SubElement(own, "Master", step=repr(experiment.step), scheme=experiment.scheme)
     other = SubElement(annotations, "ssc:Annotation", type="com.opensimulationplatform")
-    algorithm = SubElement(other, "osp:Algorithm", {"xmlns:osp": OSP})
+    algorithm = SubElement(other, "osp:Algorithm")
     SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=repr(experiment.step))
     return root
 
