@@ -1,9 +1,10 @@
-"""An FMU (FMI 2.0 co-simulation) as a component.
+"""An FMU (FMI 2.0 co-simulation) as a component; ``fmu3`` has FMI 3.0.
 
 Written over fmpy's functions with arrays prepared once: a vector of hundreds of values
 moves in one call.
 """
 
+import contextlib
 import ctypes
 import json
 import shutil
@@ -22,15 +23,29 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
-from fmu_src.slaves.kernel_slave import STAMP, state_mark
+from fmu_src.slaves.kernel_slave import STAMP
 from fmu_src.source_hash import source_hash
+from fmu_src.state import unpack
 from fmu_src.unit import make_unit
 from orchestrator.component import Component, Signal
 from orchestrator.faults import InputFault, RunFault
 
 
+def open_fmu(name: str, path: str | Path) -> "Fmu":
+    """One instance of an FMU of either version."""
+    from orchestrator.fmu3 import Fmu3
+
+    with contextlib.suppress(Exception):
+        if fmpy.read_model_description(str(path), validate=False).fmiVersion.startswith("3."):
+            return Fmu3(name, path)
+    # Also says what is wrong with a path that is no FMU.
+    return Fmu(name, path)
+
+
 class Fmu(Component):
-    """One instance of an FMU."""
+    """One instance of an FMI 2.0 FMU."""
+
+    version = "2.0"
 
     def __init__(self, name: str, path: str | Path):
         self.name = name
@@ -41,18 +56,36 @@ class Fmu(Component):
             self.description = fmpy.read_model_description(str(self.path))
         except Exception as problem:
             raise InputFault(f"{self.path} is not an FMU: {problem}") from None
-        if self.description.coSimulation is None or self.description.fmiVersion != "2.0":
-            raise InputFault(f"{self.path}: only FMI 2.0 co-simulation units can be stepped")
+        if self.description.coSimulation is None or self.description.fmiVersion != self.version:
+            raise InputFault(f"{self.path}: not an FMI {self.version} co-simulation unit")
         self.folder = Path(fmpy.extract(str(self.path)))
         self.require_same_sources()
         self.messages: list[str] = []
-        self.callbacks = self.make_callbacks()
-        self.slave = FMU2Slave(
-            instanceName=name, guid=self.description.guid, unzipDirectory=str(self.folder),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-        )
-        self.signals = signals_of(self.description)
-        self.instantiate()
+        try:
+            self.slave = self.load(
+                instanceName=name, guid=self.identity, unzipDirectory=str(self.folder),
+                modelIdentifier=self.description.coSimulation.modelIdentifier,
+            )
+        except Exception as problem:
+            # fmpy raises a bare Exception for a library that is missing or does not load.
+            raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
+        self.signals = self.find_signals()
+        try:
+            self.instantiate()
+        except Exception as problem:
+            # fmpy raises a bare Exception here; the reason is in what the FMU logged.
+            raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
+
+    @property
+    def identity(self) -> str:
+        return self.description.guid
+
+    def load(self, **named):
+        """fmpy's face of the FMU's library."""
+        return FMU2Slave(**named)
+
+    def find_signals(self) -> dict[str, Signal]:
+        return signals_of(self.description)
 
     def make_callbacks(self) -> fmi2CallbackFunctions:
         """fmpy's callbacks, with messages kept for the error text instead of printed."""
@@ -67,11 +100,8 @@ class Fmu(Component):
         return callbacks
 
     def instantiate(self) -> None:
-        try:
-            self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
-        except Exception as problem:
-            # fmpy raises a bare Exception here; the reason is in what the FMU logged.
-            raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
+        self.callbacks = self.make_callbacks()
+        self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
 
     def last_messages(self) -> str:
         return "; ".join(self.messages[-3:]) or "it logged nothing"
@@ -150,7 +180,10 @@ class Fmu(Component):
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
     def require_same_sources(self) -> None:
-        """This project's FMUs share this process's modules: they must be of its sources."""
+        """This project's editable FMUs share this process's modules: they must be of its sources.
+
+        So must native ones, whose states are read by the tables of those modules.
+        """
         stamp = self.stamp()
         if stamp is not None and stamp["source_hash"] != source_hash():
             raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
@@ -165,13 +198,13 @@ class Fmu(Component):
     def record(self):
         table = make_unit(self.specification()).table
         records = table.new_records()
-        table.cells(records)[: table.state_cells] = np.frombuffer(
-            self.save(), "f8", offset=len(state_mark(self.description.guid))
-        )
+        table.cells(records)[: table.state_cells] = unpack(self.identity, self.save(), table.state_cells).cells
         return records
 
     def close(self):
-        self.slave.terminate()
+        with contextlib.suppress(FMICallException):
+            # Refused before initialisation; it is freed all the same.
+            self.slave.terminate()
         self.slave.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)
 

@@ -30,7 +30,7 @@ from pydantic import Field, ValidationError
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, InProcess
 from orchestrator.faults import InputFault
-from orchestrator.fmu import Fmu
+from orchestrator.fmu import open_fmu
 from orchestrator.master import Master
 from orchestrator.reducer import NAME, Strict, load_reducer
 from orchestrator.settings import parse_value
@@ -128,7 +128,7 @@ def make_component(name: str, entry: ComponentEntry, path: Path) -> Component:
     if (entry.fmu is None) == (entry.reducer is None):
         raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant" or "wear"')
     if entry.fmu is not None:
-        component: Component = Fmu(name, path.parent / entry.fmu)
+        component: Component = open_fmu(name, path.parent / entry.fmu)
     else:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant" or unit = "wear"')
