@@ -9,7 +9,7 @@ KERNEL_PACKAGES = ("fmu_src", "rv_plant", "wear_fmu")
 
 def source_files(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> list[Path]:
     """Every source and reducer file of the packages, in a fixed order."""
-    found = (p for name in packages for p in (root / name).rglob("*") if p.suffix in (".py", ".toml"))
+    found = (p for name in packages for p in (root / name).rglob("*") if p.suffix in (".py", ".toml", ".c", ".h"))
     return sorted(found, key=lambda p: p.relative_to(root).as_posix())
 
 

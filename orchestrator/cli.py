@@ -111,6 +111,11 @@ def parser() -> argparse.ArgumentParser:
     build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
     build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
     build.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
+    build.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"
+                       " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
+    build.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
+    build.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
+                       " for this machine alone; needs zig: pip install rvwear[build]")
     add_json(build)
     build.set_defaults(run=commands.build)
 

@@ -4,13 +4,16 @@ import argparse
 import json
 import os
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from fmu_src.description import guid
-from fmu_src.package import build_fmu, validate
+from fmu_src.link import compiler, host_platform
+from fmu_src.native import NativeFault, host_triple, object_codes
+from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.source_hash import source_hash
 from orchestrator import results, screen
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
@@ -279,33 +282,47 @@ def reproduce(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    """``rvwear build``: both FMUs, validated; those that are up to date stay."""
+    """``rvwear build``: FMUs of both units, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
-    built = []
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
+    tool = f"rvwear {results.version('rvwear')}"
+    native = native_versions(options)
+    built = []
     for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
         specification = reducer.specification(unit)
-        path = Path(options.output) / f"{name}.fmu"
-        fresh = is_current(path, guid(specification, source_hash()))
-        if not fresh:
-            with screen.busy(f"compiling and packing {path.name}"):
-                build_fmu(name, specification, step, f"rvwear {results.version('rvwear')}", path.parent)
-        validate(path)
-        built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": not fresh, "problems": 0})
-    package = export_pair(reducer, Path(options.output), step)
+        identity, folder = guid(specification, source_hash()), Path(options.output)
+        editable = folder / f"{name}.fmu"
+        ours = [folder / f"fmi{version}" / f"{name}.fmu" for version in native]
+        stale = [path for path in ours if not is_current(path, identity, options.all_platforms)]
+        wanted = ([] if options.flavour == "native" else [editable]) + ours
+        if editable in wanted and not is_current(editable, identity):
+            stale.append(editable)
+        if stale:
+            with screen.busy(f"compiling and packing {name}"):
+                codes = object_codes(specification, triples_for(options.all_platforms))
+                if editable in stale:
+                    build_fmu(name, specification, step, tool, folder, codes[host_triple()])
+                if versions := tuple(v for v, path in zip(native, ours) if path in stale):
+                    build_native(name, specification, step, tool, folder, versions, options.all_platforms, codes)
+        for path in wanted:
+            validate(path)
+            entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
+            built.append(entry | {"flavour": "python" if path == editable else "native"})
+    packages = [str(export_pair(reducer, place, step)) for place in dict.fromkeys(Path(e["fmu"]).parent for e in built)]
     if options.json:
-        screen.json_text({"reducer": reducer.name, "fmus": built, "ssp": str(package)})
+        screen.json_text({"reducer": reducer.name, "fmus": built, "packages": packages})
     else:
         for entry in built:
             state = "built" if entry["built"] else "up to date"
-            print(f"{entry['fmu']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
-        print(f"{package}  {package.stat().st_size / 1e3:.0f} kB  both, connected")
+            print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+        for package in packages:
+            print(f"{package}  both, connected")
     return 0
 
 
 def export_pair(reducer: Reducer, folder: Path, step: float) -> Path:
-    """RvReducer.ssp: the pair through one crank turn, in the same folder as its FMUs."""
+    """RvReducer.ssp: the pair through one crank turn, beside its FMUs."""
     return export_ssp(
         folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
         CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
@@ -314,11 +331,32 @@ def export_pair(reducer: Reducer, folder: Path, step: float) -> Path:
     )  # fmt: skip
 
 
-def is_current(path: Path, identity: str) -> bool:
-    """Whether an FMU of this identity is there already."""
+def native_versions(options: argparse.Namespace) -> tuple[str, ...]:
+    """FMI versions of the native FMUs to build; none if nobody asked for them and there is no C compiler."""
+    if options.flavour == "python":
+        return ()
+    try:
+        compiler(host_platform(), options.all_platforms)
+    except NativeFault as fault:
+        if options.flavour == "native" or options.all_platforms:
+            raise
+        print(f"no native FMUs: {fault}", file=sys.stderr)
+        return ()
+    return tuple(VERSIONS) if options.fmi == "both" else (options.fmi,)
+
+
+def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
+    """Whether an FMU of this identity, for all platforms if need be, is there already."""
     import fmpy
 
-    return path.exists() and fmpy.read_model_description(str(path)).guid == identity
+    if not path.exists():
+        return False
+    description = fmpy.read_model_description(str(path))
+    known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
+    with zipfile.ZipFile(path) as archive:
+        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    # Four folders in FMI 2.0, where Darwin has one library for both processors.
+    return known == identity and (not all_platforms or len(libraries) >= 4)
 
 
 def report(options: argparse.Namespace) -> int:

@@ -113,10 +113,6 @@ class Fmi2:
     def deserialise(self, state: bytes):
         return self.slave.deSerializeFMUstate(state)
 
-    def close(self) -> None:
-        self.slave.terminate()
-        self.slave.freeInstance()
-
 
 def copied(call: Callable[[], None], verb: str, native: np.ndarray, buffer: np.ndarray) -> Callable[[], None]:
     """A transfer through an array of another width."""

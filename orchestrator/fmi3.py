@@ -154,7 +154,3 @@ class Fmi3:
 
     def deserialise(self, state: bytes):
         return self.slave.deserializeFMUState(state)
-
-    def close(self) -> None:
-        self.slave.terminate()
-        self.slave.freeInstance()

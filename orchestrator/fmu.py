@@ -1,5 +1,6 @@
 """An FMU (co-simulation, FMI 2.0 or 3.0) as a component."""
 
+import contextlib
 import json
 import shutil
 from collections.abc import Callable
@@ -7,11 +8,11 @@ from functools import wraps
 from pathlib import Path
 
 import fmpy
-import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from fmu_src.slaves.kernel_slave import STAMP, state_mark
+from fmu_src.slaves.kernel_slave import STAMP
 from fmu_src.source_hash import source_hash
+from fmu_src.state import unpack
 from fmu_src.unit import make_unit
 from orchestrator.component import Component
 from orchestrator.faults import InputFault, RunFault
@@ -20,6 +21,15 @@ from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
 
 VERSIONS = {"2.0": Fmi2, "3.0": Fmi3}
+
+
+def open_fmu(name: str, path: str | Path, isolate: bool = False) -> Component:
+    """One instance of an FMU, in a process of its own if so asked."""
+    if isolate:
+        from orchestrator.isolation import Isolated
+
+        return Isolated(name, path)
+    return Fmu(name, path)
 
 
 class Fmu(Component):
@@ -52,6 +62,10 @@ class Fmu(Component):
         self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         try:
             self.calls = VERSIONS[version](name, self.described, self.folder, self.messages.append)
+        except Exception as problem:
+            # fmpy raises a bare Exception for a library that is missing or does not load.
+            raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
+        try:
             self.calls.instantiate()
         except Exception as problem:
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
@@ -145,7 +159,10 @@ class Fmu(Component):
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
     def require_same_sources(self) -> None:
-        """This project's FMUs share this process's modules: they must be of its sources."""
+        """This project's editable FMUs share this process's modules: they must be of its sources.
+
+        So must native ones, whose states are read by the tables of those modules.
+        """
         stamp = self.stamp()
         if stamp is not None and stamp["source_hash"] != source_hash():
             raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
@@ -160,11 +177,13 @@ class Fmu(Component):
     def record(self):
         table = make_unit(self.specification()).table
         records = table.new_records()
-        table.cells(records)[: table.state_cells] = np.frombuffer(
-            self.save(), "f8", offset=len(state_mark(self.description.guid))
-        )
+        identity = self.description.guid or self.description.instantiationToken
+        table.cells(records)[: table.state_cells] = unpack(identity, self.save(), table.state_cells).cells
         return records
 
     def close(self):
-        self.calls.close()
+        with contextlib.suppress(FMICallException):
+            # Refused before initialisation; it is freed all the same.
+            self.slave.terminate()
+        self.slave.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)

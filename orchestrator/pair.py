@@ -7,7 +7,7 @@ from pathlib import Path
 from orchestrator.component import Component, InProcess
 from orchestrator.duty import Segment
 from orchestrator.faults import InputFault
-from orchestrator.fmu import Fmu
+from orchestrator.fmu import Fmu, open_fmu
 from orchestrator.master import Master
 from orchestrator.reducer import Reducer
 from orchestrator.settings import Setting, apply
@@ -90,7 +90,7 @@ def make_pair(
         plant = InProcess("plant", reducer.specification("rv_plant"))
         wear = InProcess("wear", reducer.specification("wear_fmu"))
     else:
-        plant, wear = Fmu("plant", fmus / "RvPlant.fmu"), Fmu("wear", fmus / "RvWear.fmu")
+        plant, wear = open_fmu("plant", fmus / "RvPlant.fmu"), open_fmu("wear", fmus / "RvWear.fmu")
         require_built_from(reducer, plant, "rv_plant")
         require_built_from(reducer, wear, "wear_fmu")
     components = {"plant": plant, "wear": wear}

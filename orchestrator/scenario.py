@@ -29,11 +29,12 @@ from pydantic import Field, ValidationError
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, InProcess
 from orchestrator.faults import InputFault
+from orchestrator.fmu import open_fmu
 from orchestrator.master import Connection, LoopSettings, Master, StepControl
 from orchestrator.master.power import THRESHOLD
 from orchestrator.reducer import NAME, Strict, load_reducer
 from orchestrator.settings import parse_value
-from orchestrator.system import System, open_fmu
+from orchestrator.system import System
 
 
 class Quantity(Strict):

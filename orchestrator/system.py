@@ -14,8 +14,7 @@ import numpy as np
 
 from orchestrator.component import Component
 from orchestrator.faults import InputFault
-from orchestrator.fmu import Fmu
-from orchestrator.isolation import Isolated
+from orchestrator.fmu import open_fmu
 from orchestrator.master import SCHEMES, Connection, Master
 from orchestrator.master.connections import resolve
 from orchestrator.settings import parse_value
@@ -148,10 +147,6 @@ def connect(
     }
     size = step or usual_step(components, None)
     return System("system", Master(components, connections, size, **master), USUAL_STEPS)
-
-
-def open_fmu(name: str, path: str | Path, isolate: bool) -> Component:
-    return Isolated(name, path) if isolate else Fmu(name, path)
 
 
 def usual_step(components: dict[str, Component], stop: float | None) -> float:

@@ -1,8 +1,10 @@
 """Write a system of FMUs as an SSP 1.0 package that other tools open.
 
 SSP 1.0 knows scalars only: an array of an FMI 2 unit is connected element by element.
-Every real and integer scalar parameter stands in a parameter file beside the FMU, with its unit, so that the
-system can be set up without opening the FMUs.
+Every real and integer scalar that may be set stands in a parameter file beside the FMU, with
+its unit, so that the system can be set up without opening the FMUs.  Inputs that nothing
+drives stand there too and are no connectors: some tools refuse, or set to zero, a
+connector without a connection.
 """
 
 from collections.abc import Iterable
@@ -70,7 +72,8 @@ def export_ssp(
     pairs = [pair for source, end in connections for pair in element_pairs(units, source, end)]
     files = {"SystemStructure.ssd": structure(name, description, tool, units, pairs, experiment)}
     for unit in units.values():
-        files[f"resources/{unit.name}.ssv"] = values(unit, settings.get(unit.name, {}))
+        files[f"resources/{unit.name}.ssv"] = values(
+            unit, settings.get(unit.name, {}), {name for _, (end, name) in pairs if end == unit.name})
     partial = target.with_suffix(".part")
     with ZipFile(partial, "w") as archive:
         for path, element in files.items():
@@ -106,7 +109,7 @@ def structure(name: str, description: str, tool: str, units: dict[str, Unit], pa
     system = SubElement(root, "ssd:System", name=name, description=description or name)
     elements = SubElement(system, "ssd:Elements")
     for i, unit in enumerate(units.values()):
-        component(elements, unit, i)
+        component(elements, unit, i, {end for pair in pairs for end in pair})
     connections = SubElement(system, "ssd:Connections")
     for (start, output), (end, taken) in pairs:
         SubElement(connections, "ssd:Connection", {
@@ -123,17 +126,18 @@ def structure(name: str, description: str, tool: str, units: dict[str, Unit], pa
     return root
 
 
-def component(elements: Element, unit: Unit, i: int) -> None:
-    """One FMU with its inputs, outputs, scalar parameters, and a place in the diagram."""
+def component(elements: Element, unit: Unit, i: int, connected: set[tuple[str, str]]) -> None:
+    """One FMU with its connected inputs, its outputs, scalar parameters, and a place in the diagram."""
     element = SubElement(elements, "ssd:Component", {
         "name": unit.name, "type": "application/x-fmu-sharedlibrary", "source": f"resources/{unit.path.name}",
         "implementation": "CoSimulation", "description": unit.described.description.description or unit.name,
     })  # fmt: skip
+    parameters = {name for name, s in settable(unit).items() if s.causality == "parameter"}
     connectors = SubElement(element, "ssd:Connectors")
     for signal in unit.signals.values():
-        if signal.causality not in ("input", "output") and signal.name not in settable(unit):
-            continue
         for name in unit.names(signal.name):
+            if not (signal.causality == "output" or signal.name in parameters or (unit.name, name) in connected):
+                continue
             connector = SubElement(connectors, "ssd:Connector", name=name, kind=signal.causality)
             kind = SubElement(connector, f"ssc:{TYPES[signal.dtype]}")
             if signal.dtype == "f8" and signal.base_unit is not None:
@@ -146,24 +150,25 @@ def component(elements: Element, unit: Unit, i: int) -> None:
 
 
 def settable(unit: Unit) -> dict[str, Signal]:
-    """Scalar real and integer parameters."""
+    """Scalar real and integer parameters and inputs."""
     return {
         s.name: s for s in unit.signals.values()
-        if s.causality == "parameter" and not s.shape and s.dtype in ("f8", "i8") and not s.choices
+        if s.causality in ("parameter", "input") and not s.shape and s.dtype in ("f8", "i8") and not s.choices
     }  # fmt: skip
 
 
-def values(unit: Unit, settings: dict[str, float]) -> Element:
+def values(unit: Unit, settings: dict[str, float], driven: set[str]) -> Element:
     """A parameter set with the unit's own start values, but for the settings."""
-    unknown = settings.keys() - settable(unit).keys()
+    taken = {name: s for name, s in settable(unit).items() if name not in driven}
+    unknown = settings.keys() - taken.keys()
     if unknown:
-        raise InputFault(f"{unit.name} has no scalar parameter {', '.join(sorted(unknown))}")
+        raise InputFault(f"{unit.name} has no scalar parameter or open input {', '.join(sorted(unknown))}")
     starts = {v.name: v.start for v in unit.described.variables}
     root = Element("ssv:ParameterSet", {
         "xmlns:ssv": f"{STANDARD}ParameterValues", "xmlns:ssc": f"{STANDARD}Common", "version": "1.0", "name": "initialValues",
     })  # fmt: skip
     parameters = SubElement(root, "ssv:Parameters")
-    for name, signal in settable(unit).items():
+    for name, signal in taken.items():
         parameter = SubElement(parameters, "ssv:Parameter", name=name)
         value = repr(settings[name]) if name in settings else starts[name]
         kind = SubElement(parameter, f"ssv:{TYPES[signal.dtype]}", value=value)
