@@ -24,11 +24,10 @@ from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, live
 from orchestrator.master import SCHEMES, Master
 from orchestrator.modes import modes as natural_modes
-from orchestrator.pair import CONNECTIONS, POSITIONS_PER_TURN, Pair, crank_turn_time, make_pair
+from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, export_pair, make_pair
 from orchestrator.reducer import Reducer, load_reducer
 from orchestrator.settings import Setting, apply, parse_setting
 from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
-from orchestrator.ssp.exporter import Experiment, export_ssp
 from orchestrator.system_commands import run_system
 
 # Options that are shorthands of settings: option -> (variable, unit).
@@ -309,7 +308,7 @@ def build(options: argparse.Namespace) -> int:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
             built.append(entry | {"flavour": "python" if path == editable else "native"})
-    packages = [str(export_pair(reducer, place, step)) for place in dict.fromkeys(Path(e["fmu"]).parent for e in built)]
+    packages = [str(export_pair(reducer, place, step, tool)) for place in dict.fromkeys(Path(e["fmu"]).parent for e in built)]
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": packages})
     else:
@@ -319,16 +318,6 @@ def build(options: argparse.Namespace) -> int:
         for package in packages:
             print(f"{package}  both, connected")
     return 0
-
-
-def export_pair(reducer: Reducer, folder: Path, step: float) -> Path:
-    """RvReducer.ssp: the pair through one crank turn, beside its FMUs."""
-    return export_ssp(
-        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
-        # Tools exchange values at the step's start: each unit sees the other one step later.
-        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", f"rvwear {results.version('rvwear')}",
-    )  # fmt: skip
 
 
 def native_versions(options: argparse.Namespace) -> tuple[str, ...]:

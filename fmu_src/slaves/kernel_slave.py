@@ -48,6 +48,9 @@ class KernelSlave(Fmi2Slave):
         self.integers = self.cells.view("i8")
         self.lowest, self.highest = self.table.bounds
         self.initialised = False
+        # Whether outputs asked for in initialisation mode have to be computed anew.
+        self.initialising = self.stale = False
+        self.first_output = self.table.offset[self.table.of_role("output")[0].name]
         self.time = 0.0
         self.lists: dict[tuple[bool, int, int], tuple[list[int], np.ndarray]] = {}
         self.initialise, self.step = self.entry_points(folder)
@@ -98,9 +101,17 @@ class KernelSlave(Fmi2Slave):
 
     # FMI life cycle
 
-    def exit_initialization_mode(self):
+    def enter_initialization_mode(self):
+        self.initialising = self.stale = True
+
+    def compute_initial_outputs(self) -> None:
+        """Some masters exchange values before they leave initialisation mode, as the standard allows."""
+        self.stale = False
         self.attempt(self.initialise, 0.0, changes=True)
-        self.initialised = True
+
+    def exit_initialization_mode(self):
+        self.compute_initial_outputs()
+        self.initialising, self.initialised = False, True
 
     def do_step(self, current_time, step_size):
         if not self.initialised:
@@ -143,9 +154,13 @@ class KernelSlave(Fmi2Slave):
         return known[1]
 
     def get_real(self, vrs):
+        if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
+            self.compute_initial_outputs()
         return self.cells[self.index(vrs, False)].tolist() if vrs else []
 
     def get_integer(self, vrs):
+        if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
+            self.compute_initial_outputs()
         return self.integers[self.index(vrs, True)].tolist() if vrs else []
 
     def set_real(self, vrs, values):
@@ -168,6 +183,7 @@ class KernelSlave(Fmi2Slave):
             fixed = self.table.element_at(int(index[self.table.fixed_cells[index]][0]))[1]
             self.fail(f"{self.table.name}: {fixed} is fixed once the unit is initialised; reset the unit to change it")
         cells[index] = given
+        self.stale = True
 
     # state: the block of fmu_src.state, the same in memory and serialised
 

@@ -9,11 +9,12 @@ from pathlib import Path
 from time import perf_counter
 from xml.etree import ElementTree
 
+import fmpy
 from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimObserver import CosimObserver
 
-import fmpy
-
+log_output_level(CosimLogLevel.ERROR)
 folder, step, steps, paths = Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]), sys.argv[4:]
 # Steps are whole nanoseconds there.
 execution = CosimExecution.from_ssp_file(str(folder / "SystemStructure.ssd"), round(step * 1e9))
