@@ -9,7 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
     defaultCallbacks,
@@ -22,7 +21,7 @@ from fmpy.fmi2 import (
 from orchestrator.model_description import Described
 
 # Statuses above "warning" are failures.
-WARNING = 1
+WARNING, ERROR = 1, 3
 VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
 DERIVATIVES = (*VALUES[:3], ctypes.c_void_p, ctypes.c_void_p)
 STEP = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
@@ -30,15 +29,15 @@ TYPE = {"f8": "Real", "i8": "Integer", "?": "Boolean"}
 
 
 class Fmi2:
-    """One instance; every method raises FMICallException when the unit refuses."""
+    """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
 
-    def __init__(self, name: str, described: Described, folder: Path, log: Callable[[str], None]):
+    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
         description = described.description
         self.slave = FMU2Slave(
             instanceName=name, guid=description.guid, unzipDirectory=str(folder),
             modelIdentifier=description.coSimulation.modelIdentifier, requireFunctions=False,
         )  # fmt: skip
-        self.described = described
+        self.described, self.refuse = described, refuse
         self.callbacks = make_callbacks(log)
         # A unit that can restore its state is told that the master may do so.
         self.keeps_state = int(not description.coSimulation.canGetAndSetFMUstate)
@@ -51,12 +50,12 @@ class Fmi2:
         """The function with the instance and arguments held."""
         call = self.slave.dll[function]
         call.argtypes, call.restype = types, ctypes.c_int
-        instance = self.slave.component
+        instance, refuse = self.slave.component, self.refuse
 
         def run(*rest):
             status = call(instance, *arguments, *rest)
             if status > WARNING:
-                raise FMICallException(function, status)
+                refuse(function, status)
 
         return run
 

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
-from orchestrator.fmi2 import WARNING
+from orchestrator.fmi2 import ERROR, WARNING
 from orchestrator.model_description import Described
 
 VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t)
@@ -36,15 +35,15 @@ class Block:
 
 
 class Fmi3:
-    """One instance; every method raises FMICallException when the unit refuses."""
+    """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
 
-    def __init__(self, name: str, described: Described, folder: Path, log: Callable[[str], None]):
+    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
         description = described.description
         self.slave = FMU3Slave(
             instanceName=name, guid=description.instantiationToken, unzipDirectory=str(folder),
             modelIdentifier=description.coSimulation.modelIdentifier, requireFunctions=False,
         )  # fmt: skip
-        self.described, self.log = described, log
+        self.described, self.log, self.refuse = described, log, refuse
         self.keeps_state = not description.coSimulation.canGetAndSetFMUstate
 
     def instantiate(self) -> None:
@@ -62,12 +61,12 @@ class Fmi3:
         """The function with the instance and arguments held."""
         call = self.slave.dll[function]
         call.argtypes, call.restype = types, ctypes.c_int
-        instance = self.slave.component
+        instance, refuse = self.slave.component, self.refuse
 
         def run(*rest):
             status = call(instance, *arguments, *rest)
             if status > WARNING:
-                raise FMICallException(function, status)
+                refuse(function, status)
 
         return run
 
@@ -138,7 +137,7 @@ class Fmi3:
         self.do_step(time, duration, self.keeps_state, *self.results)
         if self.flags[1]:
             self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
-            raise FMICallException("fmi3DoStep", 3)
+            self.refuse("fmi3DoStep", ERROR)
 
     def snapshot(self):
         return self.slave.getFMUState()

@@ -4,7 +4,6 @@ import contextlib
 import json
 import shutil
 from collections.abc import Callable
-from functools import wraps
 from pathlib import Path
 
 import fmpy
@@ -61,7 +60,9 @@ class Fmu(Component):
         experiment = self.description.defaultExperiment
         self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         try:
-            self.calls = VERSIONS[version](name, self.described, self.folder, self.messages.append)
+            self.calls = VERSIONS[version](
+                name, self.described, self.folder, self.messages.append, self.refuse
+            )
         except Exception as problem:
             # fmpy raises a bare Exception for a library that is missing or does not load.
             raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
@@ -70,7 +71,7 @@ class Fmu(Component):
         except Exception as problem:
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
-        self.step = self.explained(self.calls.step)
+        self.step = self.begin_step = self.calls.step
 
     @property
     def slave(self):
@@ -90,26 +91,18 @@ class Fmu(Component):
         except FMICallException as problem:
             raise RunFault(f"{self.name} ({self.path.name}): {problem}: {self.last_messages()}") from None
 
-    def explained(self, function: Callable) -> Callable:
-        """The function, its FMI errors told as by ``attempt``."""
-
-        @wraps(function)
-        def call(*arguments):
-            try:
-                return function(*arguments)
-            except FMICallException as problem:
-                raise RunFault(f"{self.name} ({self.path.name}): {problem}: {self.last_messages()}") from None
-
-        return call
+    def refuse(self, function: str, status: int) -> None:
+        """Raise for a call that the unit refused."""
+        self.attempt(raise_refusal, function, status)
 
     def reader(self, references, buffer):
-        return self.explained(self.calls.reader(references, buffer))
+        return self.calls.reader(references, buffer)
 
     def writer(self, references, buffer):
-        return self.explained(self.calls.writer(references, buffer))
+        return self.calls.writer(references, buffer)
 
     def derivative_writer(self, references, order, buffer):
-        return self.explained(self.calls.derivative_writer(references, order, buffer))
+        return self.calls.derivative_writer(references, order, buffer)
 
     def set_text(self, name, text):
         if name not in self.described.texts:
@@ -187,3 +180,7 @@ class Fmu(Component):
             self.slave.terminate()
         self.slave.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def raise_refusal(function: str, status: int) -> None:
+    raise FMICallException(function, status)
