@@ -4,6 +4,7 @@ The process talks through its standard input and output, a pickled request and a
 answer at a time; what the unit itself prints goes to standard error.
 """
 
+import contextlib
 import os
 import pickle
 import signal as signals
@@ -159,8 +160,10 @@ class Isolated(Component):
             except (OSError, subprocess.TimeoutExpired):
                 self.process.kill()
                 self.process.wait()
-        self.process.stdin.close()
-        self.process.stdout.close()
+        for stream in (self.process.stdin, self.process.stdout):
+            # What was not sent to a process that crashed cannot be sent any more.
+            with contextlib.suppress(OSError):
+                stream.close()
 
 
 class Worker:

@@ -6,6 +6,7 @@ from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault
 from fmu_src.package import build_fmu, build_native
 from orchestrator.reducer import load_reducer
+from small_fmus import build_spring
 
 
 @pytest.fixture(scope="session")
@@ -38,3 +39,9 @@ def native_fmus(rv20e, tmp_path_factory):
     for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
         build_native(name, rv20e.specification(unit), 1e-3, "rvwear test", folder)
     return folder
+
+
+@pytest.fixture(scope="session")
+def spring(tmp_path_factory):
+    """Path of a small FMU."""
+    return build_spring(tmp_path_factory.mktemp("spring"))

@@ -6,7 +6,7 @@ converted before a transformation is applied, as the standard says.
 """
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from urllib.parse import unquote
@@ -58,6 +58,7 @@ class Importer:
     def __init__(self):
         self.structure = Structure()
         self.units: dict[tuple[str, ...], Path] = {}
+        self.systems: list[tuple[str, ...]] = []
         self.edges: dict[Node, Edge] = {}
         self.connector_units: dict[Node, BaseUnit] = {}
         self.bound: list[tuple[tuple[str, ...], Parameter]] = []
@@ -92,6 +93,7 @@ class Importer:
         return root
 
     def walk(self, system, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+        self.systems.append(place)
         self.connectors(system, place, units)
         self.bound += [(place, p) for p in read_bindings(system, folder)]
         for element in [e for group in children(system, "Elements") for e in group]:
@@ -170,13 +172,14 @@ class Importer:
         ends = [end for end, edge in self.edges.items() if edge.start == (place, parameter.name)]
         if ends:
             for inner, connector in ends:
-                self.bind(inner, Parameter(**(vars(parameter) | {"name": connector})))
+                self.bind(inner, replace(parameter, name=connector))
             return
-        inner = [(unit, ".".join(unit[len(place) :])) for unit in self.units if unit[: len(place)] == place]
-        for unit, name in sorted(inner, key=lambda item: -len(item[1])):
-            if parameter.name.startswith(name + "."):
-                variable = parameter.name[len(name) + 1 :]
-                self.structure.parameters.append((".".join(unit), variable, parameter))
+        # The longest path of elements that the name begins with.
+        below = [p for p in (*self.units, *self.systems) if p != place and p[: len(place)] == place]
+        for inner in sorted(below, key=len, reverse=True):
+            prefix = ".".join(inner[len(place) :]) + "."
+            if parameter.name.startswith(prefix):
+                self.bind(inner, replace(parameter, name=parameter.name[len(prefix) :]))
                 return
         raise InputFault(f"parameter {parameter.name!r} of {'.'.join(place) or 'the system'}: nothing there has this name")
 
