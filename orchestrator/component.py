@@ -92,6 +92,14 @@ class Component(ABC):
         hint = f"; did you mean {', '.join(close)}?" if close else ""
         raise InputFault(f"{self.name} has no variable {name!r}{hint}")
 
+    def has(self, name: str) -> bool:
+        """Whether there is a variable or array element of this name."""
+        try:
+            self.signal(name)
+        except InputFault:
+            return False
+        return True
+
     def get(self, name: str) -> np.ndarray | float | int:
         """Present value of a signal, an array in its shape."""
         signal = self.signal(name)

@@ -38,15 +38,17 @@ class Fmu(Component):
         self.name = name
         self.path = Path(path)
         if not self.path.is_file():
-            raise InputFault(f"no FMU at {self.path}; build it with: rvwear build")
+            raise InputFault(f"no FMU at {self.path}; this project's own are built with: rvwear build")
         try:
             # Other people's descriptions need not be flawless: what matters is checked where it is used.
             self.description = fmpy.read_model_description(str(self.path), validate=False)
         except Exception as problem:
             raise InputFault(f"{self.path} is not an FMU: {problem}") from None
         version = self.description.fmiVersion
-        if self.description.coSimulation is None or version not in VERSIONS:
-            raise InputFault(f"{self.path} (FMI {version}): only FMI 2.0 and 3.0 co-simulation units can be stepped")
+        if self.description.coSimulation is None:
+            raise InputFault(f"{self.path} is for model exchange only; the master steps co-simulation units")
+        if version not in VERSIONS:
+            raise InputFault(f"{self.path} is of FMI {version}; the master steps units of FMI 2.0 and 3.0")
         self.folder = Path(fmpy.extract(str(self.path)))
         self.require_same_sources()
         self.messages: list[str] = []

@@ -21,8 +21,9 @@ from orchestrator.settings import parse_value
 from orchestrator.ssp.importer import read_ssp
 from orchestrator.ssp.parameters import apply
 
-# Steps of a system whose files give none.
+# Steps of a system whose files give none, and the step [s] where they do not even give a duration.
 USUAL_STEPS = 1000
+LAST_RESORT = 1e-3
 MOST_STEPS = 1e7
 
 
@@ -129,10 +130,18 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
     structure = read_ssp(path)
     components = {name: open_fmu(name, fmu, isolate) for name, fmu in structure.fmus.items()}
     for name, variable, parameter in structure.parameters:
-        apply(parameter, components[name], variable)
-    size = step or structure.step or usual_step(components, structure.stop)
+        if parameter.kind == "String" or components[name].has(variable):
+            apply(parameter, components[name], variable)
+        else:
+            structure.notes.append(f"{name}.{variable}")
+    named = step or structure.step or usual_step(components, structure.stop)
+    size = named or LAST_RESORT
     usual = {"start_time": structure.start, "scheme": structure.scheme or SCHEMES[0]}
     made = Master(components, structure.connections, size, **usual | master)
+    if structure.notes:
+        made.warn(f"{path.name}: left out the values of {', '.join(structure.notes)}, which are no variables of the system")
+    if named is None:
+        made.warn(f"step = {size:g} s: neither {path.name} nor its units name a communication step; give one (--step)")
     stop = structure.stop if structure.stop is not None else structure.start + USUAL_STEPS * size
     return System(structure.name, made, whole_steps(stop - structure.start, size), [], str(path), structure.folders)
 
@@ -146,14 +155,12 @@ def connect(
         name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate) for name, fmu in fmus.items()
     }
     size = step or usual_step(components, None)
+    if size is None:
+        raise InputFault("no step: the units name no communication step; give one (step, --step)")
     return System("system", Master(components, connections, size, **master), USUAL_STEPS)
 
 
-def usual_step(components: dict[str, Component], stop: float | None) -> float:
+def usual_step(components: dict[str, Component], stop: float | None) -> float | None:
     """The shortest step that a unit's default experiment names, else a thousandth of the duration."""
     named = [step for c in components.values() if (step := c.usual_step) is not None]
-    if named:
-        return min(named)
-    if stop is None:
-        raise InputFault("no step: neither the file nor the units name a communication step; give one (step, --step)")
-    return stop / USUAL_STEPS
+    return min(named) if named else stop / USUAL_STEPS if stop else None

@@ -49,6 +49,7 @@ class Structure:
     stop: float | None = None
     step: float | None = None
     scheme: str | None = None
+    notes: list[str] = field(default_factory=list)
     folders: list[TemporaryDirectory] = field(default_factory=list)
 
 
@@ -61,6 +62,7 @@ class Importer:
         self.systems: list[tuple[str, ...]] = []
         self.edges: dict[Node, Edge] = {}
         self.connector_units: dict[Node, BaseUnit] = {}
+        self.kinds: dict[Node, str] = {}
         self.bound: list[tuple[tuple[str, ...], Parameter]] = []
 
     def open(self, path: Path) -> Path:
@@ -109,6 +111,7 @@ class Importer:
 
     def connectors(self, element, place: tuple[str, ...], units: dict[str, BaseUnit]) -> None:
         for connector in children(element, "Connectors", "Connector"):
+            self.kinds[place, connector.get("name")] = connector.get("kind", "")
             kind = next((e for e in connector if e.get("unit")), None)
             unit = units.get(kind.get("unit")) if kind is not None else None
             if unit is not None:
@@ -132,6 +135,9 @@ class Importer:
             name = element.get(f"{side}Element")
             ends.append(((*place, name) if name else place, element.get(f"{side}Connector", "")))
         start, end = ends
+        # Which way values go is a matter of the connectors' kinds, not of what was written first.
+        if self.gives(end, place) and not self.gives(start, place):
+            start, end = end, start
         for transformation in MAPPINGS:
             if child(element, transformation) is not None:
                 raise InputFault(f"connection to {text_of(end)}: {transformation} is not supported")
@@ -140,6 +146,10 @@ class Importer:
         if end in self.edges:
             raise InputFault(f"connection {text_of(start)} -> {text_of(end)}: driven already by {text_of(self.edges[end].start)}")
         self.edges[end] = Edge(start, factor, offset, element.get("suppressUnitConversion", "false") not in ("true", "1"))
+
+    def gives(self, node: Node, place: tuple[str, ...]) -> bool:
+        """Whether a connector is a source within the system at ``place``: its own are seen from inside."""
+        return self.kinds.get(node) in (("input", "parameter") if node[0] == place else ("output", "calculatedParameter"))
 
     def trace(self, end: Node) -> Connection | None:
         """The connection that ends at a unit's input; None if it begins outside the system."""
@@ -164,14 +174,13 @@ class Importer:
         return Connection(text_of(node), text_of(end), factor, offset, convert)
 
     def bind(self, place: tuple[str, ...], parameter: Parameter) -> None:
-        """Find the unit's variable that a value is for."""
+        """Find the unit's variable that a value is for; a name that fits nothing is noted, as the standard allows it."""
         if place in self.units:
             self.structure.parameters.append((".".join(place), parameter.name, parameter))
             return
-        # A connector of this system hands the value on to what it is connected with.
-        ends = [end for end, edge in self.edges.items() if edge.start == (place, parameter.name)]
-        if ends:
-            for inner, connector in ends:
+        if (place, parameter.name) in self.kinds:
+            # A connector of this system hands the value on to what it is connected with.
+            for inner, connector in [end for end, edge in self.edges.items() if edge.start == (place, parameter.name)]:
                 self.bind(inner, replace(parameter, name=connector))
             return
         # The longest path of elements that the name begins with.
@@ -181,7 +190,7 @@ class Importer:
             if parameter.name.startswith(prefix):
                 self.bind(inner, replace(parameter, name=parameter.name[len(prefix) :]))
                 return
-        raise InputFault(f"parameter {parameter.name!r} of {'.'.join(place) or 'the system'}: nothing there has this name")
+        self.structure.notes.append(text_of((place, parameter.name)))
 
     def finish(self, root) -> Structure:
         structure = self.structure

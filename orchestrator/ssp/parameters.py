@@ -38,10 +38,11 @@ def read_binding(binding, folder: Path) -> list[Parameter]:
         value = next((e for e in element if local(e)), None)
         if value is None or value.get("value") is None and local(value) != "Enumeration":
             raise InputFault(f"parameter {element.get('name')}: no value")
-        unit = value.get("unit")
+        # Some tools write units in brackets.
+        unit = value.get("unit", "").strip("[]") or None
         found.append(Parameter(
             binding.get("prefix", "") + element.get("name"), local(value), value.get("value") or value.get("name"),
-            unit, units.get(unit),
+            unit, units.get(value.get("unit")),
         ))  # fmt: skip
     mapping = child(binding, "ParameterMapping")
     return found if mapping is None else mapped(found, mapping, folder)
@@ -55,7 +56,10 @@ def mapped(parameters: list[Parameter], mapping, folder: Path) -> list[Parameter
     result = []
     for entry in children(root, "MappingEntry"):
         if entry.get("source") not in by_name:
-            raise InputFault(f"parameter mapping: no parameter {entry.get('source')!r} to map to {entry.get('target')!r}")
+            # Tools write mappings of all that could be set, whether there is a value or not.
+            continue
+        if not entry.get("target"):
+            raise InputFault(f"parameter mapping: {entry.get('source')!r} has no target")
         linear = child(entry, "LinearTransformation")
         scale = {} if linear is None else {
             "factor": number(linear, "factor", 1.0), "offset": number(linear, "offset", 0.0)}  # fmt: skip
