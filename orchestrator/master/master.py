@@ -69,6 +69,7 @@ class Master:
                 raise InputFault(f"ratio for {name!r}, which is no component; there are {', '.join(components)}")
             if ratio != int(ratio) or ratio < 1:
                 raise InputFault(f"ratio {ratio} of {name}: a whole number of base steps, 1 or more, is needed")
+        self.single_rate = all(ratio == 1 for ratio in self.ratios.values())
         self.step_size, self.scheme, self.start_time = step, scheme, start_time
         self.extrapolation = extrapolation
         self.steps_done = 0
@@ -156,13 +157,15 @@ class Master:
         if self.controller is not None:
             self.controller.base_step()
         else:
-            self.advance(self.time, self.step_size)
+            self.advance(self.start_time + self.steps_done * self.step_size, self.step_size)
         self.steps_done += 1
 
     def advance(self, start: float, duration: float) -> None:
         """Step all components that are due from ``start``."""
-        n, incoming = self.steps_done, self.incoming
-        due = [name for name in self.components if (n + 1) % self.ratios[name] == 0]
+        incoming, ratios, components = self.incoming, self.ratios, self.components
+        due = components
+        if not self.single_rate:
+            due = [name for name in components if (self.steps_done + 1) % ratios[name] == 0]
         end = start + duration
         if self.scheme == "jacobi":
             for name in due:
@@ -170,22 +173,20 @@ class Master:
                     transfer.fetch(start)
             for name in due:
                 for transfer in incoming[name]:
-                    transfer.deliver(start - (self.ratios[name] - 1) * duration, end)
+                    transfer.deliver(start - (ratios[name] - 1) * duration, end)
             for name in due:
-                ratio = self.ratios[name]
-                self.components[name].begin_step(start - (ratio - 1) * duration, ratio * duration)
+                components[name].begin_step(start - (ratios[name] - 1) * duration, ratios[name] * duration)
             for name in due:
-                self.components[name].end_step()
+                components[name].end_step()
         else:
-            reached: set[str] = set()
+            reached = []
             for name in due:
-                ratio = self.ratios[name]
-                first = start - (ratio - 1) * duration
+                first = start - (ratios[name] - 1) * duration
                 for transfer in incoming[name]:
                     transfer.fetch(end if transfer.source in reached else start)
                     transfer.deliver(first, end)
-                self.components[name].step(first, ratio * duration)
-                reached.add(name)
+                components[name].step(first, ratios[name] * duration)
+                reached.append(name)
         if self.settle is not None:
             self.settle(end)
         for bond in self.bonds:
