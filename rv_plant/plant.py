@@ -27,7 +27,9 @@ effects = compose("rv_plant.effects", HOOKS)
 prepare_effects, advance_effects = effects.prepare, effects.advance
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
-NO_MOTION, TORQUE_AT_REST = range(8, 10)
+NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
+# Equilibria in one communication step: about half a minute.
+MOST_SUBSTEPS = 1e6
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations."
@@ -46,6 +48,8 @@ FAULTS = {
     " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
     TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
     " Set fidelity to dynamic, or drive to speed",
+    LONG_STEP: "at input_speed {input_speed:.6g} rad/s the communication step needs more than a million equilibria."
+    " Use a shorter communication step, or a larger largest_crank_step than {largest_crank_step:.3g} rad",
     RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
     " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
     " the clearance is bearing_clearance",
@@ -247,6 +251,8 @@ def step_through_equilibria(r, duration):
     output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
     cage_speed = r.cage_share * cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
     crank_advance = abs(lobes * output_speed * duration)
+    if not crank_advance < MOST_SUBSTEPS * r.largest_crank_step:
+        return LONG_STEP
     n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
     output_before, cage_before = r.ideal_output, r.cage
     copy_means(r, 0.0, 0.5 / n)
