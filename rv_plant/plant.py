@@ -14,7 +14,7 @@ from rv_plant.contact import HYSTERETIC, MODAL, law_constants
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.geometry import centre_curve_curvature
-from rv_plant.integrator import MOST_SUBSTEPS
+from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
 from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import publish_contacts
@@ -42,7 +42,7 @@ FAULTS = {
     " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
     TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
     " Set fidelity to dynamic, or drive to speed",
-    LONG_STEP: "the communication step needs more than a million internal steps at input_speed {input_speed:.6g} rad/s."
+    LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
     " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
     " or in motion a looser dynamic_tolerance",
     RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
@@ -240,6 +240,7 @@ def step_through_equilibria(r, duration):
     n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
     output_before, cage_before = r.ideal_output, r.cage
     copy_means(r, 0.0, 0.5 / n)
+    spent = 0
     for i in range(n):
         share = (i + 1.0) / n
         r.ideal_output = output_before + share * output_speed * duration
@@ -248,6 +249,9 @@ def step_through_equilibria(r, duration):
         if not solve(r):
             r.input_angle = total_ratio(r.first_stage_ratio, pins, lobes) * r.ideal_output
             return NO_EQUILIBRIUM
+        spent += r.iterations
+        if spent > MOST_ITERATIONS:
+            return LONG_STEP
         copy_means(r, 1.0, 1.0 / n if i < n - 1 else 0.5 / n)
     r.substeps = n
     publish(r, output_speed)
