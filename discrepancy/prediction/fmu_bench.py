@@ -2,14 +2,15 @@
 
 What an FMU does not let one set is reached by stepping.  A run that begins at another angle
 than 0 turns there first, without wear, the shorter way; the cages roll along (skidding ones
-a little less far than ``Bench`` puts them).  Worn surfaces come back as the wear unit's FMU
-state, and that unit is led to the plant's crank angle.  The age of the grease is fixed once
-a unit is initialised: the plant's grease stays new through a life.
+a little less far than ``Bench`` puts them), and heat that follows the losses at once has
+settled further by the first sample.  Worn surfaces come back as the wear unit's FMU state,
+and that unit is led to the plant's crank angle.
 """
 
 import math
 import weakref
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -75,6 +76,13 @@ class FmuBench(Bench):
         self.plant.set("input_speed", math.copysign(condition.speed, angle * self.ratio))
         self.plant.step(0.0, abs(angle * self.ratio) / condition.speed)
 
+    def age_plant(self, condition: Condition, values: Mapping[str, float]) -> None:
+        """The plant where it stands, with grease as old as the condition says: its age is fixed in a unit's life."""
+        angle = self.plant.get("input_angle") / self.ratio
+        self.start_plant(condition, values, condition.direction * condition.load)
+        self.turn_plant(condition, angle)
+        self.plant.set("input_speed", self.input_speed(condition))
+
     def place_wear(self, state: bytes) -> None:
         """Put worn surfaces under the plant's contacts; they wear no further."""
         wear, plant = self.wear, self.plant
@@ -122,7 +130,10 @@ class FmuBench(Bench):
             self.wear.set("acceleration", 0.0)
             self.master.run(2)
             found = dict.fromkeys(inspections, self.wear.save())
-            for _, stretch, target in stretches(inspections):
+            ageing = self.plant.get("grease_ageing") != 0.0
+            for done, stretch, target in stretches(inspections):
+                if ageing:
+                    self.age_plant(replace(fresh, hours=done + 0.5 * stretch), values)
                 self.wear.set("acceleration", stretch / (steps * step))
                 self.master.run(steps)
                 found[target] = self.wear.save()
