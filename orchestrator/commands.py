@@ -277,7 +277,7 @@ def dynamics_wear(options: argparse.Namespace) -> int:
                     lambda text: print(text, file=sys.stderr, flush=True))  # fmt: skip
     write_dynamics_page(found, page)
     if options.json:
-        print_json(dynamics_as_json(found) | {"page": str(page)})
+        screen.json_text(dynamics_as_json(found) | {"page": str(page)})
     else:
         screen.dynamics(found)
         print(f"page  {page}")

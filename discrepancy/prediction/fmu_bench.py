@@ -1,12 +1,13 @@
 """The same bench with the FMUs themselves on it, stepped as any importing tool steps them.
 
-What an FMU does not let one set is reached by stepping.  A run that begins at another angle
+What an FMU does not let one set is reached by stepping, and every step takes time.  A run that begins at another angle
 than 0 turns there first, without wear, the shorter way; the cages roll along (skidding ones
 a little less far than ``Bench`` puts them), and heat that follows the losses at once has
 settled further by the first sample.  Worn surfaces come back as the wear unit's FMU state,
 and that unit is led to the plant's crank angle.
 """
 
+import contextlib
 import math
 import weakref
 from collections.abc import Mapping
@@ -34,6 +35,8 @@ from orchestrator.pair import CONNECTIONS, require_built_from
 
 # The wear unit takes no more than half a turn of the cranks in a step.
 LONGEST_WEAR_STEP = 3.0
+# A step [s] on the spot: FMUs refuse one of 0.
+MOMENT = 1e-12
 
 
 class FmuBench(Bench):
@@ -65,16 +68,25 @@ class FmuBench(Bench):
         """The plant alone, at output angle 0."""
         self.renew_plant(condition, values, load)
         self.plant.enter_initialisation(0.0)
-        # Values come from a search here: those that the plant refuses end a run, they are no fault of the user.
-        self.plant.attempt(self.plant.slave.exitInitializationMode)
+        with refusal_as_run_fault():
+            self.plant.exit_initialisation()
+        self.time = 0.0
+
+    def step_plant(self, duration: float) -> None:
+        self.plant.step(self.time, duration)
+        self.time += duration
+
+    def step_pair(self, duration: float) -> None:
+        self.master.advance(self.time, duration)
+        self.time += duration
 
     def turn_plant(self, condition: Condition, angle: float) -> None:
         """Move the output by ``angle`` [rad], at the condition's speed whichever the direction."""
         if angle == 0.0:
-            # A step on the spot would let heat that follows the losses at once settle further than in ``Bench``.
+            # A step there would let heat that follows the losses at once settle further than in ``Bench``.
             return
         self.plant.set("input_speed", math.copysign(condition.speed, angle * self.ratio))
-        self.plant.step(0.0, abs(angle * self.ratio) / condition.speed)
+        self.step_plant(abs(angle * self.ratio) / condition.speed)
 
     def age_plant(self, condition: Condition, values: Mapping[str, float]) -> None:
         """The plant where it stands, with grease as old as the condition says: its age is fixed in a unit's life."""
@@ -94,7 +106,7 @@ class FmuBench(Bench):
         start, end = wear.get("crank_angle"), plant.get("crank_angle")
         for angle in np.linspace(start, end, 2 + int(abs(end - start) / LONGEST_WEAR_STEP))[1:]:
             wear.set("crank_angle", angle)
-            wear.step(0.0, 0.0)
+            wear.step(self.time, MOMENT)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plant.set(name, wear.get(name))
 
@@ -120,22 +132,22 @@ class FmuBench(Bench):
         def run():
             self.renew_plant(fresh, values, fresh.direction * fresh.load)
             self.renew(self.wear, {**values, "temperature": fresh.temperature})
-            try:
+            with refusal_as_run_fault():
                 self.master.initialise()
-            except InputFault as fault:
-                raise RunFault(str(fault)) from None
+            self.time = 0.0
             step = self.turning_time(condition) / POSITIONS
             steps = turns * POSITIONS
-            self.master.rebase(step)
             self.wear.set("acceleration", 0.0)
-            self.master.run(2)
+            for _ in range(2):
+                self.step_pair(step)
             found = dict.fromkeys(inspections, self.wear.save())
             ageing = self.plant.get("grease_ageing") != 0.0
             for done, stretch, target in stretches(inspections):
                 if ageing:
                     self.age_plant(replace(fresh, hours=done + 0.5 * stretch), values)
                 self.wear.set("acceleration", stretch / (steps * step))
-                self.master.run(steps)
+                for _ in range(steps):
+                    self.step_pair(step)
                 found[target] = self.wear.save()
             return found
 
@@ -150,12 +162,12 @@ class FmuBench(Bench):
             self.plant.set("input_speed", self.input_speed(condition))
             if worn:
                 self.place_wear(worn)
-            move = self.step_pair if worn else lambda duration: self.plant.step(0.0, duration)
+            move = self.step_pair if worn else self.step_plant
             row, series = np.zeros(len(COLUMNS)), np.zeros((len(angles), len(COLUMNS)))
             read = self.plant.reader(tuple(self.plant.signal(name).references[0] for name in COLUMNS), row)
             durations = np.abs(np.diff(angles, prepend=angles[0])) * abs(self.ratio) / condition.speed
             for i, duration in enumerate(durations):
-                move(float(duration))
+                move(max(float(duration), MOMENT))
                 read()
                 series[i] = row
             series[:, COLUMNS.index("output_angle")] += angles[0] - start
@@ -166,10 +178,6 @@ class FmuBench(Bench):
 
     def running_places(self, condition, values, angles):
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
-
-    def step_pair(self, duration: float) -> None:
-        self.master.rebase(duration)
-        self.master.step()
 
     def held(self, condition, values, torques):
         def run():
@@ -187,12 +195,21 @@ class FmuBench(Bench):
                     self.place_wear(worn)
                 for i, torque in enumerate(torques):
                     self.plant.set("load_torque", torque)
-                    self.plant.step(0.0, 1.0)
+                    self.step_plant(1.0)
                     total[i] -= self.plant.get("transmission_error") / HELD_ANGLES
             return total
 
         key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes())
         return self.kept(key, run)
+
+
+@contextlib.contextmanager
+def refusal_as_run_fault():
+    """Values come from a search here: those that a unit refuses end a run, they are no fault of the user's."""
+    try:
+        yield
+    except InputFault as fault:
+        raise RunFault(str(fault)) from None
 
 
 def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
