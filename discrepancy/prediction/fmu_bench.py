@@ -184,12 +184,13 @@ class FmuBench(Bench):
             worn = self.worn_state(condition, values)
             total = np.zeros(len(torques))
             self.start_plant(condition, values, torques[0])
-            placed = self.plant.save()
+            placed, since = self.plant.save(), self.time
             for k in range(HELD_ANGLES):
                 if k > 0:
                     self.plant.restore(placed)
+                    self.time = since
                     self.turn_plant(condition, 2.0 * math.pi / (HELD_ANGLES * self.reducer.topology.lobes))
-                    placed = self.plant.save()
+                    placed, since = self.plant.save(), self.time
                 self.plant.set("input_speed", 0.0)
                 if worn:
                     self.place_wear(worn)
