@@ -88,10 +88,10 @@ def results_of(tasks: list[Task], folder: Path, keep: bool, peers: set[int], job
     if scheduler:
         from dask.distributed import Client, as_completed
 
-        client = Client(scheduler)
-        futures = [client.submit(one, t, folder, keep, t.number in peers, pure=False) for t in tasks]
-        for future in as_completed(futures):
-            yield future.result()
+        with Client(scheduler) as client:
+            futures = [client.submit(one, t, folder, keep, t.number in peers, pure=False) for t in tasks]
+            for future in as_completed(futures):
+                yield future.result()
         return
     from joblib import Parallel, delayed
 

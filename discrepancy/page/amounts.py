@@ -114,5 +114,8 @@ def fitting(size: float, unit: str) -> tuple[float, str]:
         return 1.0, pretty(unit)
     if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):
         return 1.0, pretty(unit)
+    if unit.startswith("1/"):
+        # 1/GK and the like are nobody's units.
+        return 1.0, pretty(unit)
     compact = quantity.to_compact()
     return float(compact.magnitude / size), f"{compact.units:~P}"

@@ -4,7 +4,7 @@ What an FMU does not let one set is reached by stepping, and every step takes ti
 than 0 turns there first, without wear, the shorter way; the cages roll along (skidding ones
 a little less far than ``Bench`` puts them), and heat that follows the losses at once has
 settled further by the first sample.  Worn surfaces come back as the wear unit's FMU state,
-and that unit is led to the plant's crank angle.
+and that unit is led to the plant's angles.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ from orchestrator.fmu import Fmu
 from orchestrator.master import Master
 from orchestrator.pair import CONNECTIONS, require_built_from
 
-# The wear unit takes no more than half a turn of the cranks in a step.
+# The wear unit takes no more than half a turn of cranks, carrier or cages in a step [rad].
 LONGEST_WEAR_STEP = 3.0
 # A step [s] on the spot: FMUs refuse one of 0.
 MOMENT = 1e-12
@@ -101,11 +101,11 @@ class FmuBench(Bench):
         wear.restore(state)
         wear.set("acceleration", 0.0)
         wear.set("contact_lead", 0.0)
-        for name in ("output_angle", "cage_angle"):
-            wear.set(name, plant.get(name))
-        start, end = wear.get("crank_angle"), plant.get("crank_angle")
-        for angle in np.linspace(start, end, 2 + int(abs(end - start) / LONGEST_WEAR_STEP))[1:]:
-            wear.set("crank_angle", angle)
+        names = ("crank_angle", "output_angle", "cage_angle")
+        start, end = (np.array([unit.get(name) for name in names]) for unit in (wear, plant))
+        for angles in np.linspace(start, end, 2 + int(np.abs(end - start).max() / LONGEST_WEAR_STEP))[1:]:
+            for name, angle in zip(names, angles):
+                wear.set(name, angle)
             wear.step(self.time, MOMENT)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plant.set(name, wear.get(name))
