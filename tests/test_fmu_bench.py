@@ -9,8 +9,8 @@ from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
 from orchestrator.coupled import COLUMNS
-from orchestrator.fmu import Fmu
 from orchestrator.faults import InputFault, RunFault
+from orchestrator.fmu import Fmu
 from test_loop import CLEARANCE, campaign_of
 
 ARCSEC = np.pi / 180.0 / 3600.0
@@ -25,10 +25,14 @@ def model():
     return load_model("RV20E-121")
 
 
-@pytest.fixture(scope="module")
-def benches(model, fmus):
+@pytest.fixture(scope="module", params=["editable", "fmi2", "fmi3"])
+def benches(model, request):
     """Kernels in process with the surfaces of the FMUs, and the FMUs."""
-    return Bench(model.reducer, {}, model.reducer.resolution), FmuBench(model, {}, fmus)
+    if request.param == "editable":
+        folder = request.getfixturevalue("fmus")
+    else:
+        folder = request.getfixturevalue("native_fmus") / request.param
+    return Bench(model.reducer, {}, model.reducer.resolution), FmuBench(model, {}, folder)
 
 
 @pytest.mark.parametrize("condition", [SHORT, WORN])
