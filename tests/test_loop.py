@@ -163,3 +163,11 @@ def test_draft_of_a_recovered_law_builds_and_acts(tmp_path):
     assert done.returncode == 0, done.stderr
     # 209.4 rad/s over the largest speed of the law.
     assert float(done.stdout) == pytest.approx(0.5 * 209.44 / 200.0, rel=1e-3)
+
+
+def test_unknown_nuisance_is_refused(file, wide):
+    from discrepancy.campaign.model import Nuisance
+
+    vague = Nuisance(Parameter("bearing_clearence", "m", 0.0, 0.0, 1.0, 1.0))
+    with pytest.raises(InputFault, match="bearing_clearence.*bearing_clearance"):
+        PhysicalModel(file, replace(wide, nuisances=(vague,)))

@@ -1,5 +1,6 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
+import difflib
 import multiprocessing
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -15,13 +16,15 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, angle_zero
 from discrepancy.problem import Candidate, Parameter, Record
-from orchestrator.faults import RunFault
+from orchestrator.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.
 ZEROED = ("transmission_error", "hysteresis")
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
+# Nuisances that are no parameters of the reducer.
+ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
 IMPOSSIBLE = 100.0
 # Share of the rated torque below which a held output has no defined place.
@@ -44,16 +47,18 @@ class PhysicalModel:
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
-        self.per = {n.parameter.name: n.per for n in campaign.nuisances}
+        nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
+        self.require_known(nuisances)
+        self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
-        declared = tuple(p for n in campaign.nuisances for p in expanded(n, self.records))
+        declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         if zeros is None:
-            self.align()
+            self.align(always=len(nuisances) < len(campaign.nuisances))
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
-        if any(r.quantity.startswith("vibration") for r in self.records) and "housing_mass" not in self.per:
-            self.nuisances += (Parameter("housing_mass", "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
-        excluded = {n.parameter.name for n in campaign.nuisances}
+        if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
+            self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
+        excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(self.records, present, excluded, mountings)
 
@@ -65,10 +70,24 @@ class PhysicalModel:
             for name, zero in self.zeros.items()
         ]  # fmt: skip
 
-    def align(self) -> None:
+    def require_known(self, nuisances: Sequence[Nuisance]) -> None:
+        """InputFault for a nuisance that is no parameter of the model."""
+        scalars = {v.name for table in self.bench.tables for v in table.of_role("parameter", "input") if not v.shape}
+        for name in (n.parameter.name for n in nuisances):
+            if name not in scalars | {HOUSING_MASS} and name.partition("[")[0] not in CHAIN_PARAMETERS:
+                close = difflib.get_close_matches(name, scalars | CHAIN_PARAMETERS, 2)
+                hint = f"; did you mean {' or '.join(close)}?" if close else ""
+                raise InputFault(
+                    f"{self.campaign.folder}: nuisances.{name}: the model has no such parameter{hint} docs/variables.md lists those of the"
+                    f" reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
+                    f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
+                )
+
+    def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.
 
-        A zero that the campaign shares with the model stays 0 and is not estimated.
+        A zero that the campaign shares with the model stays 0 and is not estimated, unless the campaign
+        declares the encoder's phase as unknown (``always``).
         """
         by_mounting: dict[str, list[int]] = {}
         for i, record in enumerate(self.records):
@@ -85,7 +104,7 @@ class PhysicalModel:
                 misfits.append(float(np.sum((record.values - predicted) ** 2)))
             best = int(np.argmin(misfits))
             at_zero = misfits[PHASES // 2]
-            if at_zero <= 1.02 * misfits[best]:
+            if at_zero <= 1.02 * misfits[best] and not always:
                 continue
             self.zeros[name] = float(shifts[best])
 
