@@ -14,6 +14,7 @@ from discrepancy.inference.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
+from orchestrator import building
 from orchestrator.faults import InputFault
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
@@ -122,7 +123,6 @@ def extended_reducer(file: ModelFile):
 
 
 def build_units(file: ModelFile, folder: Path) -> list[Path]:
-    """RvPlant.fmu and RvWear.fmu of the extended model."""
-    from orchestrator.building import build_pair
-
-    return build_pair(extended_reducer(file), folder)
+    """The FMUs of the extended model, its effects switched on."""
+    built, packages = building.build_units(extended_reducer(file), folder)
+    return [Path(entry["fmu"]) for entry in built] + packages

@@ -4,18 +4,14 @@ import argparse
 import json
 import os
 import sys
-import zipfile
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from fmu_src.description import guid
-from fmu_src.link import compiler, host_platform
-from fmu_src.native import NativeFault, host_triple, object_codes
-from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.source_hash import source_hash
 from orchestrator import results, screen
+from orchestrator.building import Wanted, build_units
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
 from orchestrator.component import InProcess
 from orchestrator.duty import load_duty
@@ -26,7 +22,7 @@ from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, live
 from orchestrator.master import SCHEMES, Master
 from orchestrator.modes import modes as natural_modes
-from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, export_pair, make_pair
+from orchestrator.pair import Pair, crank_turn_time, make_pair
 from orchestrator.reducer import Reducer, load_reducer
 from orchestrator.settings import Setting, apply, parse_setting
 from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
@@ -302,34 +298,10 @@ def reproduce(options: argparse.Namespace) -> int:
 def build(options: argparse.Namespace) -> int:
     """``rvwear build``: FMUs of both units, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
-    plant = InProcess("plant", reducer.specification("rv_plant"))
-    step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
-    tool = f"rvwear {results.version('rvwear')}"
-    native = native_versions(options)
-    built = []
-    for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
-        specification = reducer.specification(unit)
-        identity, folder = guid(specification, source_hash()), Path(options.output)
-        editable = folder / f"{name}.fmu"
-        ours = [folder / f"fmi{version}" / f"{name}.fmu" for version in native]
-        stale = [path for path in ours if not is_current(path, identity, options.all_platforms)]
-        wanted = ([] if options.flavour == "native" else [editable]) + ours
-        if editable in wanted and not is_current(editable, identity):
-            stale.append(editable)
-        if stale:
-            with screen.busy(f"compiling and packing {name}"):
-                codes = object_codes(specification, triples_for(options.all_platforms))
-                if editable in stale:
-                    build_fmu(name, specification, step, tool, folder, codes[host_triple()])
-                if versions := tuple(v for v, path in zip(native, ours) if path in stale):
-                    build_native(name, specification, step, tool, folder, versions, options.all_platforms, codes)
-        for path in wanted:
-            validate(path)
-            entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
-            built.append(entry | {"flavour": "python" if path == editable else "native"})
-    packages = [str(export_pair(reducer, place, step, tool)) for place in dict.fromkeys(Path(e["fmu"]).parent for e in built)]
+    wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
+    built, packages = build_units(reducer, Path(options.output), wanted, screen.busy)
     if options.json:
-        screen.json_text({"reducer": reducer.name, "fmus": built, "packages": packages})
+        screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})
     else:
         for entry in built:
             state = "built" if entry["built"] else "up to date"
@@ -337,34 +309,6 @@ def build(options: argparse.Namespace) -> int:
         for package in packages:
             print(f"{package}  both, connected")
     return 0
-
-
-def native_versions(options: argparse.Namespace) -> tuple[str, ...]:
-    """FMI versions of the native FMUs to build; none if nobody asked for them and there is no C compiler."""
-    if options.flavour == "python":
-        return ()
-    try:
-        compiler(host_platform(), options.all_platforms)
-    except NativeFault as fault:
-        if options.flavour == "native" or options.all_platforms:
-            raise
-        print(f"no native FMUs: {fault}", file=sys.stderr)
-        return ()
-    return tuple(VERSIONS) if options.fmi == "both" else (options.fmi,)
-
-
-def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
-    """Whether an FMU of this identity, for all platforms if need be, is there already."""
-    import fmpy
-
-    if not path.exists():
-        return False
-    description = fmpy.read_model_description(str(path))
-    known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
-    with zipfile.ZipFile(path) as archive:
-        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
-    # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return known == identity and (not all_platforms or len(libraries) >= 4)
 
 
 def report(options: argparse.Namespace) -> int:

@@ -86,8 +86,12 @@ class Bench:
             if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
         ))  # fmt: skip
 
-    def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, **plant_values):
-        """Records of both units, initialised at a condition and an output angle [rad]."""
+    def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
+             **plant_values):
+        """Records of both units, initialised at a condition and an output angle [rad].
+
+        ``cage`` is how far the roller cages stand ahead of where rolling from 0 brings them [rad].
+        """
         plants, wears = (t.copy() for t in self.templates)
         for table, records in zip(self.tables, (plants, wears)):
             for name, value in values.items():
@@ -99,7 +103,7 @@ class Bench:
         plants["ideal_output"] = first_angle
         # Where the cages have rolled with the output from 0.
         rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
-        plants["cage"] = rate * within_turn(first_angle)
+        plants["cage"] = rate * within_turn(first_angle) + cage
         if "grease_age" in self.tables[0].by_name:
             plants["grease_age"] = condition.hours
         for name, value in plant_values.items():
@@ -155,17 +159,20 @@ class Bench:
 
         return self.kept(key, run)
 
-    def running(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray) -> np.ndarray:
-        """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS."""
-        return self.running_places(condition, values, angles)[0]
+    def running(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray, cage: float = 0.0) -> np.ndarray:
+        """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS.
 
-    def running_places(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray):
+        ``cage`` is how far the roller cages stand ahead at the first angle [rad].
+        """
+        return self.running_places(condition, values, angles, cage)[0]
+
+    def running_places(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray, cage: float = 0.0):
         """(series, equilibria): the equilibria of the base model are where others start."""
         relevant = self.relevant(values, condition.hours > 0.0)
-        key = ("running", condition, relevant, angles.tobytes())
+        key = ("running", condition, relevant, angles.tobytes(), cage)
 
         def run():
-            plants, wears = self.pair(condition, values, angles[0], largest_crank_step=1.0)
+            plants, wears = self.pair(condition, values, angles[0], cage=cage, largest_crank_step=1.0)
             if condition.hours > 0.0:
                 worn = self.worn(condition, values, condition.hours)
                 wears[:] = worn

@@ -4,11 +4,10 @@ from collections.abc import Iterable
 from itertools import product
 
 from discrepancy.effects import MODULES
+from discrepancy.model_file import every_effect
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
-from wear_fmu.effects import EFFECTS as WEAR
-from discrepancy.model_file import every_effect
 
 # Quantities that show what an effect's ``signals`` name in short.
 SHOWN_BY = {

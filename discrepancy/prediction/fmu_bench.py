@@ -1,10 +1,10 @@
 """The same bench with the FMUs themselves on it, stepped as any importing tool steps them.
 
-What an FMU does not let one set is reached by stepping, and every step takes time.  A run that begins at another angle
-than 0 turns there first, without wear, the shorter way; the cages roll along (skidding ones
-a little less far than ``Bench`` puts them), and heat that follows the losses at once has
-settled further by the first sample.  Worn surfaces come back as the wear unit's FMU state,
-and that unit is led to the plant's angles.
+What an FMU does not let one set is reached by stepping, and every step takes time.  A run
+that begins at another angle than 0 turns there first, without wear, the shorter way; the
+cages roll along (skidding ones a little less far than ``Bench`` puts them), and heat that
+follows the losses at once has settled further by the first sample.  Worn surfaces come back
+as the wear unit's FMU state, and that unit is led to the plant's angles.
 """
 
 import contextlib
@@ -153,7 +153,11 @@ class FmuBench(Bench):
 
         return self.kept(("life", fresh, tuple(inspections), turns, self.relevant(values, True)), run)
 
-    def running(self, condition, values, angles):
+    def running(self, condition, values, angles, cage=0.0):
+        if cage != 0.0:
+            # No FMU can be told where its cages stand; what they change is the same in process.
+            return super().running_places(condition, values, angles, cage)[0]
+
         def run():
             worn = self.worn_state(condition, values)
             self.start_plant(condition, values, condition.direction * condition.load)
@@ -176,7 +180,7 @@ class FmuBench(Bench):
         key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
         return self.kept(key, run)
 
-    def running_places(self, condition, values, angles):
+    def running_places(self, condition, values, angles, cage=0.0):
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
     def held(self, condition, values, torques):

@@ -46,14 +46,14 @@ def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
     return condition.direction * condition.speed / abs(bench.ratio) * (time - time[0]) + zero
 
 
-def along(bench: Bench, record: Record, values: Values, name: str) -> np.ndarray:
+def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> np.ndarray:
     """A column of the running bench at the record's angles (or times)."""
     condition, zero = condition_of(bench, record), values.get(angle_zero(record), 0.0)
     angles = angles_of(bench, record, zero)
     order = np.argsort(angles, kind="stable")
     back = np.empty_like(order)
     back[order] = np.arange(len(order))
-    series = bench.running(condition, values, angles[order] if condition.direction > 0 else angles[order][::-1])
+    series = bench.running(condition, values, angles[order] if condition.direction > 0 else angles[order][::-1], cage)
     column = series[:, COLUMNS.index(name)]
     return (column if condition.direction > 0 else column[::-1])[back]
 
@@ -71,6 +71,17 @@ def level(record: Record) -> str:
 def transmission_error(bench, record, values):
     error = along(bench, record, values, "transmission_error")
     return error - error.mean() + values.get(level(record), 0.0)
+
+
+def roller_ripple(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Transmission error with the cages at no place in particular, and its cosine and sine part in the cages' place.
+
+    Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error
+    repeats with the pitch of the rollers.
+    """
+    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
+    at = [along(bench, record, values, "transmission_error", share * pitch) for share in (0.0, 0.25, 0.5, 0.75)]
+    return sum(at) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
 
 
 def hysteresis(bench, record, values):

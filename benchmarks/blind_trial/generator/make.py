@@ -1,13 +1,13 @@
 """One campaign from a seed and a kind: drawn, scaled to its d', written, sealed."""
 
 import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.blind_trial.generator.designs import Design, make_design
-from benchmarks.blind_trial.generator.faults import FAULTS, faulty
+from benchmarks.blind_trial.generator.faults import faulty
 from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.noise import round_to

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from benchmarks.blind_trial.generator import reducer as bench
-from benchmarks.blind_trial.generator.designs import Design, Series
+from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.reducer import COLUMNS, HOUR, Plain, Setting
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
@@ -186,6 +186,3 @@ def worn_places() -> tuple[float, float]:
         found.append(float(angle[bench.rounded(depth, 0.1).argmax()]))
     return tuple(found)
 
-
-def needs(truths: list[Truth], design: Design) -> bool:
-    return all(set(t.quantities) & design.quantities() for t in truths)
