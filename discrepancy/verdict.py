@@ -41,7 +41,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
              jobs: int = 1) -> Answer:
     """The effect that the model lacks, a set that cannot be separated, none, or the law without a name."""
     model = model or PhysicalModel(file, campaign, jobs=jobs)
-    found = Diagnostician(model, settings, named_orders(model.bench)).run()
+    found = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders)).run()
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))

@@ -5,7 +5,7 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -49,7 +49,7 @@ class Bench:
     """Runs of one reducer with settings; every method takes the values of further parameters."""
 
     def __init__(self, reducer: Reducer, settings: Mapping[str, float]):
-        self.reducer = Reducer(**{**reducer.__dict__, "resolution": RESOLUTION})
+        self.reducer = replace(reducer, resolution=RESOLUTION)
         self.tables: tuple[Table, Table] = (self.reducer.plant, self.reducer.wear)
         self.templates = []
         for table in self.tables:

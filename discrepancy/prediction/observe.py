@@ -10,12 +10,17 @@ from discrepancy.problem import Record
 from orchestrator.coupled import COLUMNS
 from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
 from orchestrator.life import peak_of_circle
+from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
 
 Values = Mapping[str, float]
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 4096
 TORQUE_STEPS = 12
+# Torques of either sign at which a locked drive's springs are computed.
+ELASTIC_STEPS = 20
+WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
+DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
@@ -74,12 +79,32 @@ def transmission_error(bench, record, values):
 
 
 def hysteresis(bench, record, values):
+    if record.tags.get("locked") == "output":
+        return locked_output(bench, record, values)
     torques = np.asarray(record.axes["torque"], float)
     condition = held_condition(bench, record)
     # The loop is entered from no torque, as the bench does.
     lead = np.linspace(0.0, torques[0], 9)[:-1]
     turning = bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
     return turning + values.get(level(record), 0.0)
+
+
+def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
+    """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
+    applied = np.asarray(record.axes["torque"], float)
+    elastic = {name: value for name, value in values.items() if name not in DRIVE_FRICTION} | WITHOUT_FRICTION
+    # Finely about no torque, where play is.
+    rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
+    table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
+    turning = bench.held(held_condition(bench, record), elastic, table)
+    friction, share, presliding = (values.get(n, float(bench.templates[0][n][0])) for n in DRIVE_FRICTION)
+    if friction + share == 0.0:
+        return np.interp(applied, table, turning) + values.get(level(record), 0.0)
+    found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
+    # The ramp before left the elements somewhere: it was the same ramp.
+    for _ in range(2):
+        locked_output_loop(turning, table, applied, friction, share, presliding, sliders, found)
+    return found + values.get(level(record), 0.0)
 
 
 def held_condition(bench: Bench, record: Record) -> Condition:
