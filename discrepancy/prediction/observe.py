@@ -108,22 +108,32 @@ def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
 
 
 def held_condition(bench: Bench, record: Record) -> Condition:
-    c = condition_of(bench, record)
+    return at_rest(bench, condition_of(bench, record))
+
+
+def at_rest(bench: Bench, c: Condition) -> Condition:
+    """The held test of a unit that ran at rated speed and load before."""
     return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
 
 
-def loop(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def loop(bench: Bench, condition: Condition, values: Values) -> tuple[np.ndarray, np.ndarray]:
     """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
     way = torque_way(bench.rated_load, TORQUE_STEPS)
     quarter = len(way) // 4
     first = way[: quarter + 1]
-    turning = bench.held(held_condition(bench, record), values, np.concatenate([way, first[1:]]))
+    turning = bench.held(at_rest(bench, condition), values, np.concatenate([way, first[1:]]))
     return np.concatenate([way, first[1:]]), turning
 
 
 def lost_motion(bench, record, values):
     """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
-    torque, turning = loop(bench, record, values)
+    rows = row_conditions(bench, record)
+    by_condition = {c: lost_motion_at(bench, c, values) for c in dict.fromkeys(rows)}
+    return np.array([by_condition[c] for c in rows])
+
+
+def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
+    torque, turning = loop(bench, condition, values)
     rising = np.concatenate([[False], np.diff(torque) > 0.0])
     middle = []
     for torque_at in (LOST_MOTION_SHARE * bench.rated_load, -LOST_MOTION_SHARE * bench.rated_load):
@@ -132,7 +142,7 @@ def lost_motion(bench, record, values):
             order = np.argsort(torque[branch], kind="stable")
             branches.append(np.interp(torque_at, torque[branch][order], turning[branch][order]))
         middle.append(np.mean(branches))
-    return np.full(len(record.values), middle[0] - middle[1])
+    return float(middle[0] - middle[1])
 
 
 def torsional_stiffness(bench, record, values):
