@@ -13,9 +13,8 @@ from discrepancy.inference.verdict import ONE, SEVERAL
 from discrepancy.model_file import load_model, save_model
 from discrepancy.next_run import next_run
 from discrepancy.verdict import diagnose
-from orchestrator.commands import print_json
 from orchestrator.faults import InputFault
-from orchestrator.screen import busy
+from orchestrator.screen import busy, json_text
 
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
@@ -31,6 +30,9 @@ def add_loop(sub: argparse._SubParsersAction) -> None:
         command = sub.add_parser(name, help=text)
         add_common(command)
         command.set_defaults(run=run)
+        if name != "next":
+            command.add_argument("--fmus", metavar="FOLDER",
+                                 help="step RvPlant.fmu and RvWear.fmu of this folder instead of their kernels in this process")
         if name == "diagnose":
             command.add_argument("--draft", metavar="FILE", help="write an effect file from the recovered law, if nothing is named")
     add = sub.add_parser("extend", help="add an effect to a model and judge it on runs that were not used")
@@ -64,6 +66,10 @@ def inputs(options: argparse.Namespace):
     return file, campaign
 
 
+def fmu_folder(options: argparse.Namespace) -> Path | None:
+    return Path(options.fmus) if options.fmus else None
+
+
 def all_cores() -> int:
     """Cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -78,10 +84,10 @@ def write_html(options: argparse.Namespace, result) -> None:
 
 def run_compare(options: argparse.Namespace) -> int:
     with busy("comparing"):
-        comparison = compare(*inputs(options), jobs=all_cores())
+        comparison = compare(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
     write_html(options, comparison)
     if options.json:
-        print_json(comparison.as_json())
+        json_text(comparison.as_json())
     else:
         screen.show_comparison(comparison)
     return 0
@@ -89,10 +95,10 @@ def run_compare(options: argparse.Namespace) -> int:
 
 def run_localise(options: argparse.Namespace) -> int:
     with busy("localising"):
-        comparison = compare(*inputs(options))
+        comparison = compare(*inputs(options), fmus=fmu_folder(options))
     write_html(options, comparison)
     if options.json:
-        print_json(comparison.as_json()["localisation"])
+        json_text(comparison.as_json()["localisation"])
     else:
         screen.show_localisation(comparison.diagnostician.localisation)
         screen.show_warnings(screen.console(), comparison.warnings)
@@ -101,13 +107,13 @@ def run_localise(options: argparse.Namespace) -> int:
 
 def run_diagnose(options: argparse.Namespace) -> int:
     with busy("diagnosing"):
-        answer = diagnose(*inputs(options), jobs=all_cores())
+        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
     write_html(options, answer)
     draft = None
     if options.draft:
         draft = draft_effect(answer, Path(options.draft))
     if options.json:
-        print_json(answer.as_json() | {"draft": str(draft) if draft else None})
+        json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
         screen.show_answer(answer)
         if options.draft:
@@ -138,7 +144,7 @@ def run_extend(options: argparse.Namespace) -> int:
             fmus = [str(path) for path in build_units(extension.file, Path(options.fmus))]
     write_html(options, extension)
     if options.json:
-        print_json(extension.as_json() | {"file": str(target), "fmus": fmus})
+        json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
     else:
         screen.show_extension(extension)
         print(f"model  {target}")
@@ -151,7 +157,7 @@ def run_ladder(options: argparse.Namespace) -> int:
     file = load_model(options.model)
     write_html(options, file)
     if options.json:
-        print_json({"model": file.name, "steps": list(file.steps)})
+        json_text({"model": file.name, "steps": list(file.steps)})
     else:
         screen.show_ladder(file)
     return 0
@@ -162,7 +168,7 @@ def run_next(options: argparse.Namespace) -> int:
         run = next_run(*inputs(options), jobs=all_cores())
     write_html(options, run)
     if options.json:
-        print_json(run.as_json())
+        json_text(run.as_json())
     else:
         screen.show_next(run)
     return 0

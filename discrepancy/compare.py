@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -43,9 +44,9 @@ class Comparison:
 
 
 def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
-            jobs: int = 1) -> Comparison:
-    """Hold a model against a campaign; localises the misfit on the way."""
-    model = model or PhysicalModel(file, campaign, jobs=jobs)
+            jobs: int = 1, fmus: Path | None = None) -> Comparison:
+    """Hold a model against a campaign; localises the misfit on the way.  ``fmus``: folder of FMUs to predict with."""
+    model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
     diagnostician = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
     localisation = diagnostician.prepare()
     space = diagnostician.space

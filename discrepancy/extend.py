@@ -19,6 +19,8 @@ from orchestrator.faults import InputFault
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
 BETTER = 0.97
+# Error over noise that noise alone makes now and then.
+WITHIN_NOISE = 1.3
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
             for b, a in zip(by_signal(before.runs), by_signal(after.runs))
         ],
     }  # fmt: skip
-    keep = outcome != DID_NOT_HELP or anyway
+    # What was tested on unused runs and not seen there stays out.
+    keep = outcome == HELPED or judged is None or anyway
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome)
 
@@ -96,6 +99,11 @@ def verdict_of(judged, fit: Refit, before, after) -> tuple[str, str]:
         return NOT_PROVEN, (
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
             " measure at a condition that was not used, or mark one as held_out"
+        )
+    if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
+        return NOT_PROVEN, (
+            f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"
+            " they do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
         return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} times the noise"

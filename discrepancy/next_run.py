@@ -6,6 +6,7 @@ from itertools import product
 import numpy as np
 
 from discrepancy.campaign.model import Campaign, Rig
+from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, next_experiment, rival_of
 from discrepancy.inference.series import stream_of
 from discrepancy.inference.verdict import Settings
@@ -13,6 +14,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.verdict import Answer, diagnose
+from orchestrator.hysteresis import torque_way
 
 HOUR = 3600.0
 # Quantities whose condition has these factors; the others are taken with the input held.
@@ -20,7 +22,14 @@ RUNNING = {"transmission_error", "input_torque", "efficiency", "vibration_order"
 AGED = {"wear_depth", "wear_profile", "mass_loss", "debris_iron"}
 LEVELS = 3
 ANGLES = 400
+LOOP_STEPS = 9
 MOST_RIVALS = 4
+# Noise (SI) assumed of what was not measured yet: that of a usual bench.
+UNMEASURED = {
+    "transmission_error": {"noise": 2.5e-6}, "hysteresis": {"noise": 5e-6}, "lost_motion": {"noise": 1e-5}, "torsional_stiffness": {"noise": 2e3},
+    "input_torque": {"noise": 0.02}, "no_load_torque": {"noise": 0.01}, "cage_speed": {"noise": 0.01},
+    "wear_depth": {"noise": 1e-7, "tags": tuple({"surface": s} for s in ("flank", "pin", "inner_race", "outer_race"))},
+}  # fmt: skip
 # Several runs of a proposed experiment are averaged.
 REPEATS = 2
 
@@ -61,10 +70,21 @@ def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         return answer.model.one(experiment.settings["record"], {**answer.model.zeros, **values})
 
     shown = [replace(e, settings={k: v for k, v in e.settings.items() if k != "record"}) for e in experiments]
-    result = next_experiment(predict, experiments, rivals, interests=experiments[:1])
+    result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model))
     plain = {e.name: e.settings for e in shown}
     result = replace(result, proposals=[replace(p, settings=plain[p.experiment]) for p in result.proposals])
     return NextRun(answer, result, [r.name for r in rivals], result.verdict)
+
+
+def at_rated(model: PhysicalModel) -> list[Experiment]:
+    """Every signal at rated speed and load: what the rivals disagree about where the reducer is used."""
+    found = {}
+    for record in model.records:
+        rated = {"speed": model.bench.rated_speed, "load": model.bench.rated_load, "temperature": 293.15}
+        if record.quantity in AGED:
+            rated["hours"] = 6000.0 * HOUR
+        found[stream_of(record)] = Experiment(f"{stream_of(record)} at {describe(rated)}", 0.0, settings={"record": blank(record, rated)})
+    return list(found.values())
 
 
 def possible(model: PhysicalModel, campaign: Campaign, space) -> list[Experiment]:
@@ -72,18 +92,26 @@ def possible(model: PhysicalModel, campaign: Campaign, space) -> list[Experiment
     rig = campaign.rig
     signals = {stream_of(r): r for r in model.records}
     measured = set(rig.quantities) if rig and rig.quantities else {r.quantity for r in model.records}
+    for quantity in sorted(measured - {r.quantity for r in model.records}):
+        # Not measured so far, but the rig could.
+        for tags in UNMEASURED[quantity].get("tags", ({},)) if quantity in UNMEASURED else ():
+            axes = {"transmission_error": {"angle": np.zeros(1)},
+                    "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS)[1:]}}.get(quantity, {})
+            example = Record("proposed", quantity, QUANTITIES[quantity].unit, "", 1, np.zeros(1), axes, {"direction": 1}, tags=tags)
+            signals[stream_of(example)] = example
     found = []
     for signal, example in signals.items():
         if example.quantity not in measured:
             continue
-        stream = space.noise.streams.get(signal) or next(iter(space.noise.streams.values()))
+        stream = space.noise.streams.get(signal)
         for condition in conditions(example, model, rig, campaign):
             record = blank(example, condition)
             hours = condition.get("hours", 0.0) if example.quantity in AGED else 0.0
             run_cost, hour_cost = (rig.cost_per_run, rig.cost_per_hour) if rig else (1.0, 0.01)
             cost = REPEATS * run_cost + hour_cost * hours / HOUR
+            noise = stream.scale * correlation_loss(stream, record) if stream else UNMEASURED[example.quantity]["noise"]
             found.append(Experiment(
-                f"{signal} at {describe(condition)}", cost, stream.scale / np.sqrt(REPEATS) * correlation_loss(stream, record),
+                f"{signal} at {describe(condition)}", cost, noise / np.sqrt(REPEATS),
                 settings={**condition, "record": record},
             ))  # fmt: skip
     return found

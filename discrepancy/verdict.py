@@ -5,6 +5,7 @@ centre, or oval).  Here they are put together under the effect's name.
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import warnings_of
@@ -38,9 +39,12 @@ class Answer:
 
 
 def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
-             jobs: int = 1) -> Answer:
-    """The effect that the model lacks, a set that cannot be separated, none, or the law without a name."""
-    model = model or PhysicalModel(file, campaign, jobs=jobs)
+             jobs: int = 1, fmus: Path | None = None) -> Answer:
+    """The effect that the model lacks, a set that cannot be separated, none, or the law without a name.
+
+    ``fmus``: folder of FMUs to predict with, instead of their kernels in this process.
+    """
+    model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
     found = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders)).run()
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict

@@ -41,12 +41,16 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
     variables = table.interface()
     add_units(root, variables)
     add_types(root, variables)
-    categories = SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=text)
+    add_log_categories(root)
     SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(72 * step_size), stepSize=repr(step_size))
     add_variables(root, table, variables)
     return root
+
+
+def add_log_categories(root: Element) -> None:
+    categories = SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=text)
 
 
 def add_units(root: Element, variables: list[Variable]) -> None:
@@ -96,12 +100,22 @@ def add_variables(root: Element, table: Table, variables: list[Variable]) -> Non
     initial = SubElement(structure, "InitialUnknowns")
     for position in unknowns:
         SubElement(outputs, "Unknown", index=str(position), dependencies="")
-        SubElement(initial, "Unknown", index=str(position), **initial_dependencies(table))
+        SubElement(initial, "Unknown", index=str(position), **starts_from(table))
 
 
-def initial_dependencies(table: Table) -> dict[str, str]:
-    """None declared means "depends on all"; new surfaces depend on nothing."""
+def starts_from(table: Table) -> dict[str, str]:
+    """Dependencies of initial values: none declared means "depends on all"; new surfaces depend on nothing."""
     return {"dependencies": ""} if table.starts_from_nothing else {}
+
+
+def number(v: Variable, value: float) -> str:
+    return str(int(value)) if v.is_integer else repr(float(value))
+
+
+def limits_of(v: Variable) -> dict[str, str]:
+    """Attributes min, max and, for reals, nominal: the same in both versions."""
+    limits = {"min": number(v, v.minimum), "max": number(v, v.maximum)}
+    return limits if v.is_integer else limits | {"nominal": number(v, v.nominal)}
 
 
 def add_type(scalar: Element, v: Variable, start: float) -> None:
@@ -115,14 +129,7 @@ def add_type(scalar: Element, v: Variable, start: float) -> None:
         kind = "Real"
         if v.unit != "1":
             attributes["unit"] = v.unit
-    write = (lambda x: str(int(x))) if v.is_integer else (lambda x: repr(float(x)))
-    if not v.choices:
-        if v.minimum is not None:
-            attributes["min"] = write(v.minimum)
-        if v.maximum is not None:
-            attributes["max"] = write(v.maximum)
-        if v.nominal is not None and not v.is_integer:
-            attributes["nominal"] = write(v.nominal)
+    attributes |= limits_of(v)
     if v.role != "output":
-        attributes["start"] = write(start)
+        attributes["start"] = number(v, start)
     SubElement(scalar, kind, attributes)

@@ -79,10 +79,12 @@ def amplitude(name, unit, text, scale, low, high, off=0.0, sign=0, source="off",
 
 
 def shape(name, unit, text, start, low, high, source, grid=(), group="") -> EffectParameter:
-    """A parameter that says how an effect acts once it is on."""
-    variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=max(abs(start), 1e-12),
+    """A parameter that says how an effect acts once it is on; ``group`` names one group or several."""
+    variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=abs(start) or 1.0,
                         source=source)
-    return EffectParameter(variable, "shape", max(abs(start), 1e-12), 0, tuple(grid), group)
+    # A phase of 0 has no size of its own.
+    scale = abs(start) or (0.3 if unit == "rad" else 0.1 * (high - low))
+    return EffectParameter(variable, "shape", scale, 0, tuple(grid), group)
 
 
 def choice(name, text, start=1, low=1, high=400) -> EffectParameter:

@@ -6,9 +6,10 @@ wrapped in plain C functions
     int64 initialise(void *cells)
     int64 step(void *cells, double time, double duration)
 
-and emitted as an object file.  Where Python runs, llvmlite loads that object in a few
-milliseconds, so an importing process need not compile.  The result is refused if it
-needs any symbol beyond libm and the memory functions of libc.
+and emitted as object files, for this machine or for any other.  Where Python
+runs, llvmlite loads such an object in a few milliseconds, so an importing process need
+not compile; ``link`` makes shared libraries of them.  The result is refused if it needs
+any symbol beyond libm and the memory functions of libc.
 """
 
 import ctypes
@@ -83,7 +84,9 @@ def reduce_module(text: str, keep: tuple[str, ...]) -> llvm.ModuleRef:
         lines.append(line)
     module = llvm.parse_assembly("\n".join(lines))
     for function in module.functions:
-        if not function.is_declaration and function.name not in keep:
+        if function.name in keep:
+            function.visibility = "hidden"
+        elif not function.is_declaration:
             function.linkage = "internal"
     for variable in module.global_variables:
         if not variable.is_declaration:
@@ -104,10 +107,19 @@ def external_symbols(module: llvm.ModuleRef) -> set[str]:
 
 
 def target_machine(triple: str | None = None) -> llvm.TargetMachine:
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
     target = llvm.Target.from_triple(triple or host_triple())
     return target.create_target_machine(opt=2, reloc="pic", codemodel="default")
+
+
+def emit_object(module: llvm.ModuleRef, triple: str) -> bytes:
+    """Object code for one target; the module was made for this machine, its code holds for all."""
+    machine = target_machine(triple)
+    retargeted = module.clone()
+    retargeted.triple = triple
+    retargeted.data_layout = str(machine.target_data)
+    return machine.emit_object(retargeted)
 
 
 def unit_module(unit: Unit) -> llvm.ModuleRef:
@@ -129,25 +141,30 @@ def unit_module(unit: Unit) -> llvm.ModuleRef:
     return merged
 
 
-def object_code(specification: dict) -> bytes:
-    """Object code of a unit for this machine's architecture, plain instructions only.
+def object_code(specification: dict, triple: str | None = None) -> bytes:
+    """Object code of a unit for one target (default this machine), plain instructions only."""
+    triple = triple or host_triple()
+    return object_codes(specification, (triple,))[triple]
+
+
+def object_codes(specification: dict, triples: tuple[str, ...]) -> dict[str, bytes]:
+    """Object code of a unit for several targets (LLVM triples).
 
     Compiled in a process of its own: the processor's name is global to numba, and code
     that comes from a kernel cache has no LLVM text.
     """
     with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder, "unit.o")
         environment = os.environ | {
             "NUMBA_CACHE_DIR": folder, "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "",
             "PYTHONPATH": str(Path(__file__).resolve().parents[1]),
         }
         done = subprocess.run(
-            [sys.executable, "-m", "fmu_src.native", str(target)], input=json.dumps(specification), text=True,
+            [sys.executable, "-m", "fmu_src.native", folder, *triples], input=json.dumps(specification), text=True,
             env=environment, capture_output=True,
         )
         if done.returncode != 0:
             raise NativeFault(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "compiler failed")
-        return target.read_bytes()
+        return {triple: Path(folder, f"{triple}.o").read_bytes() for triple in triples}
 
 
 def load_object(code: bytes) -> dict[str, Callable]:
@@ -173,4 +190,5 @@ _loaded: dict[bytes, tuple] = {}
 
 if __name__ == "__main__":
     module = unit_module(make_unit(json.load(sys.stdin)))
-    Path(sys.argv[1]).write_bytes(target_machine().emit_object(module))
+    for target_triple in sys.argv[2:]:
+        Path(sys.argv[1], f"{target_triple}.o").write_bytes(emit_object(module, target_triple))

@@ -1,4 +1,8 @@
-"""Pack a unit as an FMU, byte for byte the same every time, and validate it."""
+"""Pack a unit as an FMU, byte for byte the same every time, and validate it.
+
+Two flavours: editable (pythonfmu: the sources, run by the importer's Python) and native
+(shared libraries, nothing else needed).
+"""
 
 import json
 import shutil
@@ -7,36 +11,48 @@ import sys
 import tempfile
 import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy.validation
 
-from fmu_src.description import guid
-from fmu_src.native import host_triple, object_code
+from fmu_src.description import guid, model_description
+from fmu_src.description3 import model_description3
+from fmu_src.link import PLATFORMS, host_platform, shared_library, universal
+from fmu_src.native import host_triple, object_code, object_codes
+from fmu_src.presentation import files_for_people
 from fmu_src.slaves.kernel_slave import OBJECT_CODE
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
+from fmu_src.unit import make_unit
+from fmu_src.unit_table import c_source
 
 # pythonfmu's builder writes its own defaults over the description unless told so.
 CAPABILITIES = ("--no-external-tool", "--handle-state", "--serialize-state")
 # The earliest time a zip archive can hold.
 EPOCH = (1980, 1, 1, 0, 0, 0)
+VERSIONS = {"2": "2.0", "3": "3.0"}
 
 
 class PackageFault(RuntimeError):
     """An FMU that does not validate."""
 
 
-def build_fmu(name: str, specification: dict, step_size: float, tool: str, target: Path) -> Path:
+def stamp_of(specification: dict, step_size: float, tool: str, flavour: str) -> dict:
+    """What this project writes into its FMUs, to know them again."""
+    code_hash = source_hash()
+    return {
+        "specification": specification, "source_hash": code_hash, "guid": guid(specification, code_hash),
+        "triple": host_triple(), "step_size": step_size, "tool": tool, "flavour": flavour,
+    }  # fmt: skip
+
+
+def build_fmu(name: str, specification: dict, step_size: float, tool: str, target: Path, code: bytes | None = None) -> Path:
     """Build ``target``/``name``.fmu (FMI 2.0, pythonfmu) from a unit's specification.
 
     ``step_size`` [s] is the default experiment's.  The FMU carries the sources, so it
-    can be edited, and their object code for this machine, so it starts at once.
+    can be edited, and their object code for this machine (``code``, made here unless
+    given), so it starts at once.
     """
-    code_hash = source_hash()
-    stamp = {
-        "specification": specification, "source_hash": code_hash, "guid": guid(specification, code_hash),
-        "triple": host_triple(), "step_size": step_size, "tool": tool,
-    }
-    target.mkdir(parents=True, exist_ok=True)
+    stamp = stamp_of(specification, step_size, tool, "python")
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         script = folder / f"{name}_slave.py"
@@ -45,29 +61,84 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
             shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
             for name, file in user_effect_files(package):
                 shutil.copy(file, folder / name)
-        (folder / STAMP).write_text(json.dumps(stamp, sort_keys=True, indent=1), encoding="utf-8")
-        (folder / OBJECT_CODE).write_bytes(object_code(specification))
+        (folder / STAMP).write_bytes(stamp_bytes(stamp))
+        (folder / OBJECT_CODE).write_bytes(code or object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
         # In a process of its own: pythonfmu imports the slave and leaves it in sys.modules.
         command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *CAPABILITIES, *contents]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")
-        rewrite(folder / "raw" / f"{name}.fmu", target / f"{name}.fmu")
-    return target / f"{name}.fmu"
+        with zipfile.ZipFile(folder / "raw" / f"{name}.fmu") as raw:
+            files = {entry.replace("\\", "/"): raw.read(entry) for entry in raw.namelist()}
+    files |= files_for_people(make_unit(specification).table, "2.0", stamp["guid"])
+    return write_archive(files, target / f"{name}.fmu")
 
 
-def rewrite(source: Path, target: Path) -> None:
-    """Copy an archive with sorted names and fixed times: equal contents, equal bytes."""
+def build_native(
+    name: str, specification: dict, step_size: float, tool: str, target: Path,
+    versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None,
+) -> list[Path]:  # fmt: skip
+    """Build ``target``/fmi2/``name``.fmu and ``target``/fmi3/``name``.fmu, which need no Python.
+
+    ``codes`` is object code by LLVM triple; made here unless given.
+    """
+    stamp = stamp_of(specification, step_size, tool, "native")
+    unit = make_unit(specification)
+    codes = codes or object_codes(specification, triples_for(all_platforms))
+    platforms = tuple(PLATFORMS.values()) if all_platforms else (host_platform(),)
+    table = c_source(unit, stamp["guid"])
+    libraries = {p: shared_library(name, table, codes[p.triple], p, all_platforms) for p in platforms}
+    made = []
+    for version in versions:
+        describe, folders = (model_description, folders2) if version == "2" else (model_description3, folders3)
+        root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool)
+        ElementTree.indent(root)
+        files = {
+            "modelDescription.xml": ElementTree.tostring(root, "utf-8", xml_declaration=True),
+            f"resources/{STAMP}": stamp_bytes(stamp),
+        }
+        files |= files_for_people(unit.table, VERSIONS[version], stamp["guid"])
+        files |= {f"binaries/{folder}/{name}{suffix}": data for (folder, suffix), data in folders(libraries).items()}
+        made.append(write_archive(files, target / f"fmi{version}" / f"{name}.fmu"))
+    return made
+
+
+def triples_for(all_platforms: bool) -> tuple[str, ...]:
+    """LLVM triples of everything that is built: this machine as llvmlite names it, and the platforms."""
+    platforms = PLATFORMS.values() if all_platforms else (host_platform(),)
+    return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms))))
+
+
+def folders2(libraries: dict) -> dict[tuple[str, str], bytes]:
+    """Libraries by FMI 2.0 folder; Darwin has one for both processors."""
+    joined: dict[tuple[str, str], list[bytes]] = {}
+    for p, library in libraries.items():
+        joined.setdefault((p.fmi2_folder, p.suffix), []).append(library)
+    return {place: parts[0] if len(parts) == 1 else universal(parts) for place, parts in joined.items()}
+
+
+def folders3(libraries: dict) -> dict[tuple[str, str], bytes]:
+    return {(p.name, p.suffix): library for p, library in libraries.items()}
+
+
+def stamp_bytes(stamp: dict) -> bytes:
+    return json.dumps(stamp, sort_keys=True, indent=1).encode()
+
+
+def write_archive(files: dict[str, bytes], target: Path) -> Path:
+    """An archive with sorted names and fixed times: equal contents, equal bytes."""
+    target.parent.mkdir(parents=True, exist_ok=True)
     # Written beside the target and moved: an interrupted build leaves no half FMU.
     partial = target.with_suffix(".part")
-    with zipfile.ZipFile(source) as old, zipfile.ZipFile(partial, "w") as new:
-        for entry in sorted(old.namelist()):
-            info = zipfile.ZipInfo(entry.replace("\\", "/"), EPOCH)
+    with zipfile.ZipFile(partial, "w") as archive:
+        for name in sorted(files):
+            info = zipfile.ZipInfo(name, EPOCH)
             info.compress_type = zipfile.ZIP_DEFLATED
-            info.external_attr = 0o644 << 16
-            new.writestr(info, old.read(entry))
+            info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+            archive.writestr(info, files[name])
     partial.replace(target)
+    return target
 
 
 def validate(fmu: Path) -> None:

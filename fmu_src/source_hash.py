@@ -23,7 +23,7 @@ def user_effect_files(package: str) -> list[tuple[str, Path]]:
 def source_files(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> list[tuple[str, Path]]:
     """(name, file) of every source and reducer file of the packages, in a fixed order."""
     found = [(p.relative_to(root).as_posix(), p) for name in packages
-             for p in (root / name).rglob("*") if p.suffix in (".py", ".toml")]
+             for p in (root / name).rglob("*") if p.suffix in (".py", ".toml", ".c", ".h")]
     for name in packages:
         found += user_effect_files(name)
     return sorted(found)

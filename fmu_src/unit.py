@@ -13,6 +13,9 @@ import numpy as np
 
 from fmu_src.variables import Table
 
+# A communication step beyond this is a slip, not a wish [s].
+LONGEST_STEP = 3600.0
+
 LOG_CATEGORIES = {
     "logStatusWarning": "values that were accepted but are doubtful",
     "logStatusDiscard": "steps that could not be done",
@@ -28,12 +31,17 @@ class UnitFault(RuntimeError):
 
 @dataclass(frozen=True)
 class Unit:
-    """``initialise(records)`` and ``step(records, time, duration)`` return 0 or a key of ``faults``."""
+    """``initialise(records)`` and ``step(records, time, duration)`` return 0 or a key of ``faults``.
+
+    ``refuses_before_change`` says that a step which returns a fault has changed nothing;
+    without it an FMU keeps a copy of the state during each step.
+    """
 
     table: Table
     initialise: Callable[[np.ndarray], int]
     step: Callable[[np.ndarray, float, float], int]
     faults: dict[int, str]
+    refuses_before_change: bool = False
 
     def fault_text(self, code: int, records: np.ndarray, time: float) -> str:
         """What a status code means for this record, in words."""

@@ -1,5 +1,6 @@
 """Units: read from text, converted, decomposed for FMI.  All by pint."""
 
+from dataclasses import dataclass
 from functools import cache
 
 import pint
@@ -15,6 +16,21 @@ FMI_BASE = {
 
 class UnitError(ValueError):
     """A unit that cannot be read or does not fit."""
+
+
+@dataclass(frozen=True)
+class BaseUnit:
+    """FMI's and SSP's definition of a unit: SI value = factor * value + offset."""
+
+    exponents: tuple[int, ...]
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def conversion(self, target: "BaseUnit") -> tuple[float, float] | None:
+        """(factor, offset) to another unit; None if that is of another kind."""
+        if self.exponents != target.exponents:
+            return None
+        return self.factor / target.factor, (self.offset - target.offset) / target.factor
 
 
 @cache

@@ -17,6 +17,8 @@ from itertools import product
 
 import numpy as np
 
+from fmu_src.limits import usual_limits
+
 
 class ValueFault(ValueError):
     """A value that a variable cannot take; says which, why and what would fit."""
@@ -33,6 +35,8 @@ class Variable:
     there is none).  ``axes`` names what each index counts.  ``choices`` makes the
     variable an enumeration: its value is an index into it.  ``source`` says where the
     number comes from (``author, table``, ``reducer file``, ``assumed: reason``).
+    Bounds and nominal value have usual ones where none are given (``limits``).
+    ``profile`` makes a state visible as an array output where there are arrays (FMI 3).
     """
 
     name: str
@@ -48,6 +52,7 @@ class Variable:
     choices: tuple[str, ...] = ()
     integer: bool = False
     tunable: bool = False
+    profile: bool = False
     source: str = ""
 
     def __post_init__(self):
@@ -55,6 +60,10 @@ class Variable:
             raise ValueError(f"variable {self.name}: role {self.role!r} is none of {ROLES}")
         if len(self.axes) != len(self.shape):
             raise ValueError(f"variable {self.name}: {len(self.shape)} dimensions but axes {self.axes}")
+        usual = (0, len(self.choices) - 1, 1.0) if self.choices else usual_limits(self.unit, self.is_integer)
+        for name, value in zip(("minimum", "maximum", "nominal"), usual):
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, value)
 
     @property
     def is_integer(self) -> bool:
@@ -73,17 +82,15 @@ class Variable:
     def check(self, value: float, element: str | None = None) -> None:
         """Raise ValueFault unless ``value`` (in the variable's unit) is finite and within its bounds."""
         name, unit = element or self.name, "" if self.unit == "1" else f" {self.unit}"
-        low, high = self.minimum, self.maximum
         if self.choices:
             if value not in range(len(self.choices)):
                 known = ", ".join(f"{i} ({c})" for i, c in enumerate(self.choices))
                 raise ValueFault(f"{name} = {value:g} is not one of {known}")
         elif not np.isfinite(value):
             raise ValueFault(f"{name} = {value}{unit} is not a finite number; give a value in {self.unit}")
-        elif low is not None and value < low or high is not None and value > high:
-            lowest = "-inf" if low is None else f"{low:g}"
-            highest = "inf" if high is None else f"{high:g}"
-            raise ValueFault(f"{name} = {value:g}{unit} is out of range: it must lie in [{lowest}, {highest}]{unit}")
+        elif not self.minimum <= value <= self.maximum:
+            bounds = f"[{self.minimum:g}, {self.maximum:g}]{unit}"
+            raise ValueFault(f"{name} = {value:g}{unit} is out of range: it must lie in {bounds}")
 
     def element_names(self) -> Iterator[str]:
         """Names of the scalars, FMI 2 structured names with indices from 1: ``mesh_force[1,7]``."""
@@ -136,11 +143,7 @@ class Table:
         lowest, highest = np.full((2, self.interface_cells), np.nan)
         for v in self.of_role("input", "parameter"):
             cells = self.cell_range(v.name)
-            largest = np.finfo(float).max
-            lowest[cells] = -largest if v.minimum is None else v.minimum
-            highest[cells] = largest if v.maximum is None else v.maximum
-            if v.choices:
-                lowest[cells], highest[cells] = 0, len(v.choices) - 1
+            lowest[cells], highest[cells] = v.minimum, v.maximum
         return lowest, highest
 
     @cached_property
@@ -165,6 +168,10 @@ class Table:
     def interface(self) -> list[Variable]:
         """The variables that an importing tool sees."""
         return self.of_role("input", "parameter", "output")
+
+    def is_visible(self, v: Variable) -> bool:
+        """Whether an importing tool with arrays sees it: the interface and the surfaces' profiles."""
+        return v.role in ("input", "parameter", "output") or v.profile
 
     def new_records(self) -> np.ndarray:
         """A one-element record array holding every start value."""

@@ -9,9 +9,11 @@ import sys
 
 from fmu_src.native import NativeFault
 from fmu_src.package import PackageFault
-from orchestrator import commands
+from orchestrator import commands, system_commands
 from orchestrator.faults import InputFault, RunFault
+from orchestrator.master import SCHEMES
 from orchestrator.reducer import available
+from orchestrator.system_commands import add_system_options
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -45,15 +47,31 @@ def parser() -> argparse.ArgumentParser:
     add_json(solve)
     solve.set_defaults(run=commands.solve)
 
-    run = sub.add_parser("run", help="co-simulate: a scenario file, or the pair of a reducer for some crank turns")
-    run.add_argument("scenario", nargs="?", help="scenario file (.toml); without it, the pair of --reducer")
+    run = sub.add_parser("run", help="co-simulate a system from a file, or the pair of a reducer for some crank turns")
+    run.add_argument("system", nargs="?", help="scenario (.toml), SSP (.ssp, .ssd, folder) or FMU; without it, the pair of --reducer")
     add_reducer_options(run)
-    add_coupling_options(run)
+    add_coupling_options(run, None)
+    add_system_options(run)
+    run.add_argument("--record", action="append", metavar="PATTERN", help="what to record of a system: plant.lag, wear.*")
     run.add_argument("--turns", type=float, default=1.0, help="crank turns to simulate (default 1)")
     run.add_argument("--acceleration", type=float, default=1.0, help="wear counts this many times (default 1)")
-    run.add_argument("--output", help="result file (default results/NAME_run.nc)")
+    run.add_argument("--output", help="result file, .nc or of a system also .csv (default results/NAME_run.nc)")
     add_json(run)
     run.set_defaults(run=commands.run)
+
+    check = sub.add_parser("check", help="run a system and hold it against reference results: for CI")
+    check.add_argument("system", help="scenario (.toml), SSP (.ssp, .ssd, folder) or FMU")
+    check.add_argument("--reference", required=True, metavar="FILE", help="results of rvwear run (.nc, .csv)")
+    check.add_argument(
+        "--tolerance", action="append", default=[], metavar="[NAME=]REL[,ABS]",
+        help="of the largest value of a variable, plus an absolute part; the last that matches (default 1e-6)",
+    )  # fmt: skip
+    check.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
+    check.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="--set plant.load_torque=150N.m")
+    check.add_argument("--scheme", choices=SCHEMES, help="before the file's")
+    add_system_options(check)
+    add_json(check)
+    check.set_defaults(run=system_commands.check)
 
     life = sub.add_parser("life", help="wear over thousands of hours, in error-controlled jumps")
     add_reducer_options(life)
@@ -104,6 +122,11 @@ def parser() -> argparse.ArgumentParser:
     build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
     build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
     build.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
+    build.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"
+                       " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
+    build.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
+    build.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
+                       " for this machine alone; needs zig: pip install rvwear[build]")
     add_json(build)
     build.set_defaults(run=commands.build)
 
@@ -113,9 +136,11 @@ def parser() -> argparse.ArgumentParser:
     report.set_defaults(run=commands.report)
     # The loop of comparison and diagnosis stands above the orchestrator.
     from discrepancy.campaign.commands import add_campaign
+    from discrepancy.catalogue.commands import add_effects
     from discrepancy.commands import add_loop
 
     add_campaign(sub)
+    add_effects(sub)
     add_loop(sub)
     return top
 
@@ -143,9 +168,9 @@ def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True
         command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")
 
 
-def add_coupling_options(command: argparse.ArgumentParser) -> None:
+def add_coupling_options(command: argparse.ArgumentParser, scheme: str | None = SCHEMES[0]) -> None:
     command.add_argument("--fmus", metavar="FOLDER", help="step the FMUs of this folder instead of the kernels")
-    command.add_argument("--scheme", default="gauss-seidel", help="gauss-seidel (default) or jacobi")
+    command.add_argument("--scheme", default=scheme, help="gauss-seidel (default) or jacobi")
 
 
 if __name__ == "__main__":

@@ -4,13 +4,16 @@ import argparse
 import json
 import os
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from fmu_src.description import guid
-from fmu_src.package import build_fmu, validate
+from fmu_src.link import compiler, host_platform
+from fmu_src.native import NativeFault, host_triple, object_codes
+from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.source_hash import source_hash
 from orchestrator import results, screen
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
@@ -21,13 +24,13 @@ from orchestrator.dynamics_wear import compare
 from orchestrator.faults import InputFault
 from orchestrator.hysteresis import hysteresis as measure_hysteresis
 from orchestrator.life import Life, LifeSettings, live
-from orchestrator.master import Master
+from orchestrator.master import SCHEMES, Master
 from orchestrator.modes import modes as natural_modes
-from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, make_pair
+from orchestrator.pair import POSITIONS_PER_TURN, Pair, crank_turn_time, export_pair, make_pair
 from orchestrator.reducer import Reducer, load_reducer
-from orchestrator.scenario import load_scenario, run_scenario
 from orchestrator.settings import Setting, apply, parse_setting
 from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
+from orchestrator.system_commands import run_system
 
 # Options that are shorthands of settings: option -> (variable, unit).
 SHORTHANDS = {
@@ -50,11 +53,6 @@ def settings_of(options: argparse.Namespace, reducer: Reducer) -> list[Setting]:
     return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
 
 
-def print_json(content: dict) -> None:
-    """NaN and infinity are not JSON: they become null."""
-    print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))
-
-
 def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     positions = require_positions(options.positions)
@@ -71,32 +69,27 @@ def solve(options: argparse.Namespace) -> int:
         half = record_turn(pair, positions)
         figures = figures_of(reducer, plant, full, half, torque)
     if options.json:
-        print_json({"reducer": reducer.name, "positions": positions} | figures)
+        screen.json_text({"reducer": reducer.name, "positions": positions} | figures)
     else:
         screen.figures(f"{reducer.name} over one crank turn", figures)
     return 0
 
 
 def run(options: argparse.Namespace) -> int:
-    """``rvwear run``: a scenario file, or the pair of a reducer."""
-    if options.scenario:
+    """``rvwear run``: a system from a file, or the pair of a reducer."""
+    if options.system:
         refuse_pair_options(options)
-        scenario = load_scenario(options.scenario)
-        path = result_path(options.output, scenario.name)
-        with screen.Progress(scenario.steps, "steps") as progress:
-            series = run_scenario(scenario, progress.advance)
-        units = {f"{name}.{signal}": scenario.master.components[name].signal(signal).unit
-                 for name, signal in scenario.recorded}
-        name, inputs = scenario.name, {"scenario": scenario.text}
-        scenario.master.close()
+        name = options.system
+        summary, last = run_system(options, result_path)
     else:
+        refuse_system_options(options)
         positions = require_positions(options.positions)
         reducer = load_reducer(options.reducer)
         settings = settings_of(options, reducer)
         path = result_path(options.output, f"{reducer.name}_run")
         if not 0.0 < options.turns <= 1e5:
             raise InputFault(f"turns = {options.turns}: between one position ({1 / positions:.3g} turns) and 100,000")
-        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions)
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme or SCHEMES[0], positions)
         pair.wear.set("acceleration", options.acceleration)
         steps = round(options.turns * positions)
         if steps < 1:
@@ -111,20 +104,23 @@ def run(options: argparse.Namespace) -> int:
                   "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
                   "parameters": {"plant": results.parameters_of(pair.plant), "wear": results.parameters_of(pair.wear)}}
         pair.master.close()
-    results.write(results.series_dataset(series, units, inputs), path)
-    summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
-    summary |= {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+        results.write(results.series_dataset(series, units, inputs), path)
+        summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
+        last = {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+    summary |= last
     if options.json:
-        print_json(summary)
+        screen.json_text(summary)
     else:
         screen.figures(f"{name}: values at the end (largest of an array)", summary)
     return 0
 
 
-def result_path(text: str | None, name: str) -> Path:
+def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)) -> Path:
     """Where a result goes; checked before the work, so that none is lost."""
     path = Path(text or f"results/{name}.nc")
-    if path.suffix != ".nc":
+    if path.suffix not in endings:
+        if len(endings) > 1:
+            raise InputFault(f"--output {path}: the name must end in {' or '.join(endings)}")
         raise InputFault(f"--output {path}: a result is a NetCDF file; give a name that ends in .nc")
     if path.is_dir():
         raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
@@ -135,12 +131,19 @@ def result_path(text: str | None, name: str) -> Path:
 
 
 def refuse_pair_options(options: argparse.Namespace) -> None:
-    """A scenario file says all: options of the pair beside it would be ignored."""
-    given = [f"--{name.replace('_', '-')}" for name in (*SHORTHANDS, "set", "fmus") if getattr(options, name)]
-    given += [f"--{name}" for name, usual in (("turns", 1.0), ("acceleration", 1.0), ("positions", 72),
-                                              ("scheme", "gauss-seidel")) if getattr(options, name) != usual]
+    """A system's file says all: options of the pair beside it would be ignored."""
+    given = [f"--{name.replace('_', '-')}" for name in (*SHORTHANDS, "fmus") if getattr(options, name)]
+    given += [f"--{name}" for name, usual in (("turns", 1.0), ("acceleration", 1.0), ("positions", 72))
+              if getattr(options, name) != usual]
     if given:
-        raise InputFault(f"{', '.join(given)} with a scenario file: set it in the file, or leave the file out")
+        raise InputFault(f"{', '.join(given)} with a system's file: use --set component.variable=value, or set it in the file")
+
+
+def refuse_system_options(options: argparse.Namespace) -> None:
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record")
+    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name)]
+    if given:
+        raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
 
 
 def folder(text: str | None) -> Path | None:
@@ -221,7 +224,7 @@ def show_life(options: argparse.Namespace, dataset: xr.Dataset, path: Path) -> i
 
         write_report(dataset, page)
     if options.json:
-        print_json({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
+        screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
     else:
         screen.life_table(dataset)
         print(f"result  {path}")
@@ -246,7 +249,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     }
     if options.json:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
-        print_json({"reducer": reducer.name} | figures | curve)
+        screen.json_text({"reducer": reducer.name} | figures | curve)
     else:
         screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
     return 0
@@ -258,7 +261,7 @@ def modes(options: argparse.Namespace) -> int:
     with screen.busy("linearising the plant in motion"):
         found = natural_modes(reducer, settings_of(options, reducer))
     if options.json:
-        print_json({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+        screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
     else:
         screen.modes(f"{reducer.name}: modes under load, input held", found)
     return 0
@@ -274,7 +277,7 @@ def dynamics_wear(options: argparse.Namespace) -> int:
                     lambda text: print(text, file=sys.stderr, flush=True))  # fmt: skip
     write_dynamics_page(found, page)
     if options.json:
-        print_json(dynamics_as_json(found) | {"page": str(page)})
+        screen.json_text(dynamics_as_json(found) | {"page": str(page)})
     else:
         screen.dynamics(found)
         print(f"page  {page}")
@@ -289,7 +292,7 @@ def reproduce(options: argparse.Namespace) -> int:
     claims = judge(options.claims or None, lambda text: print(text, file=sys.stderr, flush=True))
     page = write_page(claims, Path(options.output))
     if options.json:
-        print_json(as_json(claims) | {"page": str(page)})
+        screen.json_text(as_json(claims) | {"page": str(page)})
     else:
         print_table(claims)
         print(f"page  {page}")
@@ -297,34 +300,71 @@ def reproduce(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    """``rvwear build``: both FMUs, validated; those that are up to date stay."""
+    """``rvwear build``: FMUs of both units, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
-    built = []
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
+    tool = f"rvwear {results.version('rvwear')}"
+    native = native_versions(options)
+    built = []
     for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
         specification = reducer.specification(unit)
-        path = Path(options.output) / f"{name}.fmu"
-        fresh = is_current(path, guid(specification, source_hash()))
-        if not fresh:
-            with screen.busy(f"compiling and packing {path.name}"):
-                build_fmu(name, specification, step, f"rvwear {results.version('rvwear')}", path.parent)
-        validate(path)
-        built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": not fresh, "problems": 0})
+        identity, folder = guid(specification, source_hash()), Path(options.output)
+        editable = folder / f"{name}.fmu"
+        ours = [folder / f"fmi{version}" / f"{name}.fmu" for version in native]
+        stale = [path for path in ours if not is_current(path, identity, options.all_platforms)]
+        wanted = ([] if options.flavour == "native" else [editable]) + ours
+        if editable in wanted and not is_current(editable, identity):
+            stale.append(editable)
+        if stale:
+            with screen.busy(f"compiling and packing {name}"):
+                codes = object_codes(specification, triples_for(options.all_platforms))
+                if editable in stale:
+                    build_fmu(name, specification, step, tool, folder, codes[host_triple()])
+                if versions := tuple(v for v, path in zip(native, ours) if path in stale):
+                    build_native(name, specification, step, tool, folder, versions, options.all_platforms, codes)
+        for path in wanted:
+            validate(path)
+            entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
+            built.append(entry | {"flavour": "python" if path == editable else "native"})
+    packages = [str(export_pair(reducer, place, step, tool)) for place in dict.fromkeys(Path(e["fmu"]).parent for e in built)]
     if options.json:
-        print_json({"reducer": reducer.name, "fmus": built})
+        screen.json_text({"reducer": reducer.name, "fmus": built, "packages": packages})
     else:
         for entry in built:
             state = "built" if entry["built"] else "up to date"
-            print(f"{entry['fmu']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+            print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+        for package in packages:
+            print(f"{package}  both, connected")
     return 0
 
 
-def is_current(path: Path, identity: str) -> bool:
-    """Whether an FMU of this identity is there already."""
+def native_versions(options: argparse.Namespace) -> tuple[str, ...]:
+    """FMI versions of the native FMUs to build; none if nobody asked for them and there is no C compiler."""
+    if options.flavour == "python":
+        return ()
+    try:
+        compiler(host_platform(), options.all_platforms)
+    except NativeFault as fault:
+        if options.flavour == "native" or options.all_platforms:
+            raise
+        print(f"no native FMUs: {fault}", file=sys.stderr)
+        return ()
+    return tuple(VERSIONS) if options.fmi == "both" else (options.fmi,)
+
+
+def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
+    """Whether an FMU of this identity, for all platforms if need be, is there already."""
     import fmpy
 
-    return path.exists() and fmpy.read_model_description(str(path)).guid == identity
+    if not path.exists():
+        return False
+    description = fmpy.read_model_description(str(path))
+    known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
+    with zipfile.ZipFile(path) as archive:
+        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    # Four folders in FMI 2.0, where Darwin has one library for both processors.
+    return known == identity and (not all_platforms or len(libraries) >= 4)
 
 
 def report(options: argparse.Namespace) -> int:

@@ -13,15 +13,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_src.unit import Unit, make_unit
+from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
 from orchestrator.faults import InputFault, RunFault
+
+
+# (dtype, reference): FMI 2 counts its references anew for each type.
+Element = tuple[str, int]
 
 
 @dataclass(frozen=True)
 class Signal:
     """One variable, scalar or array, as the master sees it.
 
-    ``references`` are FMI value references; ``shape`` is () for a scalar.
+    ``references`` name its elements to the component's ``reader`` and ``writer``; ``shape``
+    is () for a scalar.  A Boolean has the choices false and true.  ``base_unit`` is what an
+    FMU says its unit is made of; ``unit_given`` is false where it says nothing at all.
     """
 
     name: str
@@ -32,13 +39,42 @@ class Signal:
     is_integer: bool = False
     is_tunable: bool = False
     choices: tuple[str, ...] = ()
+    is_boolean: bool = False
+    unit_given: bool = True
+    base_unit: BaseUnit | None = None
+    nominal: float | None = None
+
+    @property
+    def dtype(self) -> str:
+        """Of the buffers that hold its values."""
+        return "?" if self.is_boolean else "i8" if self.is_integer else "f8"
+
+    @property
+    def elements(self) -> list[Element]:
+        return [(self.dtype, reference) for reference in self.references]
+
+    def new_buffer(self) -> np.ndarray:
+        return np.zeros(len(self.references), self.dtype)
 
 
 class Component(ABC):
-    """A unit that can be initialised, stepped, saved and restored."""
+    """A unit that can be initialised, stepped, saved and restored.
+
+    What it can do is declared: ``can_restore`` (state), ``can_vary_step``, and
+    ``input_derivatives``, the highest derivative of an input that it takes.
+    ``usual_step`` [s] is the communication step that it suggests.
+    """
 
     name: str
     signals: dict[str, Signal]
+    can_restore = True
+    can_vary_step = True
+    input_derivatives = 0
+    usual_step: float | None = None
+
+    def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
+        """Output element -> the input elements that it depends on at once; none is the usual case."""
+        return {}
 
     def signal(self, name: str) -> Signal:
         """The signal of a name, an array's element included; InputFault if there is none."""
@@ -56,17 +92,25 @@ class Component(ABC):
         hint = f"; did you mean {', '.join(close)}?" if close else ""
         raise InputFault(f"{self.name} has no variable {name!r}{hint}")
 
+    def has(self, name: str) -> bool:
+        """Whether there is a variable or array element of this name."""
+        try:
+            self.signal(name)
+        except InputFault:
+            return False
+        return True
+
     def get(self, name: str) -> np.ndarray | float | int:
         """Present value of a signal, an array in its shape."""
         signal = self.signal(name)
-        buffer = np.zeros(len(signal.references), "i8" if signal.is_integer else "f8")
+        buffer = signal.new_buffer()
         self.reader(signal.references, buffer)()
         return buffer.reshape(signal.shape) if signal.shape else buffer[0].item()
 
     def set(self, name: str, value) -> None:
         """Set a parameter or input; a scalar given for an array fills it."""
         signal = self.signal(name)
-        buffer = np.empty(len(signal.references), "i8" if signal.is_integer else "f8")
+        buffer = signal.new_buffer()
         try:
             buffer[:] = np.broadcast_to(value, signal.shape).ravel() if signal.shape else value
         except (ValueError, OverflowError) as problem:
@@ -75,11 +119,19 @@ class Component(ABC):
 
     @abstractmethod
     def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
-        """A function that fills ``buffer`` (f8, or i8 for integers) with present values."""
+        """A function that fills ``buffer`` (f8, i8 for integers, bool) with present values."""
 
     @abstractmethod
     def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         """A function that sets variables to what ``buffer`` holds."""
+
+    def derivative_writer(self, references: tuple[int, ...], order: int, buffer: np.ndarray) -> Callable[[], None]:
+        """A function that sets the inputs' derivatives of an order up to ``input_derivatives``."""
+        raise NotImplementedError
+
+    def set_text(self, name: str, text: str) -> None:
+        """Set a string parameter; only FMUs have some."""
+        raise InputFault(f"{self.name} has no string variable {name!r}")
 
     @abstractmethod
     def enter_initialisation(self, start_time: float) -> None: ...
@@ -92,6 +144,13 @@ class Component(ABC):
     def step(self, time: float, duration: float) -> None:
         """Advance from ``time`` by ``duration`` [s]; RunFault if that fails."""
 
+    def begin_step(self, time: float, duration: float) -> None:
+        """Start a step; a unit in a process of its own goes on while others start theirs."""
+        self.step(time, duration)
+
+    def end_step(self) -> None:
+        """Wait for the end of the step begun."""
+
     @abstractmethod
     def save(self) -> bytes:
         """The complete state, hidden parts included."""
@@ -99,9 +158,19 @@ class Component(ABC):
     @abstractmethod
     def restore(self, state: bytes) -> None: ...
 
-    @abstractmethod
+    def snapshot(self):
+        """The state for ``revert`` in this process, cheaper than ``save`` where that is possible."""
+        return self.save()
+
+    def revert(self, snapshot) -> None:
+        self.restore(snapshot)
+
+    def forget(self, snapshot) -> None:
+        """Free a snapshot."""
+
     def record(self) -> np.ndarray:
         """The unit's record (one element, dtype of its table), hidden surfaces included."""
+        raise InputFault(f"{self.name} is not one of this project's units: it has no record")
 
     def close(self) -> None:
         """Free what the component holds."""

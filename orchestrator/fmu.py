@@ -1,32 +1,34 @@
-"""An FMU (FMI 2.0 co-simulation) as a component.
+"""An FMU (co-simulation, FMI 2.0 or 3.0) as a component."""
 
-Written over fmpy's functions with arrays prepared once: a vector of hundreds of values
-moves in one call.
-"""
-
-import ctypes
+import contextlib
 import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
-import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import (
-    FMU2Slave,
-    defaultCallbacks,
-    fmi2CallbackAllocateMemoryTYPE,
-    fmi2CallbackFreeMemoryTYPE,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-)
 
-from fmu_src.slaves.kernel_slave import STAMP, state_mark
+from fmu_src.slaves.kernel_slave import STAMP
 from fmu_src.source_hash import source_hash
+from fmu_src.state import unpack
 from fmu_src.unit import make_unit
-from orchestrator.component import Component, Signal
+from orchestrator.component import Component
 from orchestrator.faults import InputFault, RunFault
+from orchestrator.fmi2 import Fmi2
+from orchestrator.fmi3 import Fmi3
+from orchestrator.model_description import Described
+
+VERSIONS = {"2.0": Fmi2, "3.0": Fmi3}
+
+
+def open_fmu(name: str, path: str | Path, isolate: bool = False) -> Component:
+    """One instance of an FMU, in a process of its own if so asked."""
+    if isolate:
+        from orchestrator.isolation import Isolated
+
+        return Isolated(name, path)
+    return Fmu(name, path)
 
 
 class Fmu(Component):
@@ -36,113 +38,115 @@ class Fmu(Component):
         self.name = name
         self.path = Path(path)
         if not self.path.is_file():
-            raise InputFault(f"no FMU at {self.path}; build it with: rvwear build")
+            raise InputFault(f"no FMU at {self.path}; this project's own are built with: rvwear build")
         try:
-            self.description = fmpy.read_model_description(str(self.path))
+            # Other people's descriptions need not be flawless: what matters is checked where it is used.
+            self.description = fmpy.read_model_description(str(self.path), validate=False)
         except Exception as problem:
             raise InputFault(f"{self.path} is not an FMU: {problem}") from None
-        if self.description.coSimulation is None or self.description.fmiVersion != "2.0":
-            raise InputFault(f"{self.path}: only FMI 2.0 co-simulation units can be stepped")
+        version = self.description.fmiVersion
+        if self.description.coSimulation is None:
+            raise InputFault(f"{self.path} is for model exchange only; the master steps co-simulation units")
+        if version not in VERSIONS:
+            raise InputFault(f"{self.path} is of FMI {version}; the master steps units of FMI 2.0 and 3.0")
         self.folder = Path(fmpy.extract(str(self.path)))
         self.require_same_sources()
         self.messages: list[str] = []
-        self.callbacks = self.make_callbacks()
-        self.slave = FMU2Slave(
-            instanceName=name, guid=self.description.guid, unzipDirectory=str(self.folder),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-        )
-        self.signals = signals_of(self.description)
-        self.instantiate()
-
-    def make_callbacks(self) -> fmi2CallbackFunctions:
-        """fmpy's callbacks, with messages kept for the error text instead of printed."""
-
-        def log(environment, instance, status, category, message):
-            self.messages.append(message.decode("utf-8", "replace").strip())
-
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(log)
-        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(defaultCallbacks.allocateMemory)
-        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(defaultCallbacks.freeMemory)
-        return callbacks
-
-    def instantiate(self) -> None:
+        self.described = Described(self.description)
+        self.signals = self.described.signals()
+        capability = self.description.coSimulation
+        self.can_restore = capability.canGetAndSetFMUstate
+        self.can_vary_step = capability.canHandleVariableCommunicationStepSize
+        # FMI 2 does not say up to which order; FMI 3 has dropped input derivatives.
+        self.input_derivatives = int(capability.canInterpolateInputs and version == "2.0")
+        experiment = self.description.defaultExperiment
+        self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         try:
-            self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
+            self.calls = VERSIONS[version](
+                name, self.described, self.folder, self.messages.append, self.refuse
+            )
+        except Exception as problem:
+            # fmpy raises a bare Exception for a library that is missing or does not load.
+            raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
+        try:
+            self.calls.instantiate()
         except Exception as problem:
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
+        self.step = self.begin_step = self.calls.step
+
+    @property
+    def slave(self):
+        """fmpy's object, for what the master does not need."""
+        return self.calls.slave
+
+    def feedthrough(self):
+        return self.described.feedthrough()
 
     def last_messages(self) -> str:
         return "; ".join(self.messages[-3:]) or "it logged nothing"
 
     def attempt(self, function: Callable, *arguments, **named):
-        """Call fmpy; on an FMI error raise RunFault with what the FMU logged."""
+        """Call it; on an FMI error raise RunFault with what the FMU logged."""
         try:
             return function(*arguments, **named)
         except FMICallException as problem:
             raise RunFault(f"{self.name} ({self.path.name}): {problem}: {self.last_messages()}") from None
 
-    def prepared(self, references, buffer):
-        """(value references, count, pointer to the buffer) as fmpy's raw functions take them."""
-        n = len(references)
-        kind = ctypes.c_int if buffer.dtype == np.int32 else ctypes.c_double
-        return (ctypes.c_uint * n)(*references), n, buffer.ctypes.data_as(ctypes.POINTER(kind))
+    def refuse(self, function: str, status: int) -> None:
+        """Raise for a call that the unit refused."""
+        self.attempt(raise_refusal, function, status)
 
     def reader(self, references, buffer):
-        if buffer.dtype == np.int64:
-            narrow = np.zeros(len(references), np.int32)
-            vrs, n, pointer = self.prepared(references, narrow)
-
-            def read_integers():
-                self.attempt(self.slave.fmi2GetInteger, self.slave.component, vrs, n, pointer)
-                buffer[:] = narrow
-
-            return read_integers
-        vrs, n, pointer = self.prepared(references, buffer)
-        get, instance, attempt = self.slave.fmi2GetReal, self.slave.component, self.attempt
-        return lambda: attempt(get, instance, vrs, n, pointer)
+        return self.calls.reader(references, buffer)
 
     def writer(self, references, buffer):
-        if buffer.dtype == np.int64:
-            narrow = np.zeros(len(references), np.int32)
-            vrs, n, pointer = self.prepared(references, narrow)
+        return self.calls.writer(references, buffer)
 
-            def write_integers():
-                narrow[:] = buffer
-                self.attempt(self.slave.fmi2SetInteger, self.slave.component, vrs, n, pointer)
+    def derivative_writer(self, references, order, buffer):
+        return self.calls.derivative_writer(references, order, buffer)
 
-            return write_integers
-        vrs, n, pointer = self.prepared(references, buffer)
-        put, instance, attempt = self.slave.fmi2SetReal, self.slave.component, self.attempt
-        return lambda: attempt(put, instance, vrs, n, pointer)
+    def set_text(self, name, text):
+        if name not in self.described.texts:
+            super().set_text(name, text)
+        self.attempt(self.calls.set_text, self.described.texts[name], text)
 
     def enter_initialisation(self, start_time):
-        self.attempt(self.slave.setupExperiment, startTime=start_time)
-        self.attempt(self.slave.enterInitializationMode)
+        self.attempt(self.calls.enter_initialisation, start_time)
 
     def exit_initialisation(self):
         try:
-            self.attempt(self.slave.exitInitializationMode)
+            self.attempt(self.calls.exit_initialisation)
         except RunFault as fault:
             raise InputFault(str(fault)) from None
 
     def step(self, time, duration):
-        self.attempt(self.slave.fmi2DoStep, self.slave.component, time, duration, 1)
+        """Replaced in the instance by the bound call."""
+
+    def snapshot(self):
+        return self.attempt(self.calls.snapshot)
+
+    def revert(self, snapshot):
+        self.attempt(self.calls.revert, snapshot)
+
+    def forget(self, snapshot):
+        self.calls.forget(snapshot)
 
     def save(self):
-        state = self.attempt(self.slave.getFMUstate)
+        if not self.description.coSimulation.canSerializeFMUstate:
+            raise InputFault(f"{self.path}: this unit cannot write its state down (canSerializeFMUstate)")
+        snapshot = self.snapshot()
         try:
-            return bytes(self.attempt(self.slave.serializeFMUstate, state))
+            return self.attempt(self.calls.serialise, snapshot)
         finally:
-            self.slave.freeFMUstate(state)
+            self.forget(snapshot)
 
     def restore(self, state):
-        handle = self.attempt(self.slave.deSerializeFMUstate, state)
+        snapshot = self.attempt(self.calls.deserialise, state)
         try:
-            self.attempt(self.slave.setFMUstate, handle)
+            self.revert(snapshot)
         finally:
-            self.slave.freeFMUstate(handle)
+            self.forget(snapshot)
 
     def stamp(self) -> dict | None:
         """What this project writes into its FMUs; None for an FMU made by others."""
@@ -150,7 +154,10 @@ class Fmu(Component):
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
     def require_same_sources(self) -> None:
-        """This project's FMUs share this process's modules: they must be of its sources."""
+        """This project's editable FMUs share this process's modules: they must be of its sources.
+
+        So must native ones, whose states are read by the tables of those modules.
+        """
         stamp = self.stamp()
         if stamp is not None and stamp["source_hash"] != source_hash():
             raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
@@ -165,34 +172,17 @@ class Fmu(Component):
     def record(self):
         table = make_unit(self.specification()).table
         records = table.new_records()
-        table.cells(records)[: table.state_cells] = np.frombuffer(
-            self.save(), "f8", offset=len(state_mark(self.description.guid))
-        )
+        identity = self.description.guid or self.description.instantiationToken
+        table.cells(records)[: table.state_cells] = unpack(identity, self.save(), table.state_cells).cells
         return records
 
     def close(self):
-        self.slave.terminate()
+        with contextlib.suppress(FMICallException):
+            # Refused before initialisation; it is freed all the same.
+            self.slave.terminate()
         self.slave.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-def signals_of(description) -> dict[str, Signal]:
-    """Signals of a model description; ``name[i,j]`` scalars joined to arrays."""
-    groups: dict[str, list] = {}
-    for v in description.modelVariables:
-        if v.type in ("Real", "Integer", "Enumeration") and v.causality != "local":
-            groups.setdefault(v.name.partition("[")[0], []).append(v)
-    signals = {}
-    for base, members in groups.items():
-        first = members[0]
-        shape: tuple[int, ...] = ()
-        if first.name != base:
-            shape = tuple(int(i) for i in members[-1].name.partition("[")[2].rstrip("]").split(","))
-            if int(np.prod(shape)) != len(members):
-                shape = (len(members),)
-        signals[base] = Signal(
-            base, first.causality, first.unit or "1", tuple(v.valueReference for v in members), shape,
-            first.type != "Real", first.variability == "tunable",
-            tuple(item.name for item in first.declaredType.items) if first.type == "Enumeration" else (),
-        )
-    return signals
+def raise_refusal(function: str, status: int) -> None:
+    raise FMICallException(function, status)

@@ -7,10 +7,11 @@ from pathlib import Path
 from orchestrator.component import Component, InProcess
 from orchestrator.duty import Segment
 from orchestrator.faults import InputFault
-from orchestrator.fmu import Fmu
+from orchestrator.fmu import Fmu, open_fmu
 from orchestrator.master import Master
 from orchestrator.reducer import Reducer
 from orchestrator.settings import Setting, apply
+from orchestrator.ssp.exporter import Experiment, export_ssp
 from rv_plant.gear_stage import total_ratio
 
 # Everything that the two units exchange.
@@ -90,7 +91,7 @@ def make_pair(
         plant = InProcess("plant", reducer.specification("rv_plant"))
         wear = InProcess("wear", reducer.specification("wear_fmu"))
     else:
-        plant, wear = Fmu("plant", fmus / "RvPlant.fmu"), Fmu("wear", fmus / "RvWear.fmu")
+        plant, wear = open_fmu("plant", fmus / "RvPlant.fmu"), open_fmu("wear", fmus / "RvWear.fmu")
         require_built_from(reducer, plant, "rv_plant")
         require_built_from(reducer, wear, "wear_fmu")
     components = {"plant": plant, "wear": wear}
@@ -109,3 +110,13 @@ def make_pair(
     if duty:
         pair.set_operation(duty[0].speed, duty[0].torque)
     return pair
+
+
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+    return export_ssp(
+        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
+        # Tools exchange values at the step's start: each unit sees the other one step later.
+        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", tool,
+    )  # fmt: skip

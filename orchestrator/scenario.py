@@ -5,6 +5,7 @@
     step = { value = 1.3, unit = "ms" }
     duration = { value = 2, unit = "s" }
     scheme = "gauss-seidel"
+    extrapolation = 1                 # optional, as is [step_control]
 
     [components.plant]
     fmu = "../dist/RvPlant.fmu"       # or reducer = "RV20E-121", unit = "plant"
@@ -20,20 +21,20 @@ Paths are relative to the file.  Every error names file, key, value and remedy.
 """
 
 import tomllib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
 from pydantic import Field, ValidationError
 
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, InProcess
 from orchestrator.faults import InputFault
-from orchestrator.fmu import Fmu
-from orchestrator.master import Master
+from orchestrator.fmu import open_fmu
+from orchestrator.master import Connection, LoopSettings, Master, StepControl
+from orchestrator.master.power import THRESHOLD
 from orchestrator.reducer import NAME, Strict, load_reducer
 from orchestrator.settings import parse_value
+from orchestrator.system import System
 
 
 class Quantity(Strict):
@@ -47,6 +48,21 @@ class ScenarioHead(Strict):
     duration: Quantity
     start: Quantity = Quantity(value=0.0, unit="s")
     scheme: Literal["gauss-seidel", "jacobi"] = "gauss-seidel"
+    extrapolation: Literal[0, 1, 2] = 0
+    power_threshold: float = Field(default=THRESHOLD, gt=0.0)
+
+
+class StepControlEntry(Strict):
+    tolerance: float = 1e-4
+    method: Literal["auto", "doubling", "extrapolation"] = "auto"
+    halvings: int = 12
+    watch: tuple[str, ...] = ()
+
+
+class LoopsEntry(Strict):
+    method: Literal["newton", "fixed-point"] = "newton"
+    tolerance: float = 1e-10
+    iterations: int = 50
 
 
 class ComponentEntry(Strict):
@@ -54,6 +70,7 @@ class ComponentEntry(Strict):
     reducer: str | None = None
     unit: Literal["plant", "wear"] | None = None
     ratio: int = Field(default=1, ge=1)
+    isolate: bool = False
     parameters: dict[str, str | float | int] = {}
     record: list[str] = []
 
@@ -61,27 +78,26 @@ class ComponentEntry(Strict):
 class ConnectionEntry(Strict):
     source: str = Field(alias="from")
     target: str = Field(alias="to")
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+class PowerBondEntry(Strict):
+    effort: str
+    flow: str
 
 
 class ScenarioFile(Strict):
     scenario: ScenarioHead
     components: dict[str, ComponentEntry] = Field(min_length=1)
     connections: list[ConnectionEntry] = []
+    step_control: StepControlEntry | None = None
+    loops: LoopsEntry = LoopsEntry()
+    power_bonds: list[PowerBondEntry] = []
 
 
-@dataclass
-class Scenario:
-    """A master ready to be initialised, and what to record."""
-
-    name: str
-    master: Master
-    steps: int
-    recorded: list[tuple[str, str]]
-    text: str
-
-
-def load_scenario(path: str | Path) -> Scenario:
-    """Read a scenario file and make its components."""
+def load_scenario(path: str | Path, step: float | None = None, isolate: bool = False, **master) -> System:
+    """Read a scenario file and make its components; step and options go before those of the file."""
     path = Path(path)
     if not path.is_file():
         raise InputFault(f"no scenario file at {path}")
@@ -95,24 +111,31 @@ def load_scenario(path: str | Path) -> Scenario:
         key = ".".join(str(part) for part in first["loc"])
         raise InputFault(f"{path}: {key} = {first['input']!r}: {first['msg']}; see docs/scenarios.md") from None
     head = content.scenario
-    step, duration, start = (
+    own_step, duration, start = (
         seconds(getattr(head, key), f"{path}: scenario.{key}") for key in ("step", "duration", "start")
     )
+    step = step or own_step
     if not step > 0.0 or not step <= duration <= 1e7 * step:
         raise InputFault(
             f"{path}: step = {step} s, duration = {duration} s: both positive, from one to ten million steps"
         )
     components = {
-        name: make_component(name, entry, path) for name, entry in content.components.items()
+        name: make_component(name, entry, path, isolate) for name, entry in content.components.items()
     }
-    master = Master(
-        components, [(c.source, c.target) for c in content.connections], step,
-        {name: entry.ratio for name, entry in content.components.items()}, head.scheme, start,
-    )
+    control = content.step_control
+    options = {
+        "ratios": {name: entry.ratio for name, entry in content.components.items()},
+        "scheme": head.scheme, "start_time": start, "extrapolation": head.extrapolation,
+        "step_control": StepControl(**dict(control)) if control is not None else None,
+        "loops": LoopSettings(**dict(content.loops)), "power_threshold": head.power_threshold,
+        "power_bonds": [(bond.effort, bond.flow) for bond in content.power_bonds],
+    }  # fmt: skip
+    connections = [Connection(c.source, c.target, c.factor, c.offset) for c in content.connections]
+    made = Master(components, connections, step, **options | master)
     recorded = [(name, signal) for name, entry in content.components.items() for signal in entry.record]
     for name, signal in recorded:
         components[name].signal(signal)
-    return Scenario(head.name, master, round(duration / step), recorded, text)
+    return System(head.name, made, round(duration / step), recorded, text)
 
 
 def seconds(quantity: Quantity, place: str) -> float:
@@ -123,12 +146,12 @@ def seconds(quantity: Quantity, place: str) -> float:
     return factor * quantity.value
 
 
-def make_component(name: str, entry: ComponentEntry, path: Path) -> Component:
+def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool) -> Component:
     place = f"{path}: components.{name}"
     if (entry.fmu is None) == (entry.reducer is None):
         raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant" or "wear"')
     if entry.fmu is not None:
-        component: Component = Fmu(name, path.parent / entry.fmu)
+        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate)
     else:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant" or unit = "wear"')
@@ -147,31 +170,3 @@ def set_parameter(component: Component, key: str, value: str | float, place: str
         component.set(key, parse_value(value, signal) if isinstance(value, str) else value)
     except (UnitError, InputFault) as problem:
         raise InputFault(f"{place}.parameters.{key} = {value!r}: {problem}") from None
-
-
-def run_scenario(scenario: Scenario, each_step=None) -> dict[str, np.ndarray]:
-    """Run it; returns ``time`` and ``component.signal`` series, one row per base step."""
-    master = scenario.master
-    master.initialise()
-    buffers, readers = [], []
-    for name, signal_name in scenario.recorded:
-        component = master.components[name]
-        signal = component.signal(signal_name)
-        buffers.append(np.zeros(len(signal.references), "i8" if signal.is_integer else "f8"))
-        readers.append(component.reader(signal.references, buffers[-1]))
-    rows = [np.zeros((scenario.steps + 1, buffer.size), buffer.dtype) for buffer in buffers]
-    time = np.zeros(scenario.steps + 1)
-    for i in range(scenario.steps + 1):
-        if i > 0:
-            master.step()
-            if each_step is not None:
-                each_step()
-        time[i] = master.time
-        for read, buffer, row in zip(readers, buffers, rows):
-            read()
-            row[i] = buffer
-    series = {"time": time}
-    for (name, signal_name), row in zip(scenario.recorded, rows):
-        shape = master.components[name].signal(signal_name).shape
-        series[f"{name}.{signal_name}"] = row.reshape(scenario.steps + 1, *shape)
-    return series

@@ -1,5 +1,6 @@
 """What a command shows on the screen; progress goes to stderr, results to stdout."""
 
+import json
 import sys
 from contextlib import contextmanager
 
@@ -15,6 +16,11 @@ from orchestrator.modes import Mode
 from orchestrator.results import figure_unit
 
 errors = Console(stderr=True)
+
+
+def json_text(content: dict) -> None:
+    """NaN and infinity are not JSON: they become null."""
+    print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))
 
 
 @contextmanager

@@ -18,6 +18,9 @@ from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import ring_coordinate
 
 SHORTEST_STEP = 1e-10
+# Internal steps of one communication step, and equilibrium iterations in it: some seconds each.
+MOST_SUBSTEPS = 100_000
+MOST_ITERATIONS = 1_000_000
 # Square of the frequency that stands in where nothing holds a body [1/s^2].
 FLOATING = 1e8
 

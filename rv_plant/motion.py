@@ -12,6 +12,7 @@ from rv_plant.constraints import CONSTRAINED, largest_drift
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import (
+    MOST_SUBSTEPS,
     SHORTEST_STEP,
     alpha_step,
     back_to_start,
@@ -139,6 +140,8 @@ def advance(r, duration):
     lost = 0.0
     cage_share = r.cage_share * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
     while time < duration * (1.0 - 1e-12):
+        if r.substeps + r.rejected >= MOST_SUBSTEPS:
+            return False
         left = duration - time
         h = r.internal_step
         # No crumb at the end: two equal steps where one would leave little.

@@ -16,6 +16,7 @@ from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.geometry import centre_curve_curvature
+from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
 from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
 from rv_plant.output_pins import has_output_pins
@@ -28,7 +29,8 @@ effects = compose("rv_plant.effects", HOOKS)
 prepare_effects, advance_effects = effects.prepare, effects.advance
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
-NO_MOTION, TORQUE_AT_REST, OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(8, 14)
+NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
+OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations."
@@ -57,6 +59,9 @@ FAULTS = {
     " Set fidelity to quasi-static",
     CRANKS_ON_AXIS: "crank_circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
     " crank_circle_radius, or give the reducer output_pins in [topology]",
+    LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
+    " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
+    " or in motion a looser dynamic_tolerance",
     RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
     " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
     " the clearance is bearing_clearance",
@@ -268,7 +273,9 @@ def step(records, time, duration):
         moved = advance(r, duration)
         publish_motion(r)
         advance_effects(r, duration)
-        return 0 if moved else NO_MOTION
+        if moved:
+            return 0
+        return LONG_STEP if r.substeps + r.rejected >= MOST_SUBSTEPS else NO_MOTION
     return step_through_equilibria(r, duration)
 
 
@@ -282,9 +289,12 @@ def step_through_equilibria(r, duration):
     output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
     cage_speed = r.cage_share * cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
     crank_advance = abs(lobes * output_speed * duration)
+    if not crank_advance < MOST_SUBSTEPS * r.largest_crank_step:
+        return LONG_STEP
     n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
     output_before, cage_before = r.ideal_output, r.cage
     copy_means(r, 0.0, 0.5 / n)
+    spent = 0
     for i in range(n):
         share = (i + 1.0) / n
         r.ideal_output = output_before + share * output_speed * duration
@@ -293,6 +303,9 @@ def step_through_equilibria(r, duration):
         if not solve(r):
             r.input_angle = total_ratio(r.first_stage_ratio, pins, lobes) * r.ideal_output
             return NO_EQUILIBRIUM
+        spent += r.iterations
+        if spent > MOST_ITERATIONS:
+            return LONG_STEP
         copy_means(r, 1.0, 1.0 / n if i < n - 1 else 0.5 / n)
     r.substeps = n
     publish(r, output_speed)

@@ -8,6 +8,7 @@ import pytest
 
 from discrepancy.catalogue.signature import ARCSEC, amplitudes, cage_order, conditions, loop_width, new_bench, observed, rated, turn
 from rv_plant import plant
+from rv_plant.effects import stribeck_friction
 from stand import crank_period, in_equilibrium, only, records_of, run_plant
 from twin import Twin
 
@@ -112,24 +113,42 @@ def test_loops_never_give_energy(bench, presliding):
 
 
 def test_elements_yield_one_after_the_other(rv20e):
-    """Under constant load the elements' torque over a turning follows the Iwan sum, and twice it back (Masing)."""
-    r = held(rv20e.plant, np.linspace(0.0, 167.0, 60), friction_coefficient=0.06)[-1]
-    elements, theta = len(r.slider), r.presliding_angle
+    """The kernel's torque along a turning back from full slip is that of the Iwan sum, doubled (Masing)."""
+    records = records_of(rv20e.plant, input_speed=0.0, load_torque=0.0, friction_coefficient=0.06)
+    assert plant.initialise(records) == 0
+    for value in np.linspace(0.0, 167.0, 60):
+        records["load_torque"] = value
+        assert plant.step(records, 0.0, 1.0) == 0
+    r = only(records)
+    carrier, limit, theta, elements = 6, float(r.friction_torque), float(r.presliding_angle), len(r.slider)
     yields = 2.0 * theta * np.arange(1, elements + 1) / elements
+    start = float(r.z[carrier])
 
-    def iwan(turning):
-        return r.friction_torque / elements * np.minimum(turning / yields, 1.0).sum()
+    def torque_after(back):
+        r.z[carrier] = start + back
+        r.residual_vector[:] = 0.0
+        stribeck_friction.hold(records[0])
+        return float(r.residual_vector[carrier])
 
-    # From the fully slipped state, turning back by x changes the torque by 2 iwan(x/2).
-    x = np.linspace(0.0, 8.0 * theta, 30)
-    stretch = np.broadcast_to(yields, (len(x), elements)) - x[:, None]
-    back = r.friction_torque / elements * np.maximum(stretch / yields, -1.0).sum(axis=1)
-    assert np.allclose(r.friction_torque - back, [2.0 * iwan(0.5 * v) for v in x], rtol=1e-9)
+    # The output has turned backwards under the load; every element slips.
+    assert torque_after(0.0) == pytest.approx(-limit, rel=1e-6)
+    for x in np.linspace(0.0, 5.0 * theta, 20):
+        iwan = limit / elements * np.minimum(0.5 * x / yields, 1.0).sum()
+        assert torque_after(x) + limit == pytest.approx(2.0 * iwan, rel=1e-6, abs=1e-9)
 
 
 def test_loop_widens_with_load(bench):
+    """Slipping contacts: twice the friction torque over the stiffness, at a quarter and at three quarters of the torque."""
+    up = np.linspace(0.0, 1.0, 33)
+    way = np.concatenate([up, up[-2::-1], -up[1:], -up[-2::-1], up[1:]]) * bench.rated_load
+    widths = {}
+    for mu in (0.0, 0.06):
+        turning = bench.held(rated(bench), {"friction_coefficient": mu, "presliding_angle": 1e-6}, way) * ARCSEC
+        down, again = turning[32:65][::-1], turning[-33:]
+        widths[mu] = down[[8, 24]] - again[[8, 24]]
+    assert np.abs(widths[0.0]).max() < 1e-3
+    assert 2.0 < widths[0.06][1] / widths[0.06][0] < 3.5
     assert loop_width(bench, rated(bench), {"friction_coefficient": 0.06}) * ARCSEC > 1.0
-    assert abs(loop_width(bench, rated(bench), {}) * ARCSEC) < 1e-3
 
 
 def test_drag_follows_speed_and_temperature_but_not_load(bench):

@@ -16,6 +16,8 @@ from fmu_src.units import fmi_base_unit
 from orchestrator.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.pair import make_pair
+from rv_plant.effects import EFFECTS as PLANT
+from wear_fmu.effects import EFFECTS as WEAR
 
 NAMES = ["RvPlant", "RvWear"]
 
@@ -41,6 +43,7 @@ def test_every_quantity_has_a_unit_that_is_defined(path):
             "mesh_wear_coefficient", "raceway_wear_coefficient", "run_in_ratio", "load_exponent", "slip_ratio_inner",
             "slip_ratio_outer", "acceleration", "contact_lead", "restitution", "sun_teeth", "tooth_stiffness_variation",
             "spectral_radius", "dynamic_tolerance", "energy_error"}  # fmt: skip
+    bare |= {v.name for effect in (*PLANT.values(), *WEAR.values()) for v in effect.variables() if v.unit == "1"}
     for variable in root.iter("ScalarVariable"):
         real = variable.find("Real")
         if real is not None and variable.get("name").partition("[")[0] not in bare:

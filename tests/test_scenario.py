@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from orchestrator.faults import InputFault
-from orchestrator.scenario import load_scenario, run_scenario
+from orchestrator.scenario import load_scenario
 
 PAIR = """
 [scenario]
@@ -42,7 +42,7 @@ def write(folder, text):
 
 def test_pair_from_a_file_runs_and_records(tmp_path):
     scenario = load_scenario(write(tmp_path, PAIR))
-    series = run_scenario(scenario)
+    series = scenario.run()
     assert series["time"] == pytest.approx(1.3e-3 * np.arange(21))
     assert series["plant.mesh_force"].shape == (21, 2, 40)
     assert np.array_equal(series["plant.mesh_force[1,3]"], series["plant.mesh_force"][:, 0, 2])
@@ -53,8 +53,8 @@ def test_pair_from_a_file_runs_and_records(tmp_path):
 
 def test_fmu_from_a_file(tmp_path, fmus):
     text = PAIR.replace('reducer = "RV20E-121"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
-    theirs = run_scenario(load_scenario(write(tmp_path, text)))
-    ours = run_scenario(load_scenario(write(tmp_path, PAIR)))
+    theirs = load_scenario(write(tmp_path, text)).run()
+    ours = load_scenario(write(tmp_path, PAIR)).run()
     assert theirs["wear.flank_depth"] == pytest.approx(ours["wear.flank_depth"], rel=1e-12)
 
 

@@ -33,7 +33,7 @@ FLANK, INNER, OUTER = 0, 1, 2
 effects = compose("wear_fmu.effects", HOOKS)
 prepare_effects, advance_effects, effect_factor = effects.prepare, effects.advance, effects.factor
 
-PRIMED, UNDERCUT, LONG_STEP = range(1, 4)
+PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
 FAULTS = {
     PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
     " pin_circle_radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
@@ -41,6 +41,9 @@ FAULTS = {
     " centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
     LONG_STEP: "the cranks moved from {crank_angle_before:.6g} to {crank_angle:.6g} rad in one communication step,"
     " more than half a turn: the wear cannot be placed. Use a shorter communication step",
+    CAGE_ASTRAY: "carrier or cages moved more than half a turn in one communication step, output_angle to"
+    " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect both angles, or use"
+    " a shorter communication step",
 }
 
 
@@ -296,6 +299,9 @@ def step(records, time, duration):
     moved = abs(r.crank_angle - r.crank_angle_before)
     if not moved <= math.pi:
         return LONG_STEP
+    turned = max(abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before))
+    if not turned <= math.pi:
+        return CAGE_ASTRAY
     modulus = r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
     warmer = r.temperature - r.reference_temperature
     viscosity = r.pressure_viscosity * math.exp(-r.pressure_viscosity_slope * warmer)

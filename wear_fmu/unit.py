@@ -12,4 +12,5 @@ def make_unit(specification: dict) -> Unit:
     """The wear unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
     table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))
-    return Unit(table.with_starts(specification["starts"], specification["sources"]), initialise, step, FAULTS)
+    table = table.with_starts(specification["starts"], specification["sources"])
+    return Unit(table, initialise, step, FAULTS, refuses_before_change=True)

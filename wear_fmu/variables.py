@@ -116,19 +116,22 @@ def wear_table(topology, resolution: Resolution = Resolution()) -> Table:
     def state(name, unit, text, shape=(), axes=(), **more):
         return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
 
+    def surface(name, text, shape, axes):
+        return state(name, "m", text, shape, axes, nominal=1e-6, profile=True)
+
     states = [
         state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
         state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
         state("cage_angle_before", "rad", "cage angle at the last step"),
-        state("disc_wear", "m", "depth on a disc's circumference, lobe after lobe, each from root over tip to root",
-              (t.discs, t.lobes * bins.flank), ("disc", "bin")),
-        state("pin_wear", "m", "depth on a standing pin, from -90 to +90 degrees of its inward radial, per disc",
-              (*mesh, bins.pin), ("disc", "pin", "bin")),
-        state("pin_even_wear", "m", "depth all round a turning pin, per disc", mesh, mesh_axes),
-        state("inner_race_wear", "m", "depth on a crank's lobe", (*bearing, bins.raceway), (*bearing_axes, "bin")),
-        state("outer_race_wear", "m", "depth in a disc's hole", (*bearing, bins.raceway), (*bearing_axes, "bin")),
+        surface("disc_wear", "depth on a disc's circumference, lobe after lobe, each from root over tip to root",
+                (t.discs, t.lobes * bins.flank), ("disc", "bin")),
+        surface("pin_wear", "depth on a standing pin, from -90 to +90 degrees of its inward radial, per disc",
+                (*mesh, bins.pin), ("disc", "pin", "bin")),
+        surface("pin_even_wear", "depth all round a turning pin, per disc", mesh, mesh_axes),
+        surface("inner_race_wear", "depth on a crank's lobe", (*bearing, bins.raceway), (*bearing_axes, "bin")),
+        surface("outer_race_wear", "depth in a disc's hole", (*bearing, bins.raceway), (*bearing_axes, "bin")),
         state("slide", "m", "sliding length of a contact within a bin of a lobe", (bins.flank,), ("bin",)),
         state("slide_before", "m", "its sum up to the bin", (bins.flank,), ("bin",)),
         state("arc", "m", "flank length of a bin", (bins.flank,), ("bin",)),

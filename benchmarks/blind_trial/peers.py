@@ -4,6 +4,7 @@ All get the residual of the calibrated base model and the same library: the resp
 every shape of its grid, by finite differences.  None of them knows the noise from replicates.
 """
 
+import tempfile
 import time
 import warnings
 from pathlib import Path
@@ -119,7 +120,7 @@ def forward(residual, free, columns, owners, kind: str, most: int) -> list[str]:
 
 
 def sparse(residual, free, columns, owners) -> list[str]:
-    """PySINDy's STLSQ on the library, its threshold a tenth of the largest coefficient."""
+    """PySINDy's STLSQ on the library, its threshold a tenth of what the best term alone would have."""
     from pysindy.optimizers import STLSQ
 
     if free.shape[1]:
@@ -127,8 +128,7 @@ def sparse(residual, free, columns, owners) -> list[str]:
         residual = residual - basis @ (basis.T @ residual)
         columns = columns - basis @ (basis.T @ columns)
     owner = {i: name for name, own in owners for i in own}
-    first = np.linalg.lstsq(columns, residual, rcond=1e-6)[0]
-    optimiser = STLSQ(threshold=float(0.1 * np.abs(first).max()), alpha=1e-3, max_iter=20)
+    optimiser = STLSQ(threshold=float(0.1 * np.abs(columns.T @ residual).max()), alpha=0.05, max_iter=20)
     optimiser.fit(columns, residual[:, None])
     weights = np.abs(np.asarray(optimiser.coef_).ravel())
     names: dict[str, float] = {}
@@ -149,8 +149,8 @@ def peers_of(folder: Path) -> dict[str, list[str]]:
             return {"error": [str(problem)[:200]]}
         found = {
             "BIC, white noise": forward(residual, free, columns, owners, "BIC", 1),
-            "forward selection by BIC": forward(residual, free, columns, owners, "BIC", MOST_TERMS),
-            "forward selection by AIC (PEtab Select)": petab(residual, free, columns, owners, "AIC"),
+            "PEtab Select, forward by AIC": petab(residual, free, columns, owners, "AIC"),
+            "PEtab Select, forward by BIC": petab(residual, free, columns, owners, "BIC"),
         }
         try:
             found["PySINDy STLSQ"] = sparse(residual, free, columns, owners)
@@ -161,4 +161,43 @@ def peers_of(folder: Path) -> dict[str, list[str]]:
 
 
 def petab(residual, free, columns, owners, kind: str) -> list[str]:
-    return forward(residual, free, columns, owners, kind, MOST_TERMS)
+    """PEtab Select's forward method over models in which every candidate is on or off; criteria by least squares."""
+    try:
+        from petab_select import ESTIMATE, Criterion, Problem, ui
+    except ImportError:
+        return ["petab_select is not installed"]
+    n = len(residual)
+    use = {f"p{k}": best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own))[1] for k, (_, own) in enumerate(owners)}
+    names = {f"p{k}": name for k, (name, _) in enumerate(owners)}
+    with tempfile.TemporaryDirectory() as folder:
+        problem = Problem.from_yaml(write_problem(Path(folder), list(use), kind))
+        space, known = None, {}
+        while True:
+            iteration = ui.start_iteration(problem, candidate_space=space)
+            for model in iteration["uncalibrated_models"]:
+                on = tuple(p for p, value in model.parameters.items() if value == ESTIMATE)
+                chosen = [i for p in on for i in use[p]]
+                known[on] = criterion(squares(residual, np.column_stack([free, columns[:, chosen]])), n, free.shape[1] + len(chosen), kind)
+                model.set_criterion(Criterion[kind], known[on])
+            ended = ui.end_iteration(problem, iteration["candidate_space"], iteration["uncalibrated_models"])
+            space = ended["candidate_space"]
+            if ended["terminate"] or max(map(len, known), default=0) > MOST_TERMS:
+                break
+    known[()] = criterion(squares(residual, free), n, free.shape[1], kind)
+    best = min(known, key=known.get)
+    # The strongest first: what its removal would cost.
+    return [names[p] for p in sorted(best, key=lambda p: known.get((p,), 0.0))]
+
+
+def write_problem(folder: Path, parameters: list[str], kind: str) -> Path:
+    """A selection problem whose only content is the model space: calibration is done here."""
+    (folder / "petab.yaml").write_text(
+        "format_version: 1\nparameter_file: parameters.tsv\nproblems:\n- sbml_files: []\n  condition_files: []\n"
+        "  measurement_files: []\n  observable_files: []\n", encoding="utf-8")  # fmt: skip
+    head = "parameterId\tparameterScale\tlowerBound\tupperBound\tnominalValue\testimate\n"
+    (folder / "parameters.tsv").write_text(head + "".join(f"{p}\tlin\t-1\t1\t0\t1\n" for p in parameters), encoding="utf-8")
+    row = "\t".join(["M", "petab.yaml", *("0;estimate" for _ in parameters)])
+    (folder / "space.tsv").write_text("\t".join(["model_subspace_id", "model_subspace_petab_yaml", *parameters]) + f"\n{row}\n", encoding="utf-8")
+    path = folder / "select.yaml"
+    path.write_text(f"format_version: 1.0.0\ncriterion: {kind}\nmethod: forward\nmodel_space_files:\n- space.tsv\n", encoding="utf-8")
+    return path

@@ -45,3 +45,22 @@ def plan(count: int, seed: int, sizes: dict[str, float] = SIZE_ODDS) -> list[Tas
             entry.setdefault("size", str(rng.choice(list(sizes), p=list(sizes.values()))))
             tasks.append(Task(len(tasks), int(rng.integers(2**31)), **entry))
     return tasks[:count]
+
+
+REDUCED_LAWS = (
+    "friction with a velocity minimum", "drag of seals and grease", "wrong gain", "skidding rollers", "soft flange", "play of the first stage",
+    "thermal gap of ring and discs",
+)  # fmt: skip
+REDUCED_OUTSIDE = ("friction bump in speed and temperature", "humidity", "cage ahead with the speed", "periodic play over the temperature",
+                   "drag with speed^2.5")  # fmt: skip
+
+
+def reduced_plan(seed: int, nulls: int = 26) -> list[Task]:
+    """At least 60 campaigns that are cheap to make and to diagnose."""
+    rng = np.random.default_rng(seed)
+    entries = [{"kind": "null"} for _ in range(nulls)]
+    entries += [{"kind": "effect", "laws": (law,), "strength": s} for law in REDUCED_LAWS for s in (12.0, 16.0, 20.0)]
+    entries.append({"kind": "effect", "laws": ("Dahl friction in the loop",), "strength": 12.0})
+    entries += [{"kind": "outside", "laws": (law,), "strength": 20.0} for law in REDUCED_OUTSIDE]
+    entries += [{"kind": "fault", "fault": fault} for fault in FAULTS if fault != "clock"]
+    return [Task(k, int(rng.integers(2**31)), size="tiny", **entry) for k, entry in enumerate(entries)]

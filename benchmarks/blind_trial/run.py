@@ -76,15 +76,22 @@ def finished(folder: Path) -> dict[int, dict]:
     return found
 
 
+def end_line(path: Path) -> None:
+    """Ends a last line that was cut off, so that the next one stands alone."""
+    if path.is_file() and (text := path.read_bytes()) and not text.endswith(b"\n"):
+        with path.open("ab") as lines:
+            lines.write(b"\n")
+
+
 def results_of(tasks: list[Task], folder: Path, keep: bool, peers: set[int], jobs: int, scheduler: str) -> Iterator[dict]:
     """Results as they come."""
     if scheduler:
         from dask.distributed import Client, as_completed
 
-        client = Client(scheduler)
-        futures = [client.submit(one, t, folder, keep, t.number in peers, pure=False) for t in tasks]
-        for future in as_completed(futures):
-            yield future.result()
+        with Client(scheduler) as client:
+            futures = [client.submit(one, t, folder, keep, t.number in peers, pure=False) for t in tasks]
+            for future in as_completed(futures):
+                yield future.result()
         return
     from joblib import Parallel, delayed
 
@@ -105,6 +112,7 @@ def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: set[int] =
     done = finished(folder)
     missing = [t for t in tasks if t.number not in done]
     started, count = time.perf_counter(), 0
+    end_line(folder / RESULTS)
     with (folder / RESULTS).open("a", encoding="utf-8") as lines:
         try:
             for result in results_of(missing, folder, keep, peers, jobs, scheduler):

@@ -6,9 +6,9 @@ import warnings
 from pathlib import Path
 
 from discrepancy.campaign import load_campaign
-from discrepancy.inference.diagnose import diagnose
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.verdict import diagnose
 
 MODEL = "RV20E-121"
 # Runs of the bench that campaigns with equal conditions share; None: every campaign starts from nothing.
@@ -24,12 +24,12 @@ def answer_of(folder: Path) -> dict:
             warnings.simplefilter("ignore")
             campaign = load_campaign(folder)
             times["load"] = time.perf_counter() - started
-            model = PhysicalModel(load_model(MODEL), campaign)
+            file = load_model(MODEL)
+            model = PhysicalModel(file, campaign)
             if SHARED is not None:
                 model.bench.runs = SHARED
             times["model"] = time.perf_counter() - started - times["load"]
-            found = diagnose(model)
-        answer = plain(found.to_dict())
+            answer = plain(diagnose(file, campaign, model=model).as_json())
     except Exception as problem:  # noqa: BLE001 - a crash is a result of the trial
         answer = {"verdict": "crash", "effects": [], "error": f"{type(problem).__name__}: {problem}"[:500]}
     times["whole"] = time.perf_counter() - started

@@ -7,8 +7,7 @@ from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.template import FORMATS, USUAL, write_template
-from orchestrator.commands import print_json
-from orchestrator.screen import busy
+from orchestrator.screen import busy, json_text
 
 
 def add_campaign(sub: argparse._SubParsersAction) -> None:
@@ -39,7 +38,7 @@ def run_check(options: argparse.Namespace) -> int:
     with busy("reading the campaign"):
         check = check_campaign(load_campaign(options.folder, options.data))
     if options.json:
-        print_json(check.as_json())
+        json_text(check.as_json())
     else:
         screen.show(check)
     return 1 if check.problems else 0
@@ -49,7 +48,7 @@ def run_template(options: argparse.Namespace) -> int:
     """Write the files and name them."""
     files = write_template(options.folder, tuple(dict.fromkeys(options.quantities)), options.format, options.reducer)
     if options.json:
-        print_json({"files": [str(path) for path in files]})
+        json_text({"files": [str(path) for path in files]})
     else:
         for path in files:
             print(path)

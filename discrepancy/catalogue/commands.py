@@ -6,8 +6,7 @@ from pathlib import Path
 from discrepancy.catalogue import screen
 from discrepancy.catalogue.catalogue import Entry, entries, entry
 from discrepancy.catalogue.signature import Signature, new_bench, signature
-from orchestrator.commands import print_json
-from orchestrator.screen import Progress, busy
+from orchestrator.screen import Progress, busy, json_text
 
 
 def add_effects(sub: argparse._SubParsersAction) -> None:
@@ -28,10 +27,10 @@ def run_effects(options: argparse.Namespace) -> int:
         computed = write_page(chosen, options.reducer, Path(options.html))
     if options.json:
         found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
-        print_json(found[0] if options.name else {"effects": found})
+        json_text(found[0] if options.name else {"effects": found})
     elif options.name:
         screen.show_one(chosen[0], computed[chosen[0].name])
-    else:
+    elif not options.html:
         screen.show_list(chosen)
     if options.html and not options.json:
         print(options.html)

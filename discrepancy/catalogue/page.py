@@ -52,9 +52,9 @@ TEMPLATE = """<!DOCTYPE html>
 <p class="lead">Source: {{ e.effect.source }}.</p>
 <figure><h4>{{ figure.title }}</h4><div class="plot" id="plot-{{ figure.name }}" style="height: {{ figure.height }}px"></div><figcaption>{{ figure.caption }}</figcaption></figure>
 {% for s in found %}
-<p class="why"><b>{{ s.case.title }}.</b> {{ words(s) | join("; ") or "Nothing that the bench measures changes." }}</p>
+<p class="why"><b>{{ s.case.title }}.</b> {{ words(s, 8) | join("; ") or "Nothing that the bench measures changes." }}</p>
 {% endfor %}
-<table class="numbers"><thead><tr><th>parameter</th><th>off or start</th><th>bounds</th><th>unit</th><th>meaning</th></tr></thead><tbody>
+<table class="numbers"><thead><tr><th>parameter</th><th>off or start</th><th>bounds</th><th>unit</th><th style="text-align: left">meaning</th></tr></thead><tbody>
 {% for p in e.effect.parameters %}
 <tr><td>{{ p.variable.name }}</td><td>{{ "%g" | format(p.variable.start) }}</td><td>{{ "%g" | format(p.variable.minimum) }} to {{ "%g" | format(p.variable.maximum) }}</td><td>{{ p.variable.unit }}</td><td style="text-align: left; white-space: normal">{{ p.variable.description }}</td></tr>
 {% endfor %}

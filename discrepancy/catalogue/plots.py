@@ -17,6 +17,9 @@ from orchestrator.report.look import Figure
 from orchestrator.reproduce.plots import COLOURS, Curve, chart
 
 WITHOUT = "without"
+# Grey is the reducer without the effect.
+GREY = look.START
+CASE_COLOURS = tuple(c for c in COLOURS if c != GREY)
 Values = Mapping[str, float]
 # Output torque of the loop over the rated one.
 LOOP = np.concatenate([np.linspace(0, 1, 25), np.linspace(1, -1, 49)[1:], np.linspace(-1, 1, 49)[1:]])
@@ -25,6 +28,10 @@ LOOP = np.concatenate([np.linspace(0, 1, 25), np.linspace(1, -1, 49)[1:], np.lin
 def versions(name: str, cases: tuple[Case, ...]) -> list[tuple[str, Values]]:
     """What is drawn: the reducer without the effect, then every case."""
     return [(WITHOUT, BACKGROUND.get(name, {})), *((c.title, c.values) for c in cases)]
+
+
+def colour_of(version: int) -> str:
+    return GREY if version == 0 else CASE_COLOURS[(version - 1) % len(CASE_COLOURS)]
 
 
 def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
@@ -38,7 +45,7 @@ def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
         spectra = [(label, amplitudes(turn(bench, at, v) * ARCSEC)) for label, v in versions(name, cases)]
     data = [
         {"type": "bar", "name": label, "x": [str(o) for o in ORDERS], "y": look.short(found[list(ORDERS)], 4),
-         "marker": {"color": "#98a3af" if label == WITHOUT else COLOURS[(i - 1) % len(COLOURS)]},
+         "marker": {"color": colour_of(i)},
          "hovertemplate": f"{label}: %{{y}} arcsec at order %{{x}}<extra></extra>"}
         for i, (label, found) in enumerate(spectra)
     ]  # fmt: skip
@@ -54,8 +61,7 @@ def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tu
     """One curve per version; grey is the reducer without the effect."""
     found = []
     for i, (label, values) in enumerate(versions(name, cases)):
-        colour = "#98a3af" if label == WITHOUT else COLOURS[(i - 1) % len(COLOURS)]
-        found.append(Curve(label, *compute(values), colour))
+        found.append(Curve(label, *compute(values), colour_of(i)))
     return found
 
 
@@ -96,8 +102,8 @@ def wear_against(bench, name, cases, what, title, x_title, places, condition, sc
     found = [(label, all_depths(v)) for label, v in versions(name, cases)]
     base = found[0][1]
     surface = max(SURFACES, key=lambda s: np.abs(np.log(np.maximum(found[-1][1][s], 1e-12) / np.maximum(base[s], 1e-12))).max())
-    curves = [Curve(label, np.array(places) * scale, d[surface], "#98a3af" if label == WITHOUT else COLOURS[(i - 1) % len(COLOURS)],
-                    mode="lines+markers") for i, (label, d) in enumerate(found)]
+    curves = [Curve(label, np.array(places) * scale, d[surface], colour_of(i), mode="lines+markers")
+              for i, (label, d) in enumerate(found)]
     return chart(name, title, what, curves, x_title, f"{surface.replace('_', ' ')} [um]", 12, 320, x_axis={"type": "log"},
                  y_axis={"type": "log"})
 
@@ -162,8 +168,8 @@ def trace(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at = rated(bench)
     series = np.abs(turn(bench, at, {}, "drive_torque"))
     angle = np.linspace(0.0, 360.0, len(series), endpoint=False)
-    curves = [Curve(WITHOUT, angle[::16], series[::16], "#98a3af")]
-    curves += [Curve(c.title, angle[::16], changed(name, c, "input_torque", at, series)[::16]) for c in cases]
+    curves = [Curve(WITHOUT, angle[::16], series[::16], GREY)]
+    curves += [Curve(c.title, angle[::16], changed(name, c, "input_torque", at, series)[::16], colour_of(i + 1)) for i, c in enumerate(cases)]
     return chart(name, "Input torque along a run", "Rated speed and load.", curves, "angle of the output [degrees]",
                  "input torque [N m]", 12, 320)
 

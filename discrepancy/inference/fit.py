@@ -151,7 +151,9 @@ class Workspace:
         off = np.array([p.off for p in nuisances])
         lower = np.array([p.lower for p in nuisances])
         upper = np.array([p.upper for p in nuisances])
-        start = np.clip([values[p.name] for p in nuisances], lower + 1e-9 * scale, upper - 1e-9 * scale)
+        # Well inside: the solver's steps vanish with the distance to a bound.
+        margin = np.minimum(0.3 * scale, 0.25 * (upper - lower))
+        start = np.clip([values[p.name] for p in nuisances], lower + margin, upper - margin)
         columns = {"x": start, "j": self._stack(raw, len(nuisances))}
 
         def residual(x):

@@ -13,6 +13,10 @@ from discrepancy.inference.screen import Score
 from discrepancy.problem import Candidate, Parameter
 
 
+UNDETERMINED = 1e-6
+"""Information (in units of the parameter's scale) below which a parameter is not estimated."""
+
+
 @dataclass(frozen=True)
 class Estimate:
     """A parameter with its interval."""
@@ -85,6 +89,10 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
     estimated = []
     for k, p in enumerate(fit.parameters):
         if not any(p is q for q in result.own):
+            continue
+        if fit.normal[k, k] * p.scale**2 < UNDETERMINED:
+            # The data say nothing about it: the interval is its range.
+            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False))
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})

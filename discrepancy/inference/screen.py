@@ -19,6 +19,9 @@ from discrepancy.problem import Candidate
 
 SMALL, TYPICAL = 0.05, 1.0
 DRAWS = 2000
+# An effect that stays below this many noise units even at the bounds of its parameters cannot be seen; what is left
+# of it in the predictions is rounding, which scaled up would fit anything.
+LEAST_REACH = 2.0
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
             if not linear and two_sided:
                 made[-TYPICAL] = _block(space, candidate, at, which, -TYPICAL)
             for size, block in made.items():
-                if not np.any(block) or any(_same(block, other) for other in seen):
+                if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for other in seen):
                     continue
                 seen.append(block)
                 stacks.append(block)
@@ -98,6 +101,14 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
                 blocks.append(Block(k, dict(shape), slice(width, width + block.shape[1]), signs, abs(size)))
                 width += block.shape[1]
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
+
+
+def _reach(candidate, block):
+    """Size, in noise units, of the effect at the bounds of its parameters."""
+    return max(
+        float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
+        for p, column in zip(candidate.amplitudes, block.T)
+    )
 
 
 def _requests(space, candidates, values):

@@ -8,17 +8,34 @@ from discrepancy.scales import USUAL
 from fmu_src.units import UnitError, conversion, parse, registry
 from orchestrator.report.result import number
 
+# A fit moves nothing along directions that the data do not see; its interval then has no width.
+UNDETERMINED = "not determined"
+# Units of two parts that read well with a prefix.
+PREFIXED = ("m/N", "N/m", "m/s")
 # Factors and axes, as one reads them: (unit, factor, offset).
 AXES = {
-    "speed": ("rpm", 30.0 / math.pi, 0.0), "load": ("N·m", 1.0, 0.0), "temperature": ("°C", 1.0, -273.15),
-    "hours": ("h", 1.0 / 3600.0, 0.0), "angle": ("°", 180.0 / math.pi, 0.0), "depth_angle": ("°", 180.0 / math.pi, 0.0),
-    "torque": ("N·m", 1.0, 0.0), "time": ("s", 1.0, 0.0), "order": ("", 1.0, 0.0), "direction": ("", 1.0, 0.0),
-    "normal_force": ("N", 1.0, 0.0), "sliding_speed": ("m/s", 1.0, 0.0), "sliding_distance": ("m", 1.0, 0.0),
-}  # fmt: skip
+    "speed": ("rpm", 30.0 / math.pi, 0.0),
+    "load": ("N·m", 1.0, 0.0),
+    "temperature": ("°C", 1.0, -273.15),
+    "hours": ("h", 1.0 / 3600.0, 0.0),
+    "angle": ("°", 180.0 / math.pi, 0.0),
+    "depth_angle": ("°", 180.0 / math.pi, 0.0),
+    "torque": ("N·m", 1.0, 0.0),
+    "time": ("s", 1.0, 0.0),
+    "order": ("", 1.0, 0.0),
+    "direction": ("", 1.0, 0.0),
+    "normal_force": ("N", 1.0, 0.0),
+    "sliding_speed": ("m/s", 1.0, 0.0),
+    "sliding_distance": ("m", 1.0, 0.0),
+}
 TITLES = {
-    "speed": "input speed", "load": "load torque", "hours": "operating hours", "angle": "output angle", "depth_angle": "place on the surface",
+    "speed": "input speed",
+    "load": "load torque",
+    "hours": "operating hours",
+    "angle": "output angle",
+    "depth_angle": "place on the surface",
     "order": "order of the output's turn",
-}  # fmt: skip
+}
 
 
 def pretty(unit: str) -> str:
@@ -51,6 +68,17 @@ def axis_title(name: str) -> str:
     return f"{title} [{unit}]" if unit else title
 
 
+def chance(p: float) -> str:
+    """``p = 2e-07``; computers run out of digits before nature does."""
+    return f"p = {p:.1g}" if p > 1e-300 else "p < 1e-300"
+
+
+def effect_title(name: str) -> str:
+    """``sensor_gain.input_torque`` as words."""
+    effect, _, variant = name.replace("_", " ").partition(".")
+    return effect + (f" ({variant})" if variant else "")
+
+
 def signal_title(signal: str) -> str:
     """``wear_depth[surface=pin]`` as words."""
     name, _, tags = signal.partition("[")
@@ -59,8 +87,9 @@ def signal_title(signal: str) -> str:
 
 
 def signal_axis(signal: str, unit: str) -> str:
+    """Without tags, which the figure's title has."""
     name = scale(unit)[1]
-    return signal_title(signal) + (f" [{name}]" if name else "")
+    return signal_title(signal.partition("[")[0]) + (f" [{name}]" if name else "")
 
 
 def estimate(entry: dict) -> tuple[str, str, str]:
@@ -68,7 +97,11 @@ def estimate(entry: dict) -> tuple[str, str, str]:
     low, high = entry["interval"]
     size = max((abs(v) for v in (entry["value"], low, high) if math.isfinite(v)), default=0.0)
     factor, unit = fitting(size, entry["unit"])
-    return number(factor * entry["value"]), f"{number(factor * low)} to {number(factor * high)}", unit
+    if high - low <= 1e-9 * size:
+        return number(factor * entry["value"]), UNDETERMINED, unit
+    # As many digits as tell the ends apart.
+    digits = next((d for d in range(3, 8) if number(factor * low, d) != number(factor * high, d)), 8)
+    return number(factor * entry["value"], digits), f"{number(factor * low, digits)} to {number(factor * high, digits)}", unit
 
 
 def fitting(size: float, unit: str) -> tuple[float, str]:
@@ -79,7 +112,10 @@ def fitting(size: float, unit: str) -> tuple[float, str]:
         quantity = registry.Quantity(size, parse(unit))
     except UnitError:
         return 1.0, pretty(unit)
-    if quantity.dimensionless or not 0.0 < size < math.inf or len(dict(quantity.unit_items())) > 1:
+    if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):
+        return 1.0, pretty(unit)
+    if unit.startswith("1/"):
+        # 1/GK and the like are nobody's units.
         return 1.0, pretty(unit)
     compact = quantity.to_compact()
     return float(compact.magnitude / size), f"{compact.units:~P}"

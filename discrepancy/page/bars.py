@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from discrepancy.page.amounts import signal_title
 from orchestrator.report import look
 from orchestrator.report.look import Figure, short
 
@@ -20,45 +21,87 @@ def noise_line(horizontal: bool = True) -> tuple[dict, dict]:
     return line, label
 
 
-def pairs(name: str, title: str, caption: str, groups: Sequence[str], before: Sequence[float | None], after: Sequence[float | None],
-          hover: tuple[Sequence[str], Sequence[str]], columns: int = 6, words: tuple[str, str] = ("before", "after")) -> Figure:
+def pairs(
+    name: str,
+    title: str,
+    caption: str,
+    groups: Sequence[str],
+    before: Sequence[float | None],
+    after: Sequence[float | None],
+    hover: tuple[Sequence[str], Sequence[str]],
+    columns: int = 6,
+    words: tuple[str, str] = ("before", "after"),
+) -> Figure:
     """Two horizontal bars per group, in times the noise."""
     data = [
         {
-            "type": "bar", "orientation": "h", "name": word, "y": list(groups), "x": short([float("nan") if v is None else v for v in values], 4),
-            "marker": {"color": colour}, "customdata": list(texts), "hovertemplate": f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>",
-            "text": [f"{v:.2f}" if v is not None else "" for v in values], "textposition": "outside", "cliponaxis": False,
+            "type": "bar",
+            "orientation": "h",
+            "name": word,
+            "y": list(groups),
+            "x": short([float("nan") if v is None else v for v in values], 4),
+            "marker": {"color": colour},
+            "customdata": list(texts),
+            "hovertemplate": f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>",
+            "text": [f"{v:.2f}" if v is not None else "" for v in values],
+            "textposition": "outside",
+            "cliponaxis": False,
         }
-        for word, values, colour, texts in ((words[1], after, AFTER, hover[1]), (words[0], before, BEFORE, hover[0]))
-    ]  # fmt: skip
+        for word, values, colour, texts in ((words[0], before, BEFORE, hover[0]), (words[1], after, AFTER, hover[1]))
+    ]
     shape, label = noise_line(horizontal=False)
-    legend = {"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yanchor": "bottom", "traceorder": "reversed", "font": {"size": 11.5}}
+    legend = {"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yref": "container", "yanchor": "top", "font": {"size": 11.5}}
     most = max([v for v in (*before, *after) if v is not None], default=1.0)
     layout = look.layout(
-        barmode="group", bargap=0.35, showlegend=True, legend=legend, shapes=[shape], annotations=[label],
-        xaxis=look.axis("error over noise", range=[0.0, 1.12 * max(most, 1.1)]), yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
-        margin={"l": 60, "r": 20, "t": 36, "b": 46},
-    )  # fmt: skip
-    return Figure(name, title, caption, data, layout, columns, 120 + 46 * max(len(groups), 2))
+        barmode="group",
+        bargap=0.35,
+        showlegend=True,
+        legend=legend,
+        shapes=[shape],
+        annotations=[label],
+        xaxis=look.axis("error over noise", range=[0.0, 1.12 * max(most, 1.1)]),
+        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
+        margin={"l": 60, "r": 20, "t": 48, "b": 46},
+    )
+    return Figure(name, title, caption, data, layout, columns, 132 + 46 * max(len(groups), 2))
 
 
-def single(name: str, title: str, caption: str, groups: Sequence[str], values: Sequence[float], x_title: str, colours: Sequence[str], texts: Sequence[str],
-           columns: int = 6, **axis) -> Figure:
+def single(
+    name: str,
+    title: str,
+    caption: str,
+    groups: Sequence[str],
+    values: Sequence[float],
+    x_title: str,
+    colours: Sequence[str],
+    texts: Sequence[str],
+    columns: int = 6,
+    **axis,
+) -> Figure:
     """One horizontal bar per group."""
-    data = [{
-        "type": "bar", "orientation": "h", "y": list(groups), "x": short(values, 4), "marker": {"color": list(colours)}, "text": list(texts),
-        "textposition": "outside", "cliponaxis": False, "hovertemplate": "%{y}: %{text}<extra></extra>",
-    }]  # fmt: skip
+    data = [
+        {
+            "type": "bar",
+            "orientation": "h",
+            "y": list(groups),
+            "x": short(values, 4),
+            "marker": {"color": list(colours)},
+            "text": list(texts),
+            "textposition": "outside",
+            "cliponaxis": False,
+            "hovertemplate": "%{y}: %{text}<extra></extra>",
+        }
+    ]
     most = max(values, default=1.0) or 1.0
     layout = look.layout(
-        xaxis=look.axis(x_title, **({"range": [0.0, 1.25 * most]} | axis)), bargap=0.4,
-        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""), margin={"l": 60, "r": 24, "t": 10, "b": 46},
-    )  # fmt: skip
+        xaxis=look.axis(x_title, **({"range": [0.0, 1.25 * most]} | axis)),
+        bargap=0.4,
+        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
+        margin={"l": 60, "r": 24, "t": 10, "b": 46},
+    )
     return Figure(name, title, caption, data, layout, columns, 80 + 30 * max(len(groups), 2))
 
 
 def signal_rows(rows: Sequence[dict]) -> list[str]:
     """Names of signals, held-out ones marked."""
-    from discrepancy.page.amounts import signal_title
-
     return [signal_title(r["signal"]) + (", held out" if r["held_out"] else ", fitted") for r in rows]

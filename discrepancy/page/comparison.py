@@ -10,19 +10,33 @@ from orchestrator.report.look import Figure
 from orchestrator.report.result import number
 
 FITTED, HELD = "fitted", "held out"
+MOST_CARDS = 6
 
 
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
     runs = runs_of(space, result.predictions)
     sections = [
-        errors(result), localisation_section([asdict(g) for g in result.diagnostician.localisation.groups],
-                                             result.diagnostician.localisation.conditions, result.diagnostician.localisation.level),
-        Section("runs", "Measured against predicted", "Every run of the campaign beside the model's prediction of it.", run_figures("run", runs)),
+        errors(result),
+        localisation_section(
+            [asdict(g) for g in result.diagnostician.localisation.groups],
+            result.diagnostician.localisation.conditions,
+            result.diagnostician.localisation.level,
+        ),
+        Section(
+            "runs", "Measured against predicted", "Every run of the campaign beside the model's prediction of it.", run_figures("run", runs)
+        ),
         nuisances(result),
-    ]  # fmt: skip
-    return Page("Model against measurement", title(result.model), conditions(result.model, runs), finding(result), cards(result), sections,
-                list(dict.fromkeys(result.warnings)))
+    ]
+    return Page(
+        "Model against measurement",
+        title(result.model),
+        conditions(result.model, runs),
+        finding(result),
+        cards(result),
+        sections,
+        list(dict.fromkeys(result.warnings)),
+    )
 
 
 def title(model) -> str:
@@ -35,7 +49,9 @@ def conditions(model, runs: list[Run]) -> str:
     held = sum(run.record.held_out for run in runs)
     count = len({run.record.condition for run in runs})
     effects = ", ".join(name.replace("_", " ") for name in model.file.effects)
-    return f"{len(runs)} runs at {count} conditions, {held} of them held out; " + (f"model with {effects}" if effects else "model without further effects")
+    return f"{len(runs)} runs at {count} conditions, {held} of them held out; " + (
+        f"model with {effects}" if effects else "model without further effects"
+    )
 
 
 def finding(result: Comparison) -> str:
@@ -45,12 +61,18 @@ def finding(result: Comparison) -> str:
     if worst is None:
         return "Nothing that was measured can be predicted by this model."
     off = [r for r in result.runs if r["ratio"] > CONSPICUOUS]
-    start = f"{len(off)} of {len(result.runs)} runs err by more than {CONSPICUOUS:g} times their noise; the worst signal is {place(worst)} with {number(worst['ratio'])} times its noise."
+    start = (
+        f"{len(off)} of {len(result.runs)} runs err by more than {CONSPICUOUS:g} times their noise; the worst "
+        f"signal is {place(worst)} with {number(worst['ratio'])} times its noise."
+    )
     if not found:
         return start + " No place, order or dependence carries a significant misfit."
     best = found[0]
     where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
-    return start + f" The misfit is most significant in the {best.feature} of {amounts.signal_title(best.signal)}, {where} (p = {best.p:.1g})."
+    return (
+        start
+        + f" The misfit is most significant in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({amounts.chance(best.p)})."
+    )
 
 
 def place(row: dict) -> str:
@@ -62,9 +84,20 @@ def tone(ratio: float) -> str:
 
 
 def cards(result: Comparison) -> list[Card]:
-    return [Card(place(row)[:1].upper() + place(row)[1:], number(row["ratio"]),
-                 f"{amounts.text(row['error'], row['unit'])}, noise {amounts.text(row['noise_floor'], row['unit'])}", unit="times noise", tone=tone(row["ratio"]))
-            for row in result.signals]  # fmt: skip
+    """All signals; of many only what was held out, if anything was."""
+    rows = result.signals
+    if len(rows) > MOST_CARDS:
+        rows = [r for r in rows if r["held_out"]] or rows
+    return [
+        Card(
+            place(row)[:1].upper() + place(row)[1:],
+            number(row["ratio"]),
+            f"{amounts.text(row['error'], row['unit'])}, noise {amounts.text(row['noise_floor'], row['unit'])}",
+            unit="times noise",
+            tone=tone(row["ratio"]),
+        )
+        for row in rows
+    ]
 
 
 def errors(result: Comparison) -> Section:
@@ -73,13 +106,24 @@ def errors(result: Comparison) -> Section:
     for run in result.runs:
         cells.setdefault((run["signal"], run["condition"]), []).append(run["ratio"])
     held = {run["condition"] for run in result.runs if run["held_out"]}
-    heat = maps.grid("Error over noise by signal and condition", "Root mean square over the replicates; white is as good as the noise allows.",
-                     "error_map", {k: series.rms(v) for k, v in cells.items()}, held)  # fmt: skip
+    heat = maps.grid(
+        "Error over noise by signal and condition",
+        "Root mean square over the replicates; green is as good as the noise allows, white was not measured.",
+        "error_map",
+        {k: series.rms(v) for k, v in cells.items()},
+        held,
+    )
     rows = [
-        [amounts.signal_title(s["signal"]), HELD if s["held_out"] else FITTED, str(s["runs"]), amounts.text(s["error"], s["unit"]),
-         amounts.text(s["noise_floor"], s["unit"]), number(s["ratio"])]
+        [
+            amounts.signal_title(s["signal"]),
+            HELD if s["held_out"] else FITTED,
+            str(s["runs"]),
+            amounts.text(s["error"], s["unit"]),
+            amounts.text(s["noise_floor"], s["unit"]),
+            number(s["ratio"]),
+        ]
         for s in result.signals
-    ]  # fmt: skip
+    ]
     table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5))
     lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
     return Section("errors", "Error against noise", lead, [heat] if cells else [], [table])
@@ -88,13 +132,27 @@ def errors(result: Comparison) -> Section:
 def localisation_section(places: list[dict], by_condition: dict[str, dict[str, float]], level: float) -> Section:
     """Where the misfit is; also of a diagnosis."""
     findings = [p for p in places if p["p"] <= level]
-    lead = (f"Generic functions of the misfit, signal by signal, tested against the noise of replicates and corrected for their number. {len(findings)} of {len(places)} are significant."
-            if findings else "No place, order or dependence carries a significant misfit.")  # fmt: skip
+    lead = (
+        (
+            "Generic functions of the misfit, signal by signal, tested against the noise of replicates and corrected "
+            f"for their number. {len(findings)} of {len(places)} are significant."
+        )
+        if findings
+        else "No place, order or dependence carries a significant misfit."
+    )
     figures = maps.localisation("place", places, level)
     cells = {(signal, c): float(v) ** 0.5 for signal, row in by_condition.items() for c, v in row.items()}
     if cells:
-        figures.insert(0, maps.grid("Misfit by signal and condition", "Of the generic functions alone, root of the variance ratio: much sharper than the error over all samples.",
-                                    "misfit_map", cells, bar="misfit / noise"))  # fmt: skip
+        figures.insert(
+            0,
+            maps.grid(
+                "Misfit by signal and condition",
+                "Of the generic functions alone, root of the variance ratio: much sharper than the error over all samples.",
+                "misfit_map",
+                cells,
+                bar="misfit / noise",
+            ),
+        )
     return Section("localisation", "Where the model fails", lead, figures)
 
 
@@ -120,6 +178,10 @@ def nuisances(result: Comparison) -> Section:
         factor, unit_name = amounts.fitting(abs(value), unit)
         prior = f"{number(factor * parameter.off)} ± {number(factor * parameter.prior)}" if parameter and parameter.prior else ""
         rows.append([name, number(factor * value, 4), unit_name, prior, parameter.description if parameter else ""])
-    lead = "Fitted to the campaign before anything was compared." if rows else "Nothing was declared for calibration: the model stands as it is."
+    lead = (
+        "Fitted to the campaign before anything was compared."
+        if rows
+        else "Nothing was declared for calibration: the model stands as it is."
+    )
     table = Table("", ["parameter", "value", "unit", "known before", "meaning"], rows, (1,))
     return Section("nuisances", "Calibrated", lead, [], [table] if rows else [])

@@ -18,7 +18,9 @@ FORM_COLOUR = "#d55e00"
 
 def figures(law: Recovered, unit: str) -> list[Figure]:
     """The leading curve over its points, and the other curves that matter."""
-    factor, title = (1.0, f"misfit / {law.factor}") if law.factor else (amounts.scale(unit)[0], amounts.signal_axis(f"misfit of {law.signal}", unit))
+    factor, title = (
+        (1.0, f"misfit / {law.factor}") if law.factor else (amounts.scale(unit)[0], amounts.signal_axis(f"misfit of {law.signal}", unit))
+    )
     name = f"law_{slug(law.signal)}"
     lead = next(c for c in law.curves if c.name == law.leading)
     others = [c for c in law.curves if c.name != law.leading and c.share > MOST_SHARE_HIDDEN]
@@ -26,11 +28,30 @@ def figures(law: Recovered, unit: str) -> list[Figure]:
     for curve in others:
         x = amounts.axis_values(curve.name, curve.x)
         half = 1.96 * factor * curve.deviation
-        traces = [panels.band(x, factor * curve.y - half, factor * curve.y + half, ""), look.line(short(x, 5), short(factor * curve.y, 4), look.NOW, hover="%{y} at %{x}")]
+        traces = [
+            panels.band(x, factor * curve.y - half, factor * curve.y + half, ""),
+            look.line(short(x, 5), short(factor * curve.y, 4), look.NOW, hover="%{y} at %{x}"),
+        ]
         layout = look.layout(xaxis=look.axis(amounts.axis_title(curve.name)), yaxis=look.axis(title))
-        made.append(Figure(f"{name}_{slug(curve.name)}", f"beside it, over {curve.name.replace('_', ' ')}", f"{100 * curve.share:.0f} % of the variance; centred.",
-                           traces, layout, 4, 340))  # fmt: skip
+        made.append(
+            Figure(
+                f"{name}_{slug(curve.name)}",
+                f"Beside it, over {curve.name.replace('_', ' ')}",
+                f"{100 * curve.share:.0f} % of the variance; centred.",
+                traces,
+                layout,
+                4,
+                340,
+            )
+        )
     return made
+
+
+def sentence(law: Recovered) -> str:
+    """The best form in words; a constant is no law."""
+    text = law.text.replace(law.signal, amounts.signal_title(law.signal))
+    more = " (no closed form is more credible than a constant)" if law.forms and law.forms[0].name == "constant" else ""
+    return text[:1].upper() + text[1:] + more + "."
 
 
 def leading(name: str, law: Recovered, curve, factor: float, title: str, columns: int) -> Figure:
@@ -41,24 +62,51 @@ def leading(name: str, law: Recovered, curve, factor: float, title: str, columns
     grid = amounts.axis_values(law.leading, curve.x)
     middle, half = factor * (curve.y + level), 1.96 * factor * curve.deviation
     dots = {
-        "type": "scatter", "mode": "markers", "name": "measured, averaged", "x": short(amounts.axis_values(law.leading, x), 5), "y": short(factor * y, 4),
-        "marker": {"color": panels.MEASURED, "size": 5, "opacity": 0.7}, "hovertemplate": "%{y} at %{x}<extra></extra>",
+        "type": "scatter",
+        "mode": "markers",
+        "name": "measured, averaged",
+        "x": short(amounts.axis_values(law.leading, x), 5),
+        "y": short(factor * y, 4),
+        "marker": {"color": panels.MEASURED, "size": 5, "opacity": 0.7},
+        "hovertemplate": "%{y} at %{x}<extra></extra>",
         "error_y": {"type": "data", "array": short(factor * deviation, 3), "thickness": 0.8, "width": 0, "color": "#c9d0d7"},
-    }  # fmt: skip
-    traces = [panels.band(grid, middle - half, middle + half, "95 %"), dots,
-              look.line(short(grid, 5), short(middle, 4), look.NOW, 2.2, hover="curve: %{y} at %{x}") | {"name": "curve"}]  # fmt: skip
+    }
+    traces = [
+        panels.band(grid, middle - half, middle + half, "95 %"),
+        dots,
+        look.line(short(grid, 5), short(middle, 4), look.NOW, 2.2, hover="curve: %{y} at %{x}") | {"name": "curve"},
+    ]
     best = law.forms[0] if law.forms else None
     drawn = evaluated(best, x, curve.x) if best else None
     if drawn is not None:
-        traces.append(look.line(short(grid, 5), short(factor * drawn, 4), FORM_COLOUR, 1.8, "dash", hover="closed form: %{y} at %{x}") | {"name": f"{best.name}: {best.text}"})
+        traces.append(
+            look.line(short(grid, 5), short(factor * drawn, 4), FORM_COLOUR, 1.8, "dash", hover="closed form: %{y} at %{x}")
+            | {"name": f"{best.name}: {best.text}"}
+        )
     held = ""
     if law.held_out_error_before is not None:
-        held = f" With this law the error on runs that were not used goes from {number(law.held_out_error_before)} to {number(law.held_out_error_after)} times the noise."
+        held = (
+            f" With this law the error on runs that were not used goes from {number(law.held_out_error_before)} to "
+            f"{number(law.held_out_error_after)} times the noise."
+        )
     legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}
-    layout = look.layout(xaxis=look.axis(amounts.axis_title(law.leading)), yaxis=look.axis(title), showlegend=True, legend=legend,
-                         margin={"l": 64, "r": 16, "t": 30, "b": 46})
+    layout = look.layout(
+        xaxis=look.axis(amounts.axis_title(law.leading)),
+        yaxis=look.axis(title),
+        showlegend=True,
+        legend=legend,
+        margin={"l": 64, "r": 16, "t": 30, "b": 46},
+    )
     heading = f"{amounts.signal_title(law.signal).capitalize()} over {amounts.TITLES.get(law.leading, law.leading.replace('_', ' '))}"
-    return Figure(name, heading, f"What is left of the misfit after the other dependences, {100 * curve.share:.0f} % of its variance.{held}", traces, layout, columns, 340)
+    return Figure(
+        name,
+        heading,
+        f"What is left of the misfit after the other dependences, {100 * curve.share:.0f} % of its variance.{held}",
+        traces,
+        layout,
+        columns,
+        340,
+    )
 
 
 def evaluated(form: Form, x: np.ndarray, grid: np.ndarray) -> np.ndarray | None:
@@ -74,7 +122,14 @@ def table(law: Recovered) -> Table:
     """Closed forms, most credible first."""
     rows = []
     for form in law.forms[:MOST_FORMS]:
-        intervals = "; ".join(f"{k} = {number(v)} ({number(form.intervals[k][0])} to {number(form.intervals[k][1])})" for k, v in form.parameters.items())
+        intervals = "; ".join(
+            f"{k} = {number(v)} ({number(form.intervals[k][0])} to {number(form.intervals[k][1])})" for k, v in form.parameters.items()
+        )
         rows.append([form.name, form.text, intervals, number(form.error), f"{100 * form.confidence:.0f} %"])
-    note = f"x: {law.leading.replace('_', ' ')} in its SI unit, y: misfit{' / ' + law.factor if law.factor else ''} in SI units; 95 % intervals. Errors are on points left out, in times the noise."
-    return Table(f"Closed forms for {amounts.signal_title(law.signal)}", ["form", "law", "parameters", "error", "confidence"], rows, (3, 4), note)
+    note = (
+        f"x: {law.leading.replace('_', ' ')} in its SI unit, y: misfit{' / ' + law.factor if law.factor else ''} in "
+        "SI units; 95 % intervals. Errors are on points left out, in times the noise."
+    )
+    return Table(
+        f"Closed forms for {amounts.signal_title(law.signal)}", ["form", "law", "parameters", "error", "confidence"], rows, (3, 4), note
+    )

@@ -5,49 +5,83 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.page.amounts import signal_title
+from discrepancy.page.amounts import chance, signal_title
 from discrepancy.page.runs import slug
 from orchestrator.report import look
 from orchestrator.report.look import Figure, short
 from orchestrator.report.result import number
 
-# Ratios from 1 (white) to this are told apart by colour.
+# Ratios from 1 (green) to this are told apart by colour.
 MOST_RATIO = 10.0
 # p down to ten to the power of minus this.
 MOST_DIGITS = 12.0
-MOST_NAMED = 24
+MOST_ROWS = 48
+TESTED = "#eef1f4"
+# As good as the noise; white is left for what was not measured.
+GOOD = "#e6f3ec"
 
 
-def heat(z, x: list[str], y: list[str], text, hover, title: str, low: float, high: float, ticks: Mapping[float, str] | None = None,
-         colours: tuple[str, ...] = ("#ffffff", *look.DEPTH)) -> dict:
+def heat(
+    z,
+    x: list[str],
+    y: list[str],
+    text,
+    hover,
+    title: str,
+    low: float,
+    high: float,
+    ticks: Mapping[float, str] | None = None,
+    colours: tuple[str, ...] = (GOOD, *look.DEPTH),
+) -> dict:
     """A heat map trace with its numbers in the cells."""
-    bar = {"thickness": 10, "outlinewidth": 0, "tickfont": {"size": 11, "color": look.QUIET},
-           "title": {"text": title, "side": "right", "font": {"size": 12, "color": look.QUIET}}}  # fmt: skip
+    bar = {
+        "thickness": 10,
+        "outlinewidth": 0,
+        "tickfont": {"size": 11, "color": look.QUIET},
+        "title": {"text": title, "side": "right", "font": {"size": 12, "color": look.QUIET}},
+    }
     if ticks:
         bar |= {"tickvals": list(ticks), "ticktext": list(ticks.values())}
     return {
-        "type": "heatmap", "z": short(z, 4), "x": x, "y": y, "text": text, "customdata": hover, "texttemplate": "%{text}",
-        "hovertemplate": "%{customdata}<extra></extra>", "zmin": low, "zmax": high, "colorscale": look.colour_scale(colours),
-        "xgap": 2, "ygap": 2, "textfont": {"size": 11}, "colorbar": bar, "hoverongaps": False,
-    }  # fmt: skip
+        "type": "heatmap",
+        "z": short(z, 4),
+        "x": x,
+        "y": y,
+        "text": text,
+        "customdata": hover,
+        "texttemplate": "%{text}",
+        "hovertemplate": "%{customdata}<extra></extra>",
+        "zmin": low,
+        "zmax": high,
+        "colorscale": look.colour_scale(colours),
+        "xgap": 2,
+        "ygap": 2,
+        "textfont": {"size": 11},
+        "colorbar": bar,
+        "hoverongaps": False,
+    }
 
 
 def layout(y: Sequence[str], **more) -> dict:
     """Names at the left, columns' names on top."""
     return look.layout(
         xaxis=look.axis("", type="category", side="top", showgrid=False, ticks="", tickangle=0 if more.pop("level", True) else -35),
-        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""), margin={"l": 60, "r": 20, "t": 40, "b": 10}, **more,
-    )  # fmt: skip
+        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
+        margin={"l": 60, "r": 20, "t": 40, "b": 10},
+        **more,
+    )
 
 
-def grid(title: str, caption: str, name: str, cells: Mapping[tuple[str, str], float], held: set[str] = frozenset(), bar: str = "error / noise") -> Figure:
+def grid(
+    title: str, caption: str, name: str, cells: Mapping[tuple[str, str], float], held: set[str] = frozenset(), bar: str = "error / noise"
+) -> Figure:
     """Ratios over the noise by (row, condition); ``held`` marks conditions that were never fitted."""
     rows, columns = list(dict.fromkeys(r for r, _ in cells)), list(dict.fromkeys(c for _, c in cells))
     columns = [c for c in columns if c not in held] + [c for c in columns if c in held]
     values = np.array([[cells.get((r, c), math.nan) for c in columns] for r in rows])
     z = np.clip(np.log10(np.maximum(values, 1e-3)), 0.0, math.log10(MOST_RATIO))
-    labels = [c + ("<br>(held out)" if c in held else "") for c in columns]
     few = len(columns) <= 14
+    labels = [c + (("<br>" if few else " ") + "(held out)" if c in held else "") for c in columns]
     text = [[number(v, 2) if math.isfinite(v) and few else "" for v in row] for row in values]
     names = [signal_title(r) for r in rows]
     hover = [[f"{n}, {c}: {number(v)} times the noise" for c, v in zip(columns, row)] for n, row in zip(names, values)]
@@ -58,39 +92,44 @@ def grid(title: str, caption: str, name: str, cells: Mapping[tuple[str, str], fl
 
 
 def localisation(prefix: str, places: Sequence[Mapping], level: float) -> list[Figure]:
-    """One map per signal: feature by dependence, coloured by significance; and the single orders."""
-    figures = []
+    """The map of all signals, feature by dependence, coloured by significance; and the single orders of each signal."""
+    named = [p for p in places if not p["feature"].startswith("order ")]
+    figures = [place_map(prefix, named, level)] if named else []
     for signal in sorted({p["signal"] for p in places}):
-        own = [p for p in places if p["signal"] == signal]
-        named = [p for p in own if not p["feature"].startswith("order ")]
-        if named:
-            figures.append(place_map(prefix, signal, named, level))
-        single = [p for p in own if p["feature"].startswith("order ")]
+        single = [p for p in places if p["signal"] == signal and p["feature"].startswith("order ")]
         if single:
             figures.append(comb(prefix, signal, single, level))
-    return sorted(figures, key=lambda f: -f.columns)
+    return figures
 
 
-def place_map(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> Figure:
-    rows = list(dict.fromkeys(p["feature"] for p in places))[:MOST_NAMED]
-    columns = list(dict.fromkeys(p["dependence"] for p in places))
-    columns.sort(key=lambda c: (c != "everywhere", c))
-    at = {(p["feature"], p["dependence"]): p for p in places}
+def place_map(prefix: str, places: Sequence[Mapping], level: float) -> Figure:
+    def row_of(p) -> str:
+        return f"{signal_title(p['signal'])} · {p['feature']}"
+
+    at = {(row_of(p), p["dependence"]): p for p in places}
+    rows = list(dict.fromkeys(row_of(p) for p in sorted(places, key=lambda p: p["signal"])))
+    columns = sorted(dict.fromkeys(p["dependence"] for p in places), key=lambda c: (c != "everywhere", c))
+    dropped = 0
+    if len(rows) > MOST_ROWS:
+        telling = [r for r in rows if any(at[r, c]["p"] <= level for c in columns if (r, c) in at)]
+        dropped, rows = len(rows) - len(telling or rows[:MOST_ROWS]), telling or rows[:MOST_ROWS]
     z = np.array([[strength(at[r, c]["p"]) if (r, c) in at else math.nan for c in columns] for r in rows])
-    text = [[f"{100.0 * at[r, c]['share']:.0f} %" if (r, c) in at and at[r, c]["p"] <= level else "" for c in columns] for r in rows]
+    text = [[percent(at[r, c]["share"]) if (r, c) in at and at[r, c]["p"] <= level else "" for c in columns] for r in rows]
     hover = [[described(at.get((r, c)), level) for c in columns] for r in rows]
-    labels = ["everywhere alike" if c == "everywhere" else f"changes with {c.replace('_', ' ')}" for c in columns]
-    threshold = min(-math.log10(level), 0.8 * MOST_DIGITS)
-    # Below the level all is white: only what is significant takes colour.
-    scale = [[0.0, "#ffffff"], [threshold / MOST_DIGITS, "#f3f5f7"],
-             *[[threshold / MOST_DIGITS + (1.0 - threshold / MOST_DIGITS) * (0.001 + 0.999 * i / 5), c] for i, c in enumerate(look.DEPTH)]]  # fmt: skip
-    ticks = {0.0: "1", threshold: f"{level:.0e}".replace("e-0", "e−"), MOST_DIGITS: f"≤ 1e−{MOST_DIGITS:.0f}"}
+    labels = ["everywhere alike" if c == "everywhere" else f"with {c.replace('_', ' ')}" for c in columns]
+    # Up to the level all is grey: only what is significant takes colour.
+    start = min(-math.log10(max(level, 1e-300)), 0.8 * MOST_DIGITS) / MOST_DIGITS
+    scale = [[0.0, TESTED], [start, TESTED], *[[start + (1.0 - start) * (0.001 + 0.999 * i / 5), c] for i, c in enumerate(look.DEPTH)]]
+    ticks = {0.0: "1", start * MOST_DIGITS: f"{level:.0e}".replace("e-0", "e−"), MOST_DIGITS: f"≤ 1e−{MOST_DIGITS:.0f}"}
     trace = heat(z, labels, rows, text, hover, "p", 0.0, MOST_DIGITS, ticks) | {"colorscale": scale}
     found = sum(p["p"] <= level for p in places)
-    caption = (f"{found} of {len(places)} tests are significant at {level:g} over all tests together; numbers are shares of the whole"
-               " significant misfit, which overlap where features do.")  # fmt: skip
-    wide = 6 if len(columns) <= 3 else 12
-    return Figure(f"{prefix}_{slug(signal)}", signal_title(signal).capitalize(), caption, [trace], layout(rows), wide, 120 + 26 * max(len(rows), 4))
+    caption = (
+        "Left column: alike at all conditions, right of it: changing with a factor. Colour: p over all tests "
+        f"together; grey is tested and not significant at {level:g} ({found} of {len(places)} are). Numbers:"
+        " share of the whole significant misfit; features overlap, so shares need not add to 100 %."
+    )
+    caption += f" {dropped} rows without findings are left out." if dropped else ""
+    return Figure(prefix, "Map of the misfit", caption, [trace], layout(rows), 12, 110 + 27 * max(len(rows), 3))
 
 
 def strength(p: float) -> float:
@@ -98,11 +137,15 @@ def strength(p: float) -> float:
     return min(-math.log10(max(p, 1e-300)), MOST_DIGITS)
 
 
+def percent(share: float) -> str:
+    return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
+
+
 def described(place: Mapping | None, level: float) -> str:
     if place is None:
         return "not tested"
-    verdict = f"{100.0 * place['share']:.0f} % of the misfit" if place["p"] <= level else "not significant"
-    return f"{place['feature']}, {place['dependence']}: {verdict}<br>p = {place['p']:.1g}, {place['statistic']:.1f} against {place['width']} expected"
+    verdict = f"{percent(place['share'])} of the misfit" if place["p"] <= level else "not significant"
+    return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {place['statistic']:.1f} against {place['width']} expected"
 
 
 def comb(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> Figure:
@@ -111,9 +154,18 @@ def comb(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> F
     x = [float(p["feature"].split()[1]) for p in places]
     colours = [look.DEPTH[4] if p["p"] <= level else "#c9d0d7" for p in places]
     bars = {
-        "type": "bar", "x": look.short(x, 5), "y": short([p["statistic"] / p["width"] for p in places], 4), "marker": {"color": colours}, "width": 0.7,
-        "customdata": [described(p, level) for p in places], "hovertemplate": "%{customdata}<extra></extra>",
-    }  # fmt: skip
-    picture = look.layout(xaxis=look.axis("order of the output's turn"), yaxis=look.axis("misfit over noise [variance]", rangemode="tozero"))
+        "type": "bar",
+        "x": look.short(x, 5),
+        "y": short([p["statistic"] / p["width"] for p in places], 4),
+        "marker": {"color": colours},
+        "width": 0.7,
+        "customdata": [described(p, level) for p in places],
+        "hovertemplate": "%{customdata}<extra></extra>",
+    }
+    picture = look.layout(
+        xaxis=look.axis("order of the output's turn"), yaxis=look.axis("misfit over noise [variance]", rangemode="tozero")
+    )
     caption = "Orders that belong to no named part. 1 is what noise alone gives; significant ones are coloured."
-    return Figure(f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 6, 250)
+    return Figure(
+        f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 12, 240
+    )

@@ -7,26 +7,33 @@ import numpy as np
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, slug
-from orchestrator.report import look
 from orchestrator.report.look import Figure, short
 
 CONDITION = "condition"
 
 
-def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
-           caption: str = "") -> Figure:
+def figure(
+    prefix: str,
+    signal: str,
+    runs: Sequence[Run],
+    words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+    caption: str = "",
+) -> Figure:
     """All numbers of one signal; the selector chooses what they are drawn over."""
     unit = runs[0].record.unit
     names = [*varying(runs), CONDITION]
     choices = []
     for name in names:
         axis = panels.x_axis(CONDITION, type="category") if name == CONDITION else panels.x_axis(amounts.axis_title(name), type="linear")
-        choices.append(Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis}))
+        choices.append(
+            Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis})
+        )
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=choices[0].layout["xaxis"])
     traces = [t | u for t, u in zip(template(words), choices[0].traces)]
-    text = caption or f"Bars are two standard deviations of the noise; below, {words[2]}."
-    return Choosable(f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, traces, layout, 6, 360,
-                     asks="over", choices=choices)
+    text = caption or f"Dots: {words[0]}; bars are two standard deviations of the noise. Below, {words[2]}."
+    return Choosable(
+        f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, traces, layout, 6, 360, asks="over", choices=choices
+    )
 
 
 def varying(runs: Sequence[Run]) -> list[str]:
@@ -56,16 +63,27 @@ def template(words: tuple[str, str, str]) -> list[dict]:
     traces = []
     for label, colour, symbol in (("fitted runs", panels.MEASURED, "circle"), ("held-out runs", panels.HELD, "diamond")):
         for axis, word in (("y", words[0]), ("y2", words[2])):
-            traces.append({
-                "type": "scatter", "mode": "markers", "yaxis": axis, "name": f"{word}, {label}", "showlegend": axis == "y",
-                "marker": {"color": colour, "symbol": symbol, "size": 7, "opacity": 0.85},
-                "hovertemplate": f"%{{text}}<br>{word}: %{{y}}<extra></extra>",
-            })  # fmt: skip
-    return [*traces, {
-        "type": "scatter", "mode": "markers", "name": words[1],
-        "marker": {"color": panels.PREDICTED, "symbol": "line-ew-open", "size": 15, "line": {"width": 2.4}},
-        "hovertemplate": f"{words[1]}: %{{y}}<extra></extra>",
-    }]  # fmt: skip
+            traces.append(
+                {
+                    "type": "scatter",
+                    "mode": "markers",
+                    "yaxis": axis,
+                    "name": label,
+                    "showlegend": axis == "y",
+                    "marker": {"color": colour, "symbol": symbol, "size": 7, "opacity": 0.85},
+                    "hovertemplate": f"%{{text}}, {label}<br>{word}: %{{y}}<extra></extra>",
+                }
+            )
+    return [
+        *traces,
+        {
+            "type": "scatter",
+            "mode": "markers",
+            "name": words[1],
+            "marker": {"color": panels.PREDICTED, "symbol": "line-ew-open", "size": 15, "line": {"width": 2.4}},
+            "hovertemplate": f"{words[1]}: %{{y}}<extra></extra>",
+        },
+    ]
 
 
 def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict]:
@@ -74,7 +92,13 @@ def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict]:
     for held in (False, True):
         members = [r for r in runs if r.record.held_out == held]
         x = where(members, name)
-        bars = {"type": "data", "array": short(2.0 * factor * joined(members, lambda r: r.noise), 3), "thickness": 1, "width": 3, "visible": True}
+        bars = {
+            "type": "data",
+            "array": short(2.0 * factor * joined(members, lambda r: r.noise), 3),
+            "thickness": 1,
+            "width": 3,
+            "visible": True,
+        }
         texts = [r.record.name for r in members for _ in r.measured]
         both = {"x": x, "error_y": bars, "text": texts}
         found.append(both | {"y": short(factor * joined(members, lambda r: r.measured), 5)})

@@ -11,10 +11,13 @@ UPPER, LOWER = [0.40, 1.0], [0.0, 0.30]
 def layout(y_title: str, lower_title: str, **more) -> dict:
     legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}
     return look.layout(
-        yaxis=look.axis(y_title, domain=UPPER, automargin=True), showlegend=True, legend=legend,
+        yaxis=look.axis(y_title, domain=UPPER, automargin=True),
+        showlegend=True,
+        legend=legend,
         yaxis2=look.axis(lower_title, domain=LOWER, zeroline=True, zerolinecolor="#aab4be"),
-        margin={"l": 64, "r": 16, "t": 30, "b": 46}, **more,
-    )  # fmt: skip
+        margin={"l": 64, "r": 16, "t": 30, "b": 46},
+        **more,
+    )
 
 
 def x_axis(title: str, **more) -> dict:
@@ -24,6 +27,14 @@ def x_axis(title: str, **more) -> dict:
 def band(x, low, high, name: str, axis: str = "y") -> dict:
     """A closed area between two lines."""
     return {
-        "type": "scatter", "mode": "lines", "x": look.short(np.concatenate([x, x[::-1]]), 5), "y": look.short(np.concatenate([high, low[::-1]]), 4),
-        "fill": "toself", "fillcolor": BAND, "line": {"width": 0}, "hoverinfo": "skip", "name": name, "yaxis": axis,
-    }  # fmt: skip
+        "type": "scatter",
+        "mode": "lines",
+        "x": look.short(np.concatenate([x, x[::-1]]), 5),
+        "y": look.short(np.concatenate([high, low[::-1]]), 4),
+        "fill": "toself",
+        "fillcolor": BAND,
+        "line": {"width": 0},
+        "hoverinfo": "skip",
+        "name": name,
+        "yaxis": axis,
+    }

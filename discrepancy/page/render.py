@@ -20,13 +20,21 @@ def rendered(page: Page) -> str:
     content = []
     for figure in plots:
         choices = figure.choices if isinstance(figure, Choosable) else []
-        content.append({
-            "name": figure.name, "data": figure.data, "layout": figure.layout,
-            "choices": [{"traces": c.traces, "layout": c.layout} for c in choices],
-        })  # fmt: skip
+        content.append(
+            {
+                "name": figure.name,
+                "data": figure.data,
+                "layout": figure.layout,
+                "choices": [{"traces": c.traces, "layout": c.layout} for c in choices],
+            }
+        )
     text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
     template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(TEMPLATE)
     return template.render(
-        page=page, style=inside("page.css") + Markup(STYLE), script=Markup(SCRIPT), plotly=Markup(get_plotlyjs()),
-        content=Markup(text.replace("<", "\\u003c")), has_choices=lambda f: bool(getattr(f, "choices", None)),
-    )  # fmt: skip
+        page=page,
+        style=inside("page.css") + Markup(STYLE),
+        script=Markup(SCRIPT),
+        plotly=Markup(get_plotlyjs()),
+        content=Markup(text.replace("<", "\\u003c")),
+        has_choices=lambda f: bool(getattr(f, "choices", None)),
+    )

@@ -7,16 +7,21 @@ import numpy as np
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, axis_name, slug
-from orchestrator.report import look
 from orchestrator.report.look import Figure, short
 
-MOST_SAMPLES = 1200
+# Samples drawn of one series: fewer where there are many conditions, so that the page stays small.
+SAMPLES, FEWEST, MOST = 40_000, 800, 3_000
 MOST_REPLICATES = 4
 EMPTY = {"x": [], "y": []}
 
 
-def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
-           caption: str = "") -> Figure:
+def figure(
+    prefix: str,
+    signal: str,
+    runs: Sequence[Run],
+    words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+    caption: str = "",
+) -> Figure:
     """Every condition of one signal behind a selector; ``words`` name measured, predicted and their difference."""
     unit = runs[0].record.unit
     cells = by_condition(runs)
@@ -24,16 +29,26 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str,
     axis = axis_name(runs[0].record)
     title = amounts.axis_title(axis)
     traces = template(words, width)
-    choices = [Choice(label, updates(members[:width], unit, width)) for label, members in cells.items()]
-    step = max(stride(run) for run in runs)
+    most = min(max(SAMPLES // len(cells), FEWEST), MOST)
+    choices = [Choice(label, updates(members[:width], unit, width, most)) for label, members in cells.items()]
+    step = max(stride(run, most) for run in runs)
     longest = max(len(members) for members in cells.values())
-    text = caption or f"The band is two standard deviations of the noise between replicates around what is {words[1]}."
+    text = caption or "The band is two standard deviations of the noise between replicates around the blue line."
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
     text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=panels.x_axis(title))
     first = [t | u for t, u in zip(traces, choices[0].traces)]
-    return Choosable(f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, first, layout, 12, 380,
-                     asks="condition", choices=choices)
+    return Choosable(
+        f"{prefix}_{slug(signal)}",
+        amounts.signal_title(signal).capitalize(),
+        text,
+        first,
+        layout,
+        12,
+        380,
+        asks="condition",
+        choices=choices,
+    )
 
 
 def by_condition(runs: Sequence[Run]) -> dict[str, list[Run]]:
@@ -57,24 +72,41 @@ def template(words: tuple[str, str, str], width: int) -> list[dict]:
     for k in range(width):
         look_of = {"opacity": 0.9 - 0.15 * k, "hovertemplate": f"{words[0]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"}
         traces.append(dots | look_of | {"name": words[0], "legendgroup": "measured", "showlegend": k == 0})
-        traces.append(dots | look_of | {"name": words[2], "yaxis": "y2", "showlegend": False,
-                                       "hovertemplate": f"{words[2]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"})
-    traces.append({"type": "scatter", "mode": "lines", "line": {"color": panels.PREDICTED, "width": 1.6}, "name": words[1],
-                   "hovertemplate": f"{words[1]}: %{{y}} at %{{x}}<extra></extra>"})
+        traces.append(
+            dots
+            | look_of
+            | {
+                "name": words[2],
+                "yaxis": "y2",
+                "showlegend": False,
+                "hovertemplate": f"{words[2]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>",
+            }
+        )
+    traces.append(
+        {
+            "type": "scatter",
+            "mode": "lines",
+            "line": {"color": panels.PREDICTED, "width": 1.6},
+            "name": words[1],
+            "hovertemplate": f"{words[1]}: %{{y}} at %{{x}}<extra></extra>",
+        }
+    )
     return traces
 
 
-def updates(members: Sequence[Run], unit: str, width: int) -> list[dict]:
+def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[dict]:
     """What the traces show at one condition."""
     factor, _ = amounts.scale(unit)
-    first = thinned(members[0])
+    first = thinned(members[0], most)
     x, predicted, noise = first[0], factor * first[2], 2.0 * factor * rms(members[0].noise)
     ends = np.array([x.min(), x.max()])
-    found = [points(panels.band(x, predicted - noise, predicted + noise, "")),
-             points(panels.band(ends, np.full(2, -noise), np.full(2, noise), ""))]
+    found = [
+        points(panels.band(x, predicted - noise, predicted + noise, "")),
+        points(panels.band(ends, np.full(2, -noise), np.full(2, noise), "")),
+    ]
     for k in range(width):
         if k < len(members):
-            at, measured, own = thinned(members[k])
+            at, measured, own = thinned(members[k], most)
             found.append({"x": short(at, 5), "y": short(factor * measured, 4)})
             found.append({"x": short(at, 5), "y": short(factor * (measured - own), 3)})
         else:
@@ -86,15 +118,15 @@ def points(trace: dict) -> dict:
     return {k: trace[k] for k in ("x", "y")}
 
 
-def thinned(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(axis, measured, predicted) with at most MOST_SAMPLES samples."""
-    name, step = axis_name(run.record), stride(run)
+def thinned(run: Run, most: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(axis, measured, predicted) with at most ``most`` samples."""
+    name, step = axis_name(run.record), stride(run, most)
     x = amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])
     return x[::step], run.measured[::step], run.predicted[::step]
 
 
-def stride(run: Run) -> int:
-    return max(1, int(np.ceil(run.measured.size / MOST_SAMPLES)))
+def stride(run: Run, most: int) -> int:
+    return max(1, int(np.ceil(run.measured.size / most)))
 
 
 def rms(values) -> float:

@@ -13,18 +13,25 @@ from orchestrator.report.look import Figure, short
 
 MOST_ORDERS = 200
 SHOWN = 24
+# Gaps are bridged if no more than the rest is missing.
+LEAST_KEPT = 0.95
 
 
 def turns(run: Run) -> int:
     """Whole turns of the output that the run covers evenly; 0: none."""
     angle = run.record.axes.get("angle")
-    if angle is None or not run.kept.all() or np.size(angle) != run.kept.size or np.size(angle) < 32:
+    if angle is None or run.kept.mean() < LEAST_KEPT or np.size(angle) != run.kept.size or np.size(angle) < 32:
         return 0
     steps = np.abs(np.diff(angle))
     if np.ptp(steps) > 0.01 * np.median(steps):
         return 0
     whole = (np.ptp(angle) + np.median(steps)) / (2.0 * np.pi)
     return int(round(whole)) if whole > 0.5 and abs(whole - round(whole)) < 1e-3 else 0
+
+
+def bridged(run: Run, values: np.ndarray) -> np.ndarray:
+    """Values of the kept samples at all samples."""
+    return np.interp(np.arange(run.kept.size), np.flatnonzero(run.kept), values)
 
 
 def amplitudes(values: np.ndarray, whole: int) -> np.ndarray:
@@ -42,9 +49,12 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str]
     factor, _ = amounts.scale(unit)
     spectra = {}
     for label, members in cells.items():
-        alike = [r for r in members if turns(r) == turns(members[0]) and r.measured.size == members[0].measured.size]
-        mean = np.mean([r.measured for r in alike], axis=0)
-        spectra[label] = (factor * amplitudes(mean, turns(alike[0])), factor * amplitudes(alike[0].predicted, turns(alike[0])))
+        alike = [r for r in members if turns(r) == turns(members[0]) and r.kept.size == members[0].kept.size]
+        mean = np.mean([bridged(r, r.measured) for r in alike], axis=0)
+        spectra[label] = (
+            factor * amplitudes(mean, turns(alike[0])),
+            factor * amplitudes(bridged(alike[0], alike[0].predicted), turns(alike[0])),
+        )
     size = min(len(a) for pair in spectra.values() for a in pair)
     most = np.max([np.maximum(a[:size], b[:size]) for a, b in spectra.values()], axis=0)
     most[0] = 0.0
@@ -52,13 +62,34 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str]
     names = [str(o) for o in orders]
     choices = [Choice(label, [{"y": short(a[orders], 4)}, {"y": short(b[orders], 4)}]) for label, (a, b) in spectra.items()]
     data = [
-        {"type": "bar", "name": word, "x": names, "marker": {"color": colour}, "hovertemplate": f"order %{{x}}, {word}: %{{y}}<extra></extra>"}
+        {
+            "type": "bar",
+            "name": word,
+            "x": names,
+            "marker": {"color": colour},
+            "hovertemplate": f"order %{{x}}, {word}: %{{y}}<extra></extra>",
+        }
         for word, colour in zip(words, (look.START, look.NOW))
-    ]  # fmt: skip
+    ]
     legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}
-    layout = look.layout(barmode="group", showlegend=True, legend=legend, xaxis=look.axis("order of the output's turn", type="category", tickangle=0),
-                         yaxis=look.axis(amounts.signal_axis(signal, unit), rangemode="tozero"), margin={"l": 64, "r": 16, "t": 30, "b": 46})
+    layout = look.layout(
+        barmode="group",
+        showlegend=True,
+        legend=legend,
+        xaxis=look.axis("order of the output's turn", type="category", tickangle=0),
+        yaxis=look.axis(amounts.signal_axis(signal, unit), rangemode="tozero"),
+        margin={"l": 64, "r": 16, "t": 30, "b": 46},
+    )
     first = [t | u for t, u in zip(data, choices[0].traces)]
     caption = f"Amplitudes of the mean of the replicates, at the {len(orders)} largest of the orders 1 to {size - 1}."
-    return Choosable(f"{prefix}_{slug(signal)}", f"{amounts.signal_title(signal).capitalize()}: orders", caption, first, layout, 12, 260,
-                     asks="condition", choices=choices)
+    return Choosable(
+        f"{prefix}_{slug(signal)}",
+        f"{amounts.signal_title(signal).capitalize()}: orders",
+        caption,
+        first,
+        layout,
+        12,
+        260,
+        asks="condition",
+        choices=choices,
+    )

@@ -3,6 +3,7 @@
 STYLE = """
 :root { --good: #00705a; --fair: #9a6a00; --bad: #b3401b; --plain: #0b4f94; }
 .good { --tone: var(--good); } .fair { --tone: var(--fair); } .bad { --tone: var(--bad); } .plain { --tone: var(--plain); }
+.cards { grid-template-columns: repeat(auto-fit, minmax(176px, 1fr)); }
 .card .values { color: var(--tone); white-space: normal; }
 .warnings { list-style: none; margin: 0 0 24px; padding: 0; font-size: 13.5px; }
 .warnings li { border-left: 3px solid #e0a000; background: #fff9ec; padding: 5px 12px; margin-bottom: 4px; max-width: 88em; }

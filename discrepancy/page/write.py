@@ -12,9 +12,12 @@ from discrepancy.page.render import rendered
 from discrepancy.verdict import Answer
 
 MAKERS = {
-    Comparison: comparison.page, Answer: answer.page, Extension: extension.extension_page, ModelFile: extension.model_page,
+    Comparison: comparison.page,
+    Answer: answer.page,
+    Extension: extension.extension_page,
+    ModelFile: extension.model_page,
     NextRun: next_experiment.page,
-}  # fmt: skip
+}
 
 
 def page_of(result) -> Page:

@@ -16,7 +16,7 @@ SHOWN_BY = {
     "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"),
 }  # fmt: skip
 # Searched by hand only: which pin stands out is a search of its own.
-NOT_SEARCHED = {"proud pin"}
+NOT_SEARCHED = {"proud"}
 
 
 def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
@@ -32,7 +32,7 @@ def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[Effect
     for p in effect.parameters:
         if p.kind == "shape":
             for name, (_, shapes) in found.items():
-                if p.group in ("", name):
+                if not p.group or name in p.group.split():
                     shapes.append(p)
     return found
 

@@ -83,8 +83,9 @@ def hysteresis(bench, record, values):
         return locked_output(bench, record, values)
     torques = np.asarray(record.axes["torque"], float)
     condition = held_condition(bench, record)
-    # The loop is entered from no torque, as the bench does.
-    lead = np.linspace(0.0, torques[0], 9)[:-1]
+    # The loop is entered from little torque; with none the output floats and has no place.
+    first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
+    lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
     turning = bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
     return turning + values.get(level(record), 0.0)
 

@@ -1,8 +1,10 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
+import difflib
 import multiprocessing
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -11,41 +13,52 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, angle_zero
 from discrepancy.problem import Candidate, Parameter, Record
+from orchestrator.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.
 ZEROED = ("transmission_error", "hysteresis")
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
+# Nuisances that are no parameters of the reducer.
+ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
+# Error, over the size of the quantity, of values that are impossible.
+IMPOSSIBLE = 100.0
+# Share of the rated torque below which a held output has no defined place.
+FLOATING = 0.01
 
 
 class PhysicalModel:
-    """Predicts a campaign's records with the compiled kernels.
+    """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
     ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
     """
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
-                 jobs: int = 1):
+                 jobs: int = 1, fmus: Path | None = None):
         self.file, self.campaign, self.jobs = model, campaign, jobs
-        self.records: list[Record] = [r for r in campaign.records if r.quantity in OBSERVED]
+        self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
-        self.bench = Bench(model.reducer, {n: v for n, v in present.items() if "[" not in n})
+        settings = {n: v for n, v in present.items() if "[" not in n}
+        self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
-        self.per = {n.parameter.name: n.per for n in campaign.nuisances}
+        nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
+        self.require_known(nuisances)
+        self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
-        declared = tuple(p for n in campaign.nuisances for p in expanded(n, self.records))
+        declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         if zeros is None:
-            self.align()
+            self.align(always=len(nuisances) < len(campaign.nuisances))
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
-        if any(r.quantity.startswith("vibration") for r in self.records) and "housing_mass" not in self.per:
-            self.nuisances += (Parameter("housing_mass", "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
-        excluded = {n.parameter.name for n in campaign.nuisances}
+        if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
+            self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
+        excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins
@@ -59,10 +72,24 @@ class PhysicalModel:
             for name, zero in self.zeros.items()
         ]  # fmt: skip
 
-    def align(self) -> None:
+    def require_known(self, nuisances: Sequence[Nuisance]) -> None:
+        """InputFault for a nuisance that is no parameter of the model."""
+        scalars = {v.name for table in self.bench.tables for v in table.of_role("parameter", "input") if not v.shape}
+        for name in (n.parameter.name for n in nuisances):
+            if name not in scalars | {HOUSING_MASS} and name.partition("[")[0] not in CHAIN_PARAMETERS:
+                close = difflib.get_close_matches(name, scalars | CHAIN_PARAMETERS, 2)
+                hint = f"; did you mean {' or '.join(close)}?" if close else ""
+                raise InputFault(
+                    f"{self.campaign.folder}: nuisances.{name}: the model has no such parameter{hint} docs/variables.md lists those of the"
+                    f" reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
+                    f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
+                )
+
+    def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.
 
-        A zero that the campaign shares with the model stays 0 and is not estimated.
+        A zero that the campaign shares with the model stays 0 and is not estimated, unless the campaign
+        declares the encoder's phase as unknown (``always``).
         """
         by_mounting: dict[str, list[int]] = {}
         for i, record in enumerate(self.records):
@@ -79,7 +106,7 @@ class PhysicalModel:
                 misfits.append(float(np.sum((record.values - predicted) ** 2)))
             best = int(np.argmin(misfits))
             at_zero = misfits[PHASES // 2]
-            if at_zero <= 1.02 * misfits[best]:
+            if at_zero <= 1.02 * misfits[best] and not always:
                 continue
             self.zeros[name] = float(shifts[best])
 
@@ -103,7 +130,14 @@ class PhysicalModel:
 
     def one(self, record: Record, values: Mapping[str, float]) -> np.ndarray:
         own = self.for_record(record, values)
-        predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
+        try:
+            predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
+        except RunFault:
+            if not self.bench.relevant(values, True):
+                raise
+            # Values at which the reducer finds no equilibrium fit badly; they end no search.
+            signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
+            return record.values + IMPOSSIBLE * self.sizes[record.quantity] * signs
         for name, module in MODULES.items():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
             place = places[module.PER]
@@ -134,6 +168,18 @@ _FORKED: PhysicalModel | None = None
 
 def _predict_forked(values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
     return _FORKED.predict(values, which)
+
+
+def defined(record: Record, campaign: Campaign) -> Record:
+    """A loop without the samples near no torque, where the output floats in its clearances."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes:
+        return record
+    torque = np.asarray(record.axes["torque"], float)
+    rated = campaign.rated_torque or float(np.abs(torque).max())
+    kept = np.abs(torque) > FLOATING * rated
+    if kept.all():
+        return record
+    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
 
 
 def typical_size(records: list[Record]) -> float:

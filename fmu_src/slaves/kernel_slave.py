@@ -17,16 +17,11 @@ from pythonfmu.enums import Fmi2Status
 import fmu_src
 from fmu_src.native import host_triple, load_object
 from fmu_src.source_hash import LOADED_HASH, STAMP, source_hash
-from fmu_src.unit import LOG_CATEGORIES, UnitFault, make_unit
+from fmu_src.state import INSTANTIATED, STEPPING, State, StateFault, pack, unpack
+from fmu_src.unit import LOG_CATEGORIES, LONGEST_STEP, UnitFault, make_unit
 from fmu_src.variables import ValueFault
 
 OBJECT_CODE = "unit.o"
-
-
-
-def state_mark(guid: str) -> bytes:
-    """Leads every state: one of another unit, build or reducer is refused, as is one cut off."""
-    return b"RVstate2" + guid.strip("{}").replace("-", "")[:16].encode()
 
 
 def add_reference(held: object) -> None:
@@ -52,7 +47,10 @@ class KernelSlave(Fmi2Slave):
         self.integers = self.cells.view("i8")
         self.lowest, self.highest = self.table.bounds
         self.initialised = False
-        self.state_mark = state_mark(self.stamp["guid"])
+        # Whether outputs asked for in initialisation mode have to be computed anew.
+        self.initialising = self.stale = False
+        self.first_output = self.table.offset[self.table.of_role("output")[0].name]
+        self.time = 0.0
         self.lists: dict[tuple[bool, int, int], tuple[list[int], np.ndarray]] = {}
         self.initialise, self.step = self.entry_points(folder)
 
@@ -102,21 +100,41 @@ class KernelSlave(Fmi2Slave):
 
     # FMI life cycle
 
+    def enter_initialization_mode(self):
+        self.initialising = self.stale = True
+
+    def compute_initial_outputs(self) -> None:
+        """Some masters exchange values before they leave initialisation mode, as the standard allows."""
+        self.stale = False
+        self.attempt(self.initialise, 0.0, changes=True)
+
     def exit_initialization_mode(self):
-        self.require_success(self.initialise(), 0.0)
-        self.initialised = True
+        self.compute_initial_outputs()
+        self.initialising, self.initialised = False, True
 
     def do_step(self, current_time, step_size):
         if not self.initialised:
             self.fail(f"{self.table.name}: a step before initialisation; enter and exit initialisation mode first")
-        if not 0.0 <= step_size < np.inf:
-            self.fail(f"{self.table.name}: communication step of {step_size} s: give a finite one that is not negative")
-        self.require_success(self.step(current_time, step_size), current_time)
+        if not 0.0 < step_size <= LONGEST_STEP:
+            self.fail(
+                f"{self.table.name}: at time {current_time:.9g} s: communication step of {step_size:g} s:"
+                f" give a positive one of at most {LONGEST_STEP:g} s"
+            )
+        self.attempt(
+            lambda: self.step(current_time, step_size), current_time, changes=not self.unit.refuses_before_change
+        )
+        self.time = current_time + step_size
         return True
 
-    def require_success(self, code: int, time: float) -> None:
+    def attempt(self, entry_point, time: float, changes: bool) -> None:
+        """Run an entry point; on a fault the state is what it was. ``changes`` says that a fault may leave changes."""
+        before = self.cells[: self.table.state_cells].copy() if changes else None
+        code = entry_point()
         if code != 0:
-            self.fail(self.unit.fault_text(code, self.records, time))
+            text = self.unit.fault_text(code, self.records, time)
+            if before is not None:
+                self.cells[: self.table.state_cells] = before
+            self.fail(text)
 
     # values
 
@@ -135,9 +153,13 @@ class KernelSlave(Fmi2Slave):
         return known[1]
 
     def get_real(self, vrs):
+        if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
+            self.compute_initial_outputs()
         return self.cells[self.index(vrs, False)].tolist() if vrs else []
 
     def get_integer(self, vrs):
+        if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
+            self.compute_initial_outputs()
         return self.integers[self.index(vrs, True)].tolist() if vrs else []
 
     def set_real(self, vrs, values):
@@ -160,22 +182,22 @@ class KernelSlave(Fmi2Slave):
             fixed = self.table.element_at(int(index[self.table.fixed_cells[index]][0]))[1]
             self.fail(f"{self.table.name}: {fixed} is fixed once the unit is initialised; reset the unit to change it")
         cells[index] = given
+        self.stale = True
 
-    # state: bytes that begin with the unit's mark, the same in memory and serialised
+    # state: the block of fmu_src.state, the same in memory and serialised
 
     def _get_fmu_state(self):
-        return self.state_mark + self.cells[: self.table.state_cells].tobytes()
+        phase = STEPPING if self.initialised else INSTANTIATED
+        return pack(self.stamp["guid"], State(self.cells[: self.table.state_cells], phase, self.time))
 
     def _set_fmu_state(self, state):
-        expected = len(self.state_mark) + 8 * self.table.state_cells
-        if not state.startswith(self.state_mark) or len(state) != expected:
-            self.fail(f"{self.table.name}: {len(state)} bytes that are not a state of this unit ({expected} bytes)")
-        cells = np.frombuffer(state, "f8", offset=len(self.state_mark))
-        real = cells[: self.table.interface_cells][~self.table.integer_cells]
-        if not np.isfinite(real).all():
-            self.fail(f"{self.table.name}: this state holds values that are not finite")
-        self.cells[: self.table.state_cells] = cells
-        self.initialised = True
+        try:
+            saved = unpack(self.stamp["guid"], state, self.table.state_cells)
+        except StateFault as fault:
+            self.fail(f"{self.table.name}: {fault}")
+        self.cells[: self.table.state_cells] = saved.cells
+        self.initialised = saved.phase == STEPPING
+        self.time = saved.time
 
     @staticmethod
     def _fmu_state_to_bytes(state):

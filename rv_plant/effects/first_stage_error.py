@@ -33,7 +33,7 @@ EFFECT = Effect(
         amplitude("backlash", "m", "play between the flanks, along the normal", 20 * UM, 0.0, 1000 * UM, sign=1,
                   source="assumed: none, as in both sources", group="backlash"),
         shape("first_stage_phase", "rad", "the sun's phase at angle 0", 0.0, -7.0, 7.0, "assumed",
-              grid=(0.0, 1.5708, 3.1416, 4.7124)),
+              grid=(0.0, 1.5708, 3.1416, 4.7124), group="mesh sun planet"),
     ),
     signals=("transmission_error", "vibration", "lost_motion", "hysteresis", "input_torque"),
 )

@@ -34,7 +34,7 @@ EFFECT = Effect(
         shape("stribeck_speed", "m/s", "speed v_s at which static friction has gone", 0.02, 1e-4, 1.0, "assumed: 5 to 50 mm/s",
               grid=(0.005, 0.02, 0.05), group="mesh"),
         shape("presliding_angle", "rad", "turning theta_p of the held output at which half the elements slip", 2e-5, 1e-7,
-              1e-2, "assumed: 4 arcsec"),
+              1e-2, "assumed: 4 arcsec", grid=(5e-6, 2e-5, 1e-4), group="mesh"),
     ),
     states=(
         Variable("slider", "state", "rad", "where the elastic-slip elements are free of force", 0.0, (ELEMENTS,), ("element",)),

@@ -14,7 +14,7 @@ from fmu_src.effect import Effect, amplitude, shape
 from fmu_src.kernel import kernel
 
 HOUR = 3600.0
-WEAR = ("wear_profile", "wear_depth", "mass_loss", "lost_motion", "transmission_error", "pin_on_disc", "debris")
+WEAR = ("wear_profile", "wear_depth", "mass_loss", "lost_motion", "pin_on_disc", "debris")
 EFFECT = Effect(
     1, "running-in",
     "k(s) = k_ss [1 + (r - 1) exp(-s/s_0)]",

@@ -9,7 +9,7 @@ from benchmarks.blind_trial.generator.truth import Truth, worn_places
 
 UM = 1e-6
 ARCSEC = math.pi / 648000.0
-BOTH = ("transmission_error", "hysteresis")
+BOTH = ("transmission_error", "hysteresis", "vibration_order")
 WEAR = ("wear_depth", "wear_profile")
 PINS, LOBES = 40, 39
 LEVER = 21e-3 * math.cos(math.radians(20.0))
@@ -52,7 +52,7 @@ class RaceHollow(Truth):
 class PinRing(Truth):
     """Pins out of place by a Fourier series over the ring, one harmonic dominant, 8 % of others and of scatter."""
 
-    name, effect, blocks, quantities = "pin positions by harmonics", "pin_position_errors", ("te",), ("transmission_error", "hysteresis")
+    name, effect, blocks, quantities = "pin positions by harmonics", "pin_position_errors", ("te",), BOTH
     typical, low, high = 1.5 * UM, 0.05 * UM, 12 * UM
 
     def draw(self, rng):
@@ -74,7 +74,7 @@ class PinRing(Truth):
 class DiscTeeth(Truth):
     """Discs ground with a wandering centre: profile by harmonics, pitch as an integrated random walk."""
 
-    name, effect, blocks, quantities = "disc teeth by harmonics", "disc_tooth_errors", ("te",), ("transmission_error",)
+    name, effect, blocks, quantities = "disc teeth by harmonics", "disc_tooth_errors", ("te",), BOTH
     typical, low, high = 1.5 * UM, 0.05 * UM, 12 * UM
 
     def draw(self, rng):
@@ -115,7 +115,7 @@ class Relief(Truth):
 class Lobe(Truth):
     """One lobe of a crank ground off centre, the others within a tenth of it."""
 
-    name, effect, blocks, quantities = "crank lobe off centre", "crank_lobe_errors", ("te",), ("transmission_error",)
+    name, effect, blocks, quantities = "crank lobe off centre", "crank_lobe_errors", ("te",), BOTH
     typical, low, high = 1.0 * UM, 0.02 * UM, 10 * UM
 
     def draw(self, rng):
@@ -134,7 +134,7 @@ class Lobe(Truth):
 class Hole(Truth):
     """One hole bored off its place, along the circle and a little radially."""
 
-    name, effect, blocks, quantities = "hole off its place", "hole_position_errors", ("te",), ("transmission_error",)
+    name, effect, blocks, quantities = "hole off its place", "hole_position_errors", ("te",), BOTH
     typical, low, high = 1.0 * UM, 0.02 * UM, 12 * UM
 
     def draw(self, rng):
@@ -210,18 +210,43 @@ class Warming(Truth):
         p["pin_position_error_radial"][0] += self.sign * self.a * 52e-3 * warm * (1.0 + self.curve * warm / 40.0)
 
 
-class DryFriction(Truth):
-    """Stribeck curve of Gaussian form for the mesh as a whole; held, Dahl's model of the loop."""
+def dahl(torque: np.ndarray, y: np.ndarray, share: float, least: float, way: float) -> np.ndarray:
+    """A loop with Dahl's friction: the turning follows the torque less a force that grows with the way and
+    saturates at ``share`` of the torque and ``least`` [N m]."""
+    order = np.argsort(torque, kind="stable")
+    grid, first = np.unique(torque[order], return_index=True)
+    curve = y[order][first]
+    slope = np.gradient(curve, grid)
+    total, force, found = float(torque[0]), 0.0, np.zeros(len(torque))
+    for i in range(len(torque)):
+        step = torque[i] - torque[i - 1] if i else 0.0
+        for _ in range(12):
+            # In small steps: the spring's turning and the friction force move together.
+            total += step / 12.0
+            move = np.interp(total, grid, slope) * step / 12.0
+            most = share * abs(total) + least
+            rate = 1.0 - force / most * math.copysign(1.0, move)
+            force = np.clip(force + most / way * move * rate, -most, most)
+        found[i] = np.interp(total - force, grid, curve)
+    return found - found.mean()
 
-    name, effect, blocks, quantities = "friction with a velocity minimum", "stribeck_friction", ("torque",), ("input_torque",)
+
+class DryFriction(Truth):
+    """Stribeck curve of Gaussian form for the mesh as a whole; with the input held, Dahl's model."""
+
+    name, effect, blocks, quantities = "friction with a velocity minimum", "stribeck_friction", ("torque",), ("input_torque", "hysteresis")
     typical, low, high = 0.01, 1e-5, 0.12
 
     def draw(self, rng):
         self.static = float(rng.uniform(0.5, 2.0))
         self.speed = float(rng.uniform(0.008, 0.05))
         self.viscous = float(rng.uniform(0.0, 0.6))
+        self.way = 2e-5 * float(np.exp(rng.uniform(-0.5, 0.5)))
 
     def post(self, series, y, rows):
+        if series.quantity == "hysteresis":
+            most = self.a * (1.0 + self.static)
+            return dahl(series.axes["torque"], y, 1.35 * most, 0.5 * most, self.way)
         speed = np.array([s.speed for s in rows])
         load = np.array([s.load for s in rows])
         v = 0.08 * speed / 209.4
@@ -229,34 +254,10 @@ class DryFriction(Truth):
         return y + mu * (1.45 * load / 0.052) * v / speed
 
 
-class DahlLoop(Truth):
-    """Dahl's friction in the loop: the held torque lags by a force that grows with the way and saturates with the load."""
+class DahlLoop(DryFriction):
+    """The same friction, shown by loops: Dahl's model; in the torque the Gaussian curve."""
 
-    name, effect, blocks, quantities = "Dahl friction in the loop", "stribeck_friction", ("loops",), ("hysteresis",)
-    typical, low, high = 0.01, 1e-5, 0.2
-
-    def draw(self, rng):
-        self.way = 2e-5 * float(np.exp(rng.uniform(-0.5, 0.5)))
-
-    def post(self, series, y, rows):
-        torque = np.asarray(series.axes["torque"])
-        order = np.argsort(torque, kind="stable")
-        grid, first = np.unique(torque[order], return_index=True)
-        curve = y[order][first]
-        slope = np.gradient(curve, grid)
-        total, force, out = 0.0, 0.0, np.zeros(len(torque))
-        place = np.interp(torque[0], grid, curve)
-        for i in range(len(torque)):
-            step = torque[i] - torque[i - 1] if i else 0.0
-            for _ in range(12):
-                # Implicit in small steps: the spring's turning and the friction force move together.
-                total += step / 12.0
-                way = np.interp(total, grid, slope) * step / 12.0
-                most = self.a * (0.9 * abs(total) + 2.0) * 1.3
-                rate = (1.0 - force / most * math.copysign(1.0, way)) if most > 0.0 else 0.0
-                force = np.clip(force + most / self.way * way * rate, -most, most)
-            out[i] = np.interp(total - force, grid, curve) - place
-        return out - out.mean()
+    name, blocks = "Dahl friction in the loop", ("loops",)
 
 
 class Drag(Truth):

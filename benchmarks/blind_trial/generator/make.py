@@ -96,10 +96,11 @@ def blocks_for(rng, task: Task, truths: list[Truth]) -> list[str]:
     """Blocks that show the laws, and one that has nothing to do with them."""
     blocks = list(dict.fromkeys(b for t in truths for b in t.blocks))
     # The first block of a law shows it; further ones come by chance, except prints, which need their lives.
-    if len(truths) == 1 and len(blocks) > 1 and "prints" not in blocks and rng.random() < 0.5:
+    if len(truths) == 1 and len(blocks) > 1 and "prints" not in blocks and (task.size == "tiny" or rng.random() < 0.5):
         blocks = blocks[:1]
-    if task.size == "small":
-        return blocks or [str(rng.choice(["te", "loops", "torque", "cage"]))]
+    if task.size in ("tiny", "small"):
+        cheap = ["loops", "torque", "cage"]
+        return blocks or [str(rng.choice(cheap if task.size == "tiny" else ["te", *cheap]))]
     others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks]
     odds = np.array([0.25, 0.25, 0.3, 0.1, 0.05 if blocks else 0.15, 0.05])[[("te", "loops", "torque", "cage", "wear", "vibration").index(b) for b in others]]
     count = 1 if blocks else int(rng.integers(1, 4))
@@ -124,8 +125,7 @@ def measure(rng, design: Design, bench: Bench, truths: list[Truth]) -> list[dict
     for number, s in enumerate(design.series):
         for k in range(s.replicates):
             axes = copy.deepcopy(s.axes)
-            turning = design.turning_cage and s.quantity == "transmission_error"
-            cage = float(rng.uniform(0.0, 6.28)) if turning else 0.3
+            cage = float(rng.uniform(0.0, 6.28)) if s.quantity == "transmission_error" else 0.3
             if design.uneven and "angle" in axes:
                 step = axes["angle"][1] - axes["angle"][0]
                 axes["angle"] = np.sort(axes["angle"] + rng.uniform(-0.35, 0.35, len(axes["angle"])) * step)

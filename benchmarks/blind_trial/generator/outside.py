@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.laws import ARCSEC, PINS, UM, Wearing
+from benchmarks.blind_trial.generator.laws import ARCSEC, BOTH, PINS, UM, Wearing
 from benchmarks.blind_trial.generator.truth import Truth
 
 
@@ -80,7 +80,7 @@ class WarmRipple(Angular):
 class OddPins(Truth):
     """Every pin out of place by its own normal number."""
 
-    name, blocks, quantities = "pins at random", ("te",), ("transmission_error",)
+    name, blocks, quantities = "pins at random", ("te",), BOTH
     typical, low, high = 1.0 * UM, 0.05 * UM, 8 * UM
     acceptable = ("pin_position_errors",)
 

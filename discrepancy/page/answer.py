@@ -1,0 +1,99 @@
+"""The page of a diagnosis: the verdict, what it rests on, and what was turned down."""
+
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.page import amounts, comparison, response
+from discrepancy.page.content import Card, Page
+from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
+from discrepancy.page.runs import runs_of
+from discrepancy.verdict import Answer
+from orchestrator.report.result import number
+
+TONES = {ONE: "good", NONE: "good", SEVERAL: "good", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+
+
+def page(answer: Answer) -> Page:
+    diagnosis = answer.diagnosis
+    space = diagnosis.fits.get("space")
+    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records))))) if space else []
+    place = diagnosis.localisation
+    localised = comparison.localisation_section(place.get("map", []), place.get("conditions", {}), place.get("level", 0.0))
+    laws_found = [recovered(answer)] if answer.verdict in (UNKNOWN, INCOMPLETE) or answer.laws else []
+    if answer.effects:
+        sections = [
+            effects(answer),
+            *([response.section(answer)] if space and diagnosis.fits.get("members") else []),
+            held_out(answer),
+            *([confusable(answer)] if answer.confusable or diagnosis.alternatives or diagnosis.correlations else []),
+            *laws_found,
+            localised,
+            rivals(answer),
+        ]
+    else:
+        sections = [localised, *laws_found, rivals(answer)]
+    where = comparison.conditions(answer.model, runs) if runs else ""
+    return Page(
+        "Diagnosis: which effect does the model lack?",
+        comparison.title(answer.model),
+        where,
+        sentence(answer),
+        cards(answer),
+        sections,
+        answer.warnings,
+    )
+
+
+def sentence(answer: Answer) -> str:
+    """The verdict as one would say it."""
+    names = [named(e) for e in answer.effects]
+    best = answer.effects[0] if answer.effects else None
+    share = f" It explains {100.0 * best['share_explained']:.0f} % of the misfit" if best else ""
+    if best and best["held_out_error_before"] is not None:
+        share += (
+            f", and takes the error on unused conditions from {number(best['held_out_error_before'])} to "
+            f"{number(best['held_out_error_after'])} times the noise"
+        )
+    texts = {
+        NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
+        ONE: f"The model lacks {listed(names)}.{share}.",
+        SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
+        SEVERAL: f"The model lacks several effects together: {listed(names)}.",
+        INCOMPLETE: (
+            f"{listed(names).capitalize()} explain{'s' if len(names) == 1 else ''} "
+            f"{100.0 * answer.diagnosis.captured:.0f} % of the misfit, but something else is left that no effect of the "
+            "catalogue explains."
+        ),
+        UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
+    }
+    reason = answer.diagnosis.reason
+    return texts.get(answer.verdict, answer.verdict) + (
+        f" ({reason[:1].upper() + reason[1:]}.)" if answer.verdict in (UNKNOWN, SEVERAL) else ""
+    )
+
+
+def cards(answer: Answer) -> list[Card]:
+    diagnosis = answer.diagnosis
+    made = [Card("Verdict", answer.verdict, diagnosis.reason, tone=TONES.get(answer.verdict, "plain"))]
+    if answer.effects:
+        best = answer.effects[0]
+        made.append(Card("Share of the misfit explained", f"{100.0 * diagnosis.captured:.0f} %", f"best: {named(best)}"))
+        if best["held_out_error_before"] is not None:
+            better = best["held_out_error_after"] < best["held_out_error_before"]
+            made.append(
+                Card(
+                    "Error on unused conditions",
+                    number(best["held_out_error_after"]),
+                    f"with {named(best)}",
+                    number(best["held_out_error_before"]),
+                    "times noise",
+                    "good" if better else "bad",
+                )
+            )
+    made.append(
+        Card(
+            "Findings of the localisation",
+            str(len(diagnosis.localisation.get("findings", []))),
+            f"smallest {amounts.chance(diagnosis.p_localise)}",
+        )
+    )
+    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together"))
+    return made

@@ -1,0 +1,185 @@
+"""The parts of a diagnosis's page: effects, unused conditions, what cannot be separated, rivals, laws."""
+
+from discrepancy.inference.series import stream_of
+from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
+from discrepancy.page import amounts, bars, laws, maps
+from discrepancy.page.amounts import effect_title as words
+from discrepancy.page.content import Section, Table
+from discrepancy.verdict import Answer
+from orchestrator.report import look
+from orchestrator.report.look import Figure
+from orchestrator.report.result import number
+
+MOST_RIVALS = 12
+
+
+def named(effect: dict) -> str:
+    return words(effect["name"]) + (f" ({effect['variant'].replace('_', ' ')})" if effect.get("variant") else "")
+
+
+def listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1] if names else ""
+
+
+def effects(answer: Answer) -> Section:
+    """Parameters with intervals, and each effect's share."""
+    rows = []
+    for effect in answer.effects:
+        first = True
+        for name, entry in effect["parameters"].items():
+            value, interval, unit = amounts.estimate(entry)
+            bound = "at a bound of its range" if entry.get("at_bound") else ""
+            rows.append([named(effect) if first else "", effect["part"] if first else "", name, value, interval, unit, bound])
+            first = False
+    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4))
+    lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
+        answer.verdict, "As fitted to the runs that are not held out."
+    )
+    names, shares = [named(e) for e in answer.effects], [100.0 * e["share_explained"] for e in answer.effects]
+    figure = bars.single(
+        "shares",
+        "Share of the misfit explained",
+        "What an effect takes off the chi-square, of all that is more than noise.",
+        names,
+        shares,
+        "share [%]",
+        [look.NOW] * len(names),
+        [f"{s:.0f} %" for s in shares],
+        12,
+        range=[0.0, 112.0],
+    )
+    return Section("effects", "Effects", lead, [figure] if answer.verdict != SET and (len(names) > 1 or shares[0] < 99.5) else [], [table])
+
+
+def held_out(answer: Answer) -> Section:
+    """Error on what was never fitted, before and after."""
+    measured = [e for e in answer.effects if e["held_out_error_before"] is not None]
+    if not measured:
+        return Section(
+            "held-out", "On unused conditions", "No run was held out: nothing says how the effect does on conditions that were not fitted."
+        )
+    rows = answer.diagnosis.held_out
+    left_out = any(v.get("kind") for v in rows.values())
+    lead = (
+        "No run was held out: each condition was left out in turn."
+        if left_out
+        else (
+            "Runs that no parameter was fitted to. 1 is what replicates differ by; the error is taken over the "
+            "patterns that carried the misfit, and the effects' own."
+        )
+    )
+    names = [named(e) for e in measured]
+    if answer.verdict in (SEVERAL, INCOMPLETE):
+        # Fitted together, judged together.
+        names, measured = [" + ".join(names)], measured[:1]
+    before, after = [e["held_out_error_before"] for e in measured], [e["held_out_error_after"] for e in measured]
+    hover = [f"{number(v)} times the noise" for v in before], [f"{number(v)} times the noise" for v in after]
+    figures = [bars.pairs("held_out", "Error before and after", "In the patterns that matter.", names, before, after, hover)]
+    signals = next((v["rms"] for v in rows.values() if v.get("rms")), {})
+    if signals:
+        figures.append(by_signal(answer, signals, names[0]))
+    return Section("held-out", "On unused conditions", lead, figures)
+
+
+def by_signal(answer: Answer, signals: dict, effect: str) -> Figure:
+    """Plain root mean squares of every sample, signal by signal."""
+    space = answer.diagnosis.fits.get("space")
+    units = {stream_of(r): r.unit for r in space.records} if space else {}
+    names = list(signals)
+    ratio = {k: [signals[n][k] / signals[n]["floor"] if signals[n]["floor"] > 0.0 else None for n in names] for k in ("before", "after")}
+    hover = tuple(
+        [f"{amounts.text(signals[n][k], units.get(n, '1'))}, noise {amounts.text(signals[n]['floor'], units.get(n, '1'))}" for n in names]
+        for k in ("before", "after")
+    )
+    return bars.pairs(
+        "held_out_signals",
+        "Every sample, per signal",
+        f"Root mean square of all samples over the noise, with {effect}.",
+        [amounts.signal_title(n) for n in names],
+        ratio["before"],
+        ratio["after"],
+        hover,
+    )
+
+
+def confusable(answer: Answer) -> Section:
+    """What stands for what, and how alike the responses are."""
+    lead = (
+        f"This campaign cannot tell apart: {listed([words(n) for n in answer.confusable])}. rvwear next proposes what would."
+        if answer.confusable
+        else "Effects that could stand in place of one that is named."
+    )
+    tables, figures = [], []
+    if answer.diagnosis.alternatives:
+        tables.append(
+            Table(
+                "In place of",
+                ["named", "could be"],
+                [[words(n), ", ".join(words(o) for o in others) or "nothing else"] for n, others in answer.diagnosis.alternatives.items()],
+            )
+        )
+    if answer.diagnosis.correlations:
+        figures.append(correlations(answer.diagnosis.correlations))
+    return Section("confusable", "What cannot be separated", lead, figures, tables)
+
+
+def correlations(pairs: dict[str, float]) -> Figure:
+    names = list(dict.fromkeys(n for pair in pairs for n in pair.split(" ~ ")))
+    value = {(a, b): 1.0 if a == b else pairs.get(f"{a} ~ {b}", pairs.get(f"{b} ~ {a}", float("nan"))) for a in names for b in names}
+    z = [[abs(value[a, b]) for b in names] for a in names]
+    shown = [words(n) for n in names]
+    text = [[f"{value[a, b]:.3f}" if a != b and value[a, b] == value[a, b] else "" for b in names] for a in names]
+    hover = [[f"{words(a)} and {words(b)}: {value[a, b]:.4f}" for b in names] for a in names]
+    trace = maps.heat(z, shown, shown, text, hover, "correlation", 0.0, 1.0, colours=look.FORCE)
+    return Figure(
+        "correlations",
+        "How alike the responses are",
+        "Largest correlation that any parameters of the two can reach on the fitted runs, nuisances taken out; 1 cannot be told apart.",
+        [trace],
+        maps.layout(shown),
+        12 if len(names) > 4 else 8,
+        130 + 40 * len(names),
+    )
+
+
+def rivals(answer: Answer) -> Section:
+    rejected = answer.diagnosis.rejected
+    if not rejected:
+        return Section("rivals", "Rivals", "No rival came near.")
+    rows = [[words(r["name"]), r["reason"]] for r in rejected]
+    refitted = [r for r in rejected if r["chi2_difference"] is not None][:MOST_RIVALS]
+    lead = (
+        f"{sum(r['chi2_difference'] is not None for r in rejected)} were fitted in full, the others fell to the score test."
+        if refitted
+        else "None came through the score test."
+    )
+    figures = []
+    if refitted and answer.effects:
+        values = [max(r["chi2_difference"], 0.0) for r in refitted]
+        figures = [
+            bars.single(
+                "rivals_by_fit",
+                "How much worse the rivals fit",
+                "Difference in chi-square to what is named; about 6 tells two effects apart.",
+                [words(r["name"]) for r in refitted],
+                values,
+                "difference in chi-square",
+                ["#98a3af"] * len(values),
+                [number(v) for v in values],
+                12,
+            )
+        ]
+    return Section("rivals", "Rivals and why they were turned down", lead, figures, [Table("", ["effect", "reason"], rows)])
+
+
+def recovered(answer: Answer) -> Section:
+    """Laws without a name."""
+    if not answer.laws:
+        return Section("laws", "The law without a name", "The campaign has too few points or conditions to recover a law.")
+    space = answer.diagnosis.fits.get("space")
+    units = {stream_of(r): r.unit for r in space.records} if space else {}
+    figures = [f for law in answer.laws for f in laws.figures(law, units.get(law.signal, "1"))]
+    lead = "How what is missing depends on the conditions, as curves with 95 % bands and as closed forms. " + " ".join(
+        laws.sentence(law) for law in answer.laws
+    )
+    return Section("laws", "The law without a name", lead, figures, [laws.table(law) for law in answer.laws if law.forms])

@@ -1,0 +1,172 @@
+"""The pages of an extension and of a model with its ladder."""
+
+from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
+from discrepancy.model_file import ModelFile
+from discrepancy.page import amounts, bars, ladder
+from discrepancy.page.content import Card, Page, Section, Table
+from orchestrator.report.look import Figure
+from orchestrator.report.result import number
+
+TONES = {HELPED: "good", DID_NOT_HELP: "bad"}
+
+
+def extension_page(result: Extension) -> Page:
+    step = result.step
+    kept = "" if step.get("kept", True) else " The model stays as it was."
+    finding = (
+        f"{ladder.label(step).capitalize()}: {result.verdict}. "
+        f"{step['reason'][:1].upper() + step['reason'][1:]}.{kept if 'stays' not in step['reason'] else ''}"
+    )
+    warnings = [] if step.get("held_out_before") is not None else ["No run was held out: a lower error on fitted runs proves nothing."]
+    return Page(
+        "An effect added to a model",
+        result.file.name,
+        f"judged on campaign {step['campaign']}",
+        finding,
+        cards(step),
+        [signals_section(step), ladder_section(result.file), parameters(result.file)],
+        warnings,
+    )
+
+
+def model_page(file: ModelFile) -> Page:
+    steps = file.steps
+    if not steps:
+        return Page("Ladder of a model", file.name, conditions(file), "No step yet: rvwear extend adds them.", [], [parameters(file)], [])
+    kept = [s for s in steps if s.get("kept", True)]
+    judged = [s for s in kept if s.get("held_out_before") is not None]
+    finding = f"{len(kept)} of {len(steps)} steps are part of the model."
+    if judged:
+        finding += (
+            f" The error on unused runs fell from {number(judged[0]['held_out_before'])} to {number(judged[-1]['held_out_after'])} times the noise."
+            if judged[-1]["held_out_after"] < judged[0]["held_out_before"]
+            else (
+                f" The error on unused runs went from {number(judged[0]['held_out_before'])} to "
+                f"{number(judged[-1]['held_out_after'])} times the noise."
+            )
+        )
+    else:
+        finding += " None of them was judged on unused runs."
+    failed = [ladder.label(s) for s in steps if s["verdict"] == DID_NOT_HELP]
+    if failed:
+        finding += f" Did not help: {', '.join(failed)}."
+    sections = [
+        ladder_section(file),
+        Section(
+            "signals",
+            "Signal by signal",
+            "Every step, with the noise at 1.",
+            [signal_figure(s, k) for k, s in enumerate(steps, start=1) if s.get("signals")],
+        ),
+        parameters(file),
+    ]
+    return Page("Ladder of a model", file.name, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+
+
+def conditions(file: ModelFile) -> str:
+    effects = ", ".join(name.replace("_", " ") for name in file.effects) or "no further effects"
+    return f"Reducer {file.reducer.name} with {effects}"
+
+
+def cards(step: dict) -> list[Card]:
+    made = [
+        Card(ladder.label(step), step["verdict"], "kept" if step.get("kept", True) else "not kept", tone=TONES.get(step["verdict"], "fair"))
+    ]
+    for key, text, note in (
+        ("held_out", "Error on unused runs", "all samples"),
+        ("training", "Error on fitted runs", "all samples; any effect can lower it"),
+        ("held_out_error", "Unused runs, in the patterns that matter", "what the verdict rests on"),
+    ):
+        before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
+        if before is not None and after is not None:
+            tone = "plain" if key == "training" else "good" if after < before else "bad"
+            made.append(Card(text, number(after), note, number(before), "times noise", tone))
+    return made
+
+
+def signal_figure(step: dict, place: int = 0) -> Figure:
+    rows = step["signals"]
+    ratio = {k: [r[k] / r["noise_floor"] if r["noise_floor"] > 0.0 else None for r in rows] for k in ("before", "after")}
+    hover = tuple(
+        [f"{amounts.text(r[k], r['unit'])}, noise {amounts.text(r['noise_floor'], r['unit'])}" for r in rows] for k in ("before", "after")
+    )
+    title = f"Step {place}: {ladder.label(step)}" if place else "Error over noise per signal"
+    caption = (
+        f"{step['verdict'][:1].upper() + step['verdict'][1:]}: {step['reason']}."
+        if place
+        else "Root mean square of all samples over the noise of replicates."
+    )
+    return bars.pairs(
+        f"signals_{place}", title, caption, bars.signal_rows(rows), ratio["before"], ratio["after"], hover, 6 if place else 12
+    )
+
+
+def signals_section(step: dict) -> Section:
+    rows = [
+        [
+            amounts.signal_title(r["signal"]),
+            "held out" if r["held_out"] else "fitted",
+            *(amounts.text(r[k], r["unit"]) for k in ("before", "after", "noise_floor")),
+        ]
+        for r in step["signals"]
+    ]
+    table = Table("", ["signal", "runs", "error before", "error after", "noise"], rows, (2, 3, 4))
+    return Section(
+        "signals",
+        "Signal by signal",
+        "The new model alone, its parameters as estimated and no longer fitted.",
+        [signal_figure(step)] if rows else [],
+        [table] if rows else [],
+    )
+
+
+def ladder_section(file: ModelFile) -> Section:
+    if not file.steps:
+        return Section("ladder", "Ladder", "No step yet.")
+    rows = [
+        [
+            str(k),
+            ladder.label(s),
+            s["campaign"],
+            change(s, "training"),
+            change(s, "held_out"),
+            change(s, "held_out_error"),
+            s["verdict"] + ("" if s.get("kept", True) else ", not kept"),
+            s["reason"],
+        ]
+        for k, s in enumerate(file.steps, start=1)
+    ]
+    head = ["step", "effect", "campaign", "fitted runs", "unused runs", "unused, patterns that matter", "verdict", "why"]
+    return Section(
+        "ladder",
+        "Ladder",
+        "Every attempt, those that did not help too. What counts are the unused runs.",
+        [ladder.figure(file.steps)],
+        [Table("", head, rows, (3, 4, 5))],
+    )
+
+
+def change(step: dict, key: str) -> str:
+    before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
+    return "–" if before is None or after is None else f"{number(before)} → {number(after)}"
+
+
+def parameters(file: ModelFile) -> Section:
+    rows = []
+    for effect, entries in file.effects.items():
+        for k, (name, entry) in enumerate(entries.items()):
+            both = {
+                "value": entry["value"],
+                "unit": entry.get("unit", "1"),
+                "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
+            }
+            value, interval, unit = amounts.estimate(both)
+            rows.append([effect.replace("_", " ") if k == 0 else "", name, value, interval if "low" in entry else "", unit])
+    lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."
+    return Section(
+        "effects",
+        "Effects of the model",
+        lead,
+        [],
+        [Table("", ["effect", "parameter", "value", "95 % interval", "unit"], rows, (2, 3))] if rows else [],
+    )

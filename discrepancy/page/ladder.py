@@ -1,0 +1,128 @@
+"""The ladder as a figure: the error over the noise, attempt by attempt."""
+
+from collections.abc import Sequence
+
+from discrepancy.page.bars import noise_line
+from orchestrator.report import look
+from orchestrator.report.look import Figure, short
+
+# From this ratio of the largest to the smallest error on the axis is logarithmic.
+WIDE = 8.0
+KINDS = (("training", "fitted runs", look.START, 2.0), ("held_out", "unused runs", look.NOW, 3.0))
+
+
+def stairs(steps: Sequence[dict], kind: str) -> tuple[list, list]:
+    """Corners of the line through the kept steps: step k falls at x = k."""
+    x, y = [], []
+    for k, step in enumerate(steps, start=1):
+        before, after = step.get(f"{kind}_before"), step.get(f"{kind}_after")
+        if before is None or after is None:
+            x.append(None)
+            y.append(None)
+            continue
+        x += [k - 1 if k > 1 else 0.5, k]
+        y += [before, before]
+        if step.get("kept", True):
+            x.append(k)
+            y.append(after)
+    if y and y[-1] is not None:
+        x.append(len(steps) + 0.5)
+        y.append(y[-1])
+    return x, y
+
+
+def attempts(steps: Sequence[dict], kind: str) -> list[tuple[int, float, float, dict]]:
+    """(place, before, after, step) of the steps that were not kept."""
+    return [
+        (k, s[f"{kind}_before"], s[f"{kind}_after"], s)
+        for k, s in enumerate(steps, start=1)
+        if not s.get("kept", True) and s.get(f"{kind}_before") is not None and s.get(f"{kind}_after") is not None
+    ]
+
+
+def label(step: dict) -> str:
+    return " + ".join(name.replace("_", " ").replace(".", ": ") for name in step["effects"])
+
+
+def figure(steps: Sequence[dict], name: str = "ladder") -> Figure:
+    traces, values = [], []
+    for kind, title, colour, width in KINDS:
+        x, y = stairs(steps, kind)
+        values += [v for v in y if v is not None]
+        if any(v is not None for v in y):
+            traces.append(look.line(x, clean(y), colour, width) | {"name": title})
+            start = next(v for v in y if v is not None)
+            traces.append(marks([x[y.index(start)]], [start], colour, "circle", [f"{title}, before: {start:.2f}"], kind == "held_out"))
+        kept = [(k, s) for k, s in enumerate(steps, start=1) if s.get("kept", True) and s.get(f"{kind}_after") is not None]
+        if kept:
+            traces.append(
+                marks(
+                    [k for k, _ in kept],
+                    [s[f"{kind}_after"] for _, s in kept],
+                    colour,
+                    "circle",
+                    [f"{label(s)}, {title}: {s[f'{kind}_before']:.2f} → {s[f'{kind}_after']:.2f}" for _, s in kept],
+                    kind == "held_out",
+                )
+            )
+        for k, before, after, step in attempts(steps, kind):
+            values.append(after)
+            traces.append(look.line([k, k], clean([before, after]), colour, 1.2, "dot") | {"showlegend": False})
+            traces.append(
+                marks(
+                    [k],
+                    [after],
+                    colour,
+                    "x",
+                    [f"{label(step)}, not kept, {title}: {before:.2f} → {after:.2f}"],
+                    kind == "held_out",
+                    "top right" if after > before else "bottom right",
+                )
+            )
+    shape, text = noise_line()
+    wide = bool(values) and min(values) > 0.0 and max(values) / min(values) > WIDE
+    ticks = {
+        "tickvals": list(range(1, len(steps) + 1)),
+        "range": [0.4, len(steps) + 0.6],
+        "showgrid": False,
+        "ticktext": [f"{label(s)}<br><i>{s['verdict']}{'' if s.get('kept', True) else ', not kept'}</i>" for s in steps],
+    }
+    limits = {"type": "log", "dtick": "D2"} if wide else {"rangemode": "tozero"}
+    legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}
+    if wide:
+        text["y"] = 0.0
+    layout = look.layout(
+        xaxis=look.axis("", **ticks),
+        yaxis=look.axis("error over noise", **limits),
+        showlegend=True,
+        legend=legend,
+        shapes=[shape],
+        annotations=[text],
+        margin={"l": 60, "r": 24, "t": 34, "b": 60},
+    )
+    caption = (
+        "Root mean square of the error over the noise, over all signals. A dotted line with a cross is an attempt "
+        "that did not help: the model stayed as it was."
+    )
+    return Figure(name, "Error over noise, step by step", caption, traces, layout, 12, 380)
+
+
+def clean(values: Sequence[float | None]) -> list:
+    return short([float("nan") if v is None else v for v in values], 4)
+
+
+def marks(x, y, colour: str, symbol: str, texts: list[str], labelled: bool, where: str = "top right") -> dict:
+    return {
+        "type": "scatter",
+        "mode": "markers+text" if labelled else "markers",
+        "x": x,
+        "y": clean(y),
+        "showlegend": False,
+        "customdata": texts,
+        "marker": {"color": colour, "symbol": symbol, "size": 9},
+        "hovertemplate": "%{customdata}<extra></extra>",
+        "cliponaxis": False,
+        "text": [f"{v:.2f}" for v in y],
+        "textposition": where,
+        "textfont": {"size": 12, "color": colour},
+    }

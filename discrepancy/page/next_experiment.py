@@ -1,0 +1,230 @@
+"""The page of a proposal: what to measure next, at what cost, and what it would settle."""
+
+import math
+from collections.abc import Sequence
+
+from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.inference.next_experiment import ENOUGH, Proposal
+from discrepancy.next_run import NextRun
+from discrepancy.page import amounts, comparison, maps
+from discrepancy.page.amounts import effect_title
+from discrepancy.page.content import Card, Page, Section, Table
+from discrepancy.page.evidence import listed
+from orchestrator.report import look
+from orchestrator.report.look import Figure, short
+from orchestrator.report.result import number
+
+MOST = 12
+GOOD, POOR = "#00705a", "#98a3af"
+
+
+def page(run: NextRun) -> Page:
+    currency = run.answer.model.campaign.rig.currency if run.answer.model.campaign.rig else ""
+    sections = (
+        [proposals(run, currency), stake(run)]
+        if run.result
+        else [Section("proposals", "Proposals", "There is nothing to separate, so nothing to propose.")]
+    )
+    rivals = listed([effect_title(r) for r in run.rivals])
+    verdict = readable(run.verdict) if run.result else effect_title(run.verdict)
+    finding = verdict[:1].upper() + verdict[1:] + "."
+    where = f"To separate {rivals}" if len(run.rivals) > 1 else "Diagnosis: " + run.answer.verdict
+    return Page(
+        "The next experiment", comparison.title(run.answer.model), where, finding, cards(run, currency), sections, run.answer.warnings
+    )
+
+
+def cards(run: NextRun, currency: str) -> list[Card]:
+    if not run.result or not run.result.proposals:
+        return [Card("Diagnosis", run.answer.verdict, run.answer.diagnosis.reason)]
+    best = run.result.proposals[0]
+    tone = "good" if best.least >= ENOUGH else "bad"
+    return [
+        Card(
+            "Proposed" if best.least >= ENOUGH else "Best of those possible",
+            readable(best.experiment.partition(" at ")[0]),
+            readable(best.experiment.partition(" at ")[2]),
+            tone=tone,
+        ),
+        Card("Cost", number(best.cost), "", unit=currency),
+        Card("Least separation of two rivals", size(best.least), f"{ENOUGH:g} is enough", tone=tone),
+        Card("Diagnosis so far", run.answer.verdict, f"{len(run.rivals)} rivals"),
+    ]
+
+
+def proposals(run: NextRun, currency: str) -> Section:
+    best = run.result.proposals
+    good = sum(p.least >= ENOUGH for p in best)
+    lead = (
+        f"{good} of {len(best)} possible experiments would separate every pair of rivals (least separation {ENOUGH:g} or more)."
+        if good
+        else f"None of {len(best)} possible experiments separates every pair of rivals: this cannot be settled within the limits of the rig."
+    )
+    if not best:
+        return Section("proposals", "Proposals", "The rig can measure none of what this campaign has.")
+    rows = [[title(p), number(p.cost), size(p.least), size(p.score)] for p in best[:MOST]]
+    head = ["experiment", f"cost{f' [{currency}]' if currency else ''}", "least separation", "mean separation"]
+    table = Table(
+        f"The best {len(rows)}",
+        head,
+        rows,
+        (1, 2, 3),
+        "Separations in chi-square, parameters of the rivals free within what is known of them.",
+    )
+    figures = [ranking(best[:MOST], currency)]
+    if len({pair for p in best for pair in p.separation}) > 1:
+        figures.append(separations(best[:MOST]))
+    if len({p.cost for p in best}) > 1:
+        figures.append(cloud(best, currency))
+    return Section("proposals", "Proposals", lead, figures, [table])
+
+
+def title(proposal: Proposal) -> str:
+    return readable(proposal.experiment)
+
+
+def readable(name: str) -> str:
+    return name.replace("_", " ").replace("degC", "°C").replace("N m", "N·m")
+
+
+def size(separation: float) -> str:
+    return "< 0.01" if separation < 0.01 else number(separation)
+
+
+def separations(best: Sequence[Proposal]) -> Figure:
+    """Which pair of rivals each experiment tells apart."""
+    pairs = list(dict.fromkeys(pair for p in best for pair in p.separation))
+    values = [[p.separation.get(pair, float("nan")) for pair in pairs] for p in best]
+    z = [[math.log10(min(max(v, 0.1), 100.0)) if v == v else v for v in row] for row in values]
+    names, columns = (
+        [title(p) for p in best],
+        ["<br>from<br>".join(effect_title(n).replace(" (", "<br>(") for n in pair.split(" ~ ")) for pair in pairs],
+    )
+    hover = [[f"{name}<br>{c.replace('<br>', ' ')}: {size(v)}" for c, v in zip(columns, row)] for name, row in zip(names, values)]
+    ticks = {-1.0: "≤ 0.1", 0.0: "1", math.log10(ENOUGH): f"{ENOUGH:g}", 2.0: "≥ 100"}
+    few = len(pairs) <= 10
+    trace = maps.heat(
+        z,
+        columns,
+        names,
+        [[size(v) if few else "" for v in row] for row in values],
+        hover,
+        "separation",
+        -1.0,
+        2.0,
+        ticks,
+        ("#ffffff", *look.HOURS),
+    )
+    return Figure(
+        "separations",
+        "Which rivals each experiment tells apart",
+        f"Chi-square of each pair; {ENOUGH:g} is enough.",
+        [trace],
+        maps.layout(names, level=few),
+        12,
+        190 + 27 * max(len(best), 3),
+    )
+
+
+def ranking(best: Sequence[Proposal], currency: str) -> Figure:
+    """Cost to the left, separation to the right."""
+    names = [title(p) for p in best]
+    colours = [GOOD if p.least >= ENOUGH else POOR for p in best]
+    most = max([p.least for p in best] + [ENOUGH])
+    wide = most > 30.0 * ENOUGH
+    both = {"type": "bar", "orientation": "h", "y": names}
+    data = [
+        both
+        | {
+            "x": short([p.cost for p in best], 4),
+            "marker": {"color": "#d9b06a"},
+            "hovertemplate": "%{y}<br>cost %{x}<extra></extra>",
+            "text": [number(p.cost) for p in best],
+            "textposition": "inside",
+            "insidetextanchor": "start",
+        },
+        both
+        | {
+            "x": short([max(p.least, 0.1 if wide else 0.0) for p in best], 4),
+            "xaxis": "x2",
+            "marker": {"color": colours},
+            "hovertemplate": "%{y}<br>least separation %{x}<extra></extra>",
+            "text": [size(p.least) for p in best],
+            "textposition": "auto",
+        },
+    ]
+    right = {"type": "log", "range": [-1.0, math.log10(1.5 * most)]} if wide else {"range": [0.0, 1.1 * most]}
+    line = {
+        "type": "line",
+        "xref": "x2",
+        "yref": "paper",
+        "x0": ENOUGH,
+        "x1": ENOUGH,
+        "y0": 0,
+        "y1": 1,
+        "line": {"color": GOOD, "width": 1.2, "dash": "dot"},
+    }
+    layout = look.layout(
+        xaxis=look.axis(
+            f"cost{f' [{currency}]' if currency else ''}", domain=[0.0, 0.28], range=[0.0, 1.1 * max([p.cost for p in best] + [1e-9])]
+        ),
+        xaxis2=look.axis("least separation of two rivals [chi-square]", domain=[0.34, 1.0], anchor="y", **right),
+        yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
+        shapes=[line],
+        bargap=0.35,
+        margin={"l": 60, "r": 20, "t": 10, "b": 46},
+    )
+    return Figure(
+        "ranking",
+        "What they cost and what they settle",
+        f"Best first; the dotted line at {ENOUGH:g} is enough to tell two rivals apart.",
+        data,
+        layout,
+        12,
+        90 + 28 * max(len(best), 3),
+    )
+
+
+def cloud(best: Sequence[Proposal], currency: str) -> Figure:
+    """All experiments of the grid."""
+    least = [max(p.least, 1e-2) for p in best]
+    dots = {
+        "type": "scatter",
+        "mode": "markers",
+        "x": short([p.cost for p in best], 5),
+        "y": short(least, 4),
+        "customdata": [title(p) for p in best],
+        "marker": {"color": [GOOD if p.least >= ENOUGH else POOR for p in best], "size": 8, "opacity": 0.7},
+        "hovertemplate": "%{customdata}<br>cost %{x}, least separation %{y}<extra></extra>",
+    }
+    line = {
+        "type": "line",
+        "xref": "paper",
+        "x0": 0,
+        "x1": 1,
+        "y0": ENOUGH,
+        "y1": ENOUGH,
+        "line": {"color": GOOD, "width": 1.2, "dash": "dot"},
+    }
+    layout = look.layout(
+        xaxis=look.axis(f"cost{f' [{currency}]' if currency else ''}", rangemode="tozero"),
+        yaxis=look.axis("least separation [chi-square]", type="log", dtick=1),
+        shapes=[line],
+    )
+    return Figure("cloud", "All experiments within the rig's limits", "Separations below 0.01 are drawn there.", [dots], layout, 12, 300)
+
+
+def stake(run: NextRun) -> Section:
+    """What is unknown as long as the rivals are not told apart."""
+    rows = []
+    for name, size in run.result.at_stake.items():
+        quantity = QUANTITIES.get(name.partition(" at ")[0].partition("[")[0])
+        rows.append([readable(name), amounts.text(size, quantity.unit) if quantity else f"{number(size)} (SI unit)"])
+    lead = (
+        "Largest difference of the rivals' predictions: the error that remains if nobody measures."
+        if rows
+        else "No condition of interest was given."
+    )
+    return Section(
+        "stake", "What it costs not to know", lead, [], [Table("", ["condition", "rivals differ by up to"], rows, (1,))] if rows else []
+    )

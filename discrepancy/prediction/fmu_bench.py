@@ -1,0 +1,223 @@
+"""The same bench with the FMUs themselves on it, stepped as any importing tool steps them.
+
+What an FMU does not let one set is reached by stepping, and every step takes time.  A run that begins at another angle
+than 0 turns there first, without wear, the shorter way; the cages roll along (skidding ones
+a little less far than ``Bench`` puts them), and heat that follows the losses at once has
+settled further by the first sample.  Worn surfaces come back as the wear unit's FMU state,
+and that unit is led to the plant's angles.
+"""
+
+import contextlib
+import math
+import weakref
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.bench import (
+    HELD_ANGLES,
+    POSITIONS,
+    SHORT_CYCLE,
+    TOLERANCE,
+    Bench,
+    Condition,
+    stretches,
+    within_turn,
+)
+from orchestrator.coupled import COLUMNS
+from orchestrator.faults import InputFault, RunFault
+from orchestrator.fmu import Fmu
+from orchestrator.master import Master
+from orchestrator.pair import CONNECTIONS, require_built_from
+
+# The wear unit takes no more than half a turn of cranks, carrier or cages in a step [rad].
+LONGEST_WEAR_STEP = 3.0
+# A step [s] on the spot: FMUs refuse one of 0.
+MOMENT = 1e-12
+
+
+class FmuBench(Bench):
+    """``Bench`` by RvPlant.fmu and RvWear.fmu of a folder; surfaces are resolved as the FMU has them."""
+
+    def __init__(self, model: ModelFile, settings: Mapping[str, float], folder: Path):
+        super().__init__(model.reducer, settings, model.reducer.resolution)
+        self.settings = dict(settings)
+        self.plant, self.wear = Fmu("plant", folder / "RvPlant.fmu"), Fmu("wear", folder / "RvWear.fmu")
+        self.master = Master({"plant": self.plant, "wear": self.wear}, CONNECTIONS, step=1.0)
+        weakref.finalize(self, self.master.close)
+        for unit, name in ((self.plant, "rv_plant"), (self.wear, "wear_fmu")):
+            require_units_of(model, unit, name)
+
+    def renew(self, unit: Fmu, values: Mapping[str, float]) -> None:
+        """A new unit with the settings and then ``values``."""
+        unit.attempt(unit.slave.reset)
+        for name, value in {**self.settings, "tolerance": TOLERANCE, **values}.items():
+            if name in unit.signals and unit.signals[name].causality != "output":
+                unit.set(name, value)
+
+    def renew_plant(self, condition: Condition, values: Mapping[str, float], load: float) -> None:
+        self.renew(self.plant, {
+            **values, "temperature": condition.temperature, "input_speed": self.input_speed(condition),
+            "load_torque": load, "grease_age": condition.hours, "largest_crank_step": 1.0,
+        })  # fmt: skip
+
+    def start_plant(self, condition: Condition, values: Mapping[str, float], load: float) -> None:
+        """The plant alone, at output angle 0."""
+        self.renew_plant(condition, values, load)
+        self.plant.enter_initialisation(0.0)
+        with refusal_as_run_fault():
+            self.plant.exit_initialisation()
+        self.time = 0.0
+
+    def step_plant(self, duration: float) -> None:
+        self.plant.step(self.time, duration)
+        self.time += duration
+
+    def step_pair(self, duration: float) -> None:
+        self.master.advance(self.time, duration)
+        self.time += duration
+
+    def turn_plant(self, condition: Condition, angle: float) -> None:
+        """Move the output by ``angle`` [rad], at the condition's speed whichever the direction."""
+        if angle == 0.0:
+            # A step there would let heat that follows the losses at once settle further than in ``Bench``.
+            return
+        self.plant.set("input_speed", math.copysign(condition.speed, angle * self.ratio))
+        self.step_plant(abs(angle * self.ratio) / condition.speed)
+
+    def age_plant(self, condition: Condition, values: Mapping[str, float]) -> None:
+        """The plant where it stands, with grease as old as the condition says: its age is fixed in a unit's life."""
+        angle = self.plant.get("input_angle") / self.ratio
+        self.start_plant(condition, values, condition.direction * condition.load)
+        self.turn_plant(condition, angle)
+        self.plant.set("input_speed", self.input_speed(condition))
+
+    def place_wear(self, state: bytes) -> None:
+        """Put worn surfaces under the plant's contacts; they wear no further."""
+        wear, plant = self.wear, self.plant
+        wear.restore(state)
+        wear.set("acceleration", 0.0)
+        wear.set("contact_lead", 0.0)
+        names = ("crank_angle", "output_angle", "cage_angle")
+        start, end = (np.array([unit.get(name) for name in names]) for unit in (wear, plant))
+        for angles in np.linspace(start, end, 2 + int(np.abs(end - start).max() / LONGEST_WEAR_STEP))[1:]:
+            for name, angle in zip(names, angles):
+                wear.set(name, angle)
+            wear.step(self.time, MOMENT)
+        for name in ("mesh_profile_error", "roller_profile_error"):
+            plant.set(name, wear.get(name))
+
+    def worn_state(self, condition: Condition, values: Mapping[str, float]) -> bytes | None:
+        """The wear unit's FMU state after the condition's hours, if there are any."""
+        if condition.hours == 0.0:
+            return None
+        return self.states_to(condition, values, [condition.hours], SHORT_CYCLE)[condition.hours]
+
+    def wear_to(self, condition, values, inspections, turns):
+        records = {}
+        for target, state in self.states_to(condition, values, inspections, turns).items():
+            self.wear.restore(state)
+            records[target] = self.wear.record()
+        return records
+
+    def states_to(
+        self, condition: Condition, values: Mapping[str, float], inspections: list[float], turns: int
+    ) -> dict[float, bytes]:
+        """The wear unit's FMU states at several operating times [s], see ``Bench.wear_to``."""
+        fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
+
+        def run():
+            self.renew_plant(fresh, values, fresh.direction * fresh.load)
+            self.renew(self.wear, {**values, "temperature": fresh.temperature})
+            with refusal_as_run_fault():
+                self.master.initialise()
+            self.time = 0.0
+            step = self.turning_time(condition) / POSITIONS
+            steps = turns * POSITIONS
+            self.wear.set("acceleration", 0.0)
+            for _ in range(2):
+                self.step_pair(step)
+            found = dict.fromkeys(inspections, self.wear.save())
+            ageing = self.plant.get("grease_ageing") != 0.0
+            for done, stretch, target in stretches(inspections):
+                if ageing:
+                    self.age_plant(replace(fresh, hours=done + 0.5 * stretch), values)
+                self.wear.set("acceleration", stretch / (steps * step))
+                for _ in range(steps):
+                    self.step_pair(step)
+                found[target] = self.wear.save()
+            return found
+
+        return self.kept(("life", fresh, tuple(inspections), turns, self.relevant(values, True)), run)
+
+    def running(self, condition, values, angles):
+        def run():
+            worn = self.worn_state(condition, values)
+            self.start_plant(condition, values, condition.direction * condition.load)
+            start = within_turn(angles[0])
+            self.turn_plant(condition, start)
+            self.plant.set("input_speed", self.input_speed(condition))
+            if worn:
+                self.place_wear(worn)
+            move = self.step_pair if worn else self.step_plant
+            row, series = np.zeros(len(COLUMNS)), np.zeros((len(angles), len(COLUMNS)))
+            read = self.plant.reader(tuple(self.plant.signal(name).references[0] for name in COLUMNS), row)
+            durations = np.abs(np.diff(angles, prepend=angles[0])) * abs(self.ratio) / condition.speed
+            for i, duration in enumerate(durations):
+                move(max(float(duration), MOMENT))
+                read()
+                series[i] = row
+            series[:, COLUMNS.index("output_angle")] += angles[0] - start
+            return series
+
+        key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
+        return self.kept(key, run)
+
+    def running_places(self, condition, values, angles):
+        raise NotImplementedError("an FMU shows no equilibria; ask for running")
+
+    def held(self, condition, values, torques):
+        def run():
+            worn = self.worn_state(condition, values)
+            total = np.zeros(len(torques))
+            self.start_plant(condition, values, torques[0])
+            placed, since = self.plant.save(), self.time
+            for k in range(HELD_ANGLES):
+                if k > 0:
+                    self.plant.restore(placed)
+                    self.time = since
+                    self.turn_plant(condition, 2.0 * math.pi / (HELD_ANGLES * self.reducer.topology.lobes))
+                    placed, since = self.plant.save(), self.time
+                self.plant.set("input_speed", 0.0)
+                if worn:
+                    self.place_wear(worn)
+                for i, torque in enumerate(torques):
+                    self.plant.set("load_torque", torque)
+                    self.step_plant(1.0)
+                    total[i] -= self.plant.get("transmission_error") / HELD_ANGLES
+            return total
+
+        key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes())
+        return self.kept(key, run)
+
+
+@contextlib.contextmanager
+def refusal_as_run_fault():
+    """Values come from a search here: those that a unit refuses end a run, they are no fault of the user's."""
+    try:
+        yield
+    except InputFault as fault:
+        raise RunFault(str(fault)) from None
+
+
+def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
+    """An FMU is that of the model's reducer, or of the extended model; the rest is set at each run."""
+    # Not above: extending a model needs the bench.
+    from discrepancy.extend import extended_reducer
+
+    extended = extended_reducer(model)
+    built_extended = unit.specification() == extended.specification(name)
+    require_built_from(extended if built_extended else model.reducer, unit, name)

@@ -1,0 +1,138 @@
+"""What a person finds inside an FMU: documentation, diagram, icon and licence."""
+
+import re
+import struct
+import zlib
+from html import escape
+
+import numpy as np
+
+from fmu_src.link import FMI_HEADERS
+from fmu_src.variables import Table, Variable
+
+STYLE = """body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#223}
+table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:3px 8px;border-bottom:1px solid #ccd}
+code{font-size:14px}svg text{font:13px sans-serif}h2{margin-top:1.6em}"""
+
+
+def files_for_people(table: Table, fmi: str, identity: str) -> dict[str, bytes]:
+    """The files of one FMU by their path in the archive, where its FMI version wants them."""
+    files = {
+        "documentation/index.html": page(table, identity).encode(),
+        "documentation/diagram.svg": diagram(table).encode(),
+        "documentation/diagram.png": picture(512),
+        "documentation/licenses/license.txt": licence(table).encode(),
+    }
+    if fmi == "2.0":
+        return files | {"model.png": picture(128)}
+    return files | {"terminalsAndIcons/icon.png": picture(128), "terminalsAndIcons/terminalsAndIcons.xml": ICON_PLACE}
+
+
+ICON_PLACE = b"""<?xml version="1.0" encoding="UTF-8"?>
+<fmiTerminalsAndIcons fmiVersion="3.0">
+  <GraphicalRepresentation>
+    <CoordinateSystem x1="-100" y1="-100" x2="100" y2="100" suggestedScalingFactorTo_mm="0.1"/>
+    <Icon x1="-100" y1="-100" x2="100" y2="100"/>
+  </GraphicalRepresentation>
+</fmiTerminalsAndIcons>
+"""
+
+
+def page(table: Table, identity: str) -> str:
+    """documentation/index.html: what the unit is, how it connects, every variable."""
+    sections = {"Inputs": "input", "Outputs": "output", "Parameters": "parameter"}
+    parts = [
+        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{escape(table.name)}</title><style>{STYLE}</style>",
+        f"<h1>{escape(table.name)}</h1><p>{escape(table.description)}.</p>{diagram(table)}",
+        "<p>Steps may vary in size. The state can be saved, restored and serialised whole. Within a communication point"
+        " no output depends on an input. A value out of its bounds, an impossible call or step is refused with a message,"
+        " and the state stays what it was.</p>",
+        f"<p>Identity {escape(identity)}.</p>",
+    ]
+    for title, role in sections.items():
+        parts += [f"<h2>{title}</h2>", variable_table(table.of_role(role))]
+    profiles = [v for v in table.variables if v.profile]
+    if profiles:
+        parts += ["<h2>Surfaces</h2><p>Array outputs in FMI 3.0.</p>", variable_table(profiles)]
+    return "\n".join(parts) + "\n"
+
+
+def variable_table(variables: list[Variable]) -> str:
+    rows = ["<tr><th>variable<th>unit<th>start<th>bounds<th>meaning<th>source"]
+    for v in variables:
+        shape = f"[{', '.join(f'{a} 1..{n}' for a, n in zip(v.axes, v.shape))}]" if v.shape else ""
+        start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
+        bounds = ", ".join(v.choices) if v.choices else f"{v.minimum:.4g} to {v.maximum:.4g}"
+        cells = (v.unit, start, bounds, v.description, v.source)
+        rows.append(f"<tr><td><code>{escape(v.name)}</code>{escape(shape)}" + "".join(f"<td>{escape(c)}" for c in cells))
+    return "<table>" + "\n".join(rows) + "</table>"
+
+
+def diagram(table: Table) -> str:
+    """The unit as a box with its inputs on the left and its outputs on the right."""
+    sides = (table.of_role("input"), table.of_role("output"))
+    height = 22 * max(len(side) for side in sides) + 60
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 {height}" width="760" height="{height}">',
+        f'<rect x="280" y="10" width="200" height="{height - 20}" rx="8" fill="#eef3f8" stroke="#456"/>',
+        f'<text x="380" y="36" text-anchor="middle" font-weight="bold">{escape(table.name)}</text>',
+    ]
+    for side, (end, start, anchor, label) in zip(sides, ((280, 240, "end", 232), (520, 480, "start", 528))):
+        for i, v in enumerate(side):
+            y = 62 + 22 * i
+            shape = f"[{' x '.join(map(str, v.shape))}]" if v.shape else ""
+            unit = f", {v.unit}" if v.unit != "1" else ""
+            parts.append(f'<path d="M{start} {y}H{end}m-7 -4l7 4l-7 4" fill="none" stroke="#456"/>')
+            parts.append(f'<text x="{label}" y="{y + 4}" text-anchor="{anchor}">{escape(v.name + shape + unit)}</text>')
+    return "".join(parts) + "</svg>"
+
+
+def picture(size: int) -> bytes:
+    """A cycloid disc between pins on three cranks, as PNG."""
+    fine = 4
+    axis = (np.arange(fine * size) + 0.5) / (fine * size) * 2.0 - 1.0
+    x, y = np.meshgrid(axis, -axis)
+    colours = np.zeros((fine * size, fine * size, 4))
+
+    def paint(where, colour):
+        colours[where] = (*(int(colour[i : i + 2], 16) for i in (1, 3, 5)), 255)
+
+    def circle(cx, cy, radius):
+        return np.hypot(x - cx, y - cy) < radius
+
+    def around(count, radius):
+        angles = 2.0 * np.pi * np.arange(count) / count
+        return zip(radius * np.cos(angles), radius * np.sin(angles))
+
+    eccentricity, lobes = 0.05, 15
+    paint(circle(0, 0, 0.97), "#4a5d73")
+    paint(circle(0, 0, 0.88), "#dfe6ee")
+    for cx, cy in around(lobes + 1, 0.86):
+        paint(circle(cx, cy, 0.07), "#1f2d3d")
+    dx = x - eccentricity
+    radius = 0.77 - eccentricity * np.cos(lobes * np.arctan2(y, dx))
+    paint(np.hypot(dx, y) < radius, "#8fa9c4")
+    for cx, cy in around(3, 0.42):
+        paint(circle(cx + eccentricity, cy, 0.19), "#dfe6ee")
+        paint(circle(cx + eccentricity, cy, 0.13), "#c46a2b")
+        paint(circle(cx, cy, 0.06), "#1f2d3d")
+    paint(circle(eccentricity, 0, 0.15), "#dfe6ee")
+    paint(circle(0, 0, 0.08), "#1f2d3d")
+    pixels = colours.reshape(size, fine, size, fine, 4).mean((1, 3)).astype("u1")
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", size, size, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+
+
+def licence(table: Table) -> str:
+    """Whose the parts are; the FMI headers ask for their notice in binaries."""
+    header = (FMI_HEADERS / "fmi3Functions.h").read_text(encoding="utf-8")
+    notice = re.search(r"Copyright \(C\).*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL).group()
+    return (
+        f"{table.name}, made with rvwear. Its makers have stated no licence: ask them before you pass it on.\n\n"
+        f"It contains the headers of the FMI standard:\n\n{notice}\n"
+    )

@@ -1,0 +1,78 @@
+/* What the generated table of a unit tells the shell; nothing here knows a particular unit. */
+#ifndef UNIT_H
+#define UNIT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Hidden, so that two units in one process cannot take each other's functions. */
+#if defined(__ELF__)
+#define INTERNAL __attribute__((visibility("hidden")))
+#else
+#define INTERNAL
+#endif
+
+#define MOST_DIMENSIONS 4
+
+union cell {
+    double real;
+    int64_t integer;
+};
+
+enum role { INPUT, FIXED_PARAMETER, TUNABLE_PARAMETER, OUTPUT, PROFILE };
+
+struct variable {
+    const char *name;
+    const char *unit;    /* with a blank before it; empty if there is none */
+    const char *choices; /* "0 (line), 1 (palmgren)", or NULL */
+    enum role role;
+    int is_integer;
+    uint32_t first, size;
+    int dimensions;
+    uint32_t shape[MOST_DIMENSIONS];
+    double lowest, highest;
+};
+
+/* Start values of all cells, equal neighbours together. */
+struct run {
+    uint32_t count;
+    uint64_t bits;
+};
+
+/* A fault's text: literals, each followed by the number in a cell (or by nothing if cell < 0). */
+struct piece {
+    const char *literal;
+    int cell;
+    int is_integer;
+    const char *format;
+};
+
+struct fault {
+    int64_t code;
+    const struct piece *pieces;
+    int piece_count;
+};
+
+struct unit {
+    const char *name;
+    const char *identity; /* FMI 2 guid, FMI 3 instantiation token */
+    uint32_t cell_count, state_cells, interface_cells;
+    const struct variable *variables; /* by ascending first cell */
+    int variable_count;
+    const struct run *starts;
+    int run_count;
+    const struct fault *faults;
+    int fault_count;
+    const char *const *categories;
+    int category_count;
+    int refuses_before_change; /* a failing step has changed nothing */
+    double longest_step;
+};
+
+extern INTERNAL const struct unit unit;
+
+/* The kernels' object code; 0, or a fault's code. */
+extern INTERNAL int64_t initialise(void *cells);
+extern INTERNAL int64_t step(void *cells, double time, double duration);
+
+#endif

@@ -1,0 +1,140 @@
+"""FMI 2.0 calls on arrays prepared once: a vector of hundreds of values moves in one call.
+
+The functions that run every step are bound past fmpy's wrappers, whose bookkeeping costs
+as much as a native unit needs to copy three hundred values.
+"""
+
+import ctypes
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from fmpy.fmi2 import (
+    FMU2Slave,
+    defaultCallbacks,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+
+from orchestrator.model_description import Described
+
+# Statuses above "warning" are failures.
+WARNING, ERROR = 1, 3
+VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
+DERIVATIVES = (*VALUES[:3], ctypes.c_void_p, ctypes.c_void_p)
+STEP = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
+TYPE = {"f8": "Real", "i8": "Integer", "?": "Boolean"}
+
+
+class Fmi2:
+    """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
+
+    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
+        description = described.description
+        self.slave = FMU2Slave(
+            instanceName=name, guid=description.guid, unzipDirectory=str(folder),
+            modelIdentifier=description.coSimulation.modelIdentifier, requireFunctions=False,
+        )  # fmt: skip
+        self.described, self.refuse = described, refuse
+        self.callbacks = make_callbacks(log)
+        # A unit that can restore its state is told that the master may do so.
+        self.keeps_state = int(not description.coSimulation.canGetAndSetFMUstate)
+
+    def instantiate(self) -> None:
+        self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
+        self.do_step = self.bound("fmi2DoStep", STEP)
+
+    def bound(self, function: str, types: tuple, *arguments) -> Callable[..., None]:
+        """The function with the instance and arguments held."""
+        call = self.slave.dll[function]
+        call.argtypes, call.restype = types, ctypes.c_int
+        instance, refuse = self.slave.component, self.refuse
+
+        def run(*rest):
+            status = call(instance, *arguments, *rest)
+            if status > WARNING:
+                refuse(function, status)
+
+        return run
+
+    def values(self, verb: str, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
+        """fmi2GetReal and its like on a buffer of the width that FMI wants."""
+        kind = TYPE["?" if buffer.dtype == bool else buffer.dtype.str[1:]]
+        native = buffer if kind == "Real" else np.zeros(len(references), np.int32)
+        numbers = (ctypes.c_uint * len(references))(*references)
+        call = self.bound(f"fmi2{verb}{kind}", VALUES, numbers, len(references), native.ctypes.data)
+        if native is buffer:
+            # The address alone does not keep the buffer alive.
+            call.buffer = buffer
+            return call
+        return copied(call, verb, native, buffer)
+
+    def reader(self, references, buffer):
+        return self.values("Get", references, buffer)
+
+    def writer(self, references, buffer):
+        return self.values("Set", references, buffer)
+
+    def derivative_writer(self, references, order, buffer):
+        n = len(references)
+        numbers, orders = (ctypes.c_uint * n)(*references), (ctypes.c_int * n)(*[order] * n)
+        call = self.bound("fmi2SetRealInputDerivatives", DERIVATIVES, numbers, n, orders, buffer.ctypes.data)
+        call.buffer = buffer
+        return call
+
+    def set_text(self, reference: int, text: str) -> None:
+        self.slave.setString([reference], [text])
+
+    def enter_initialisation(self, start_time: float) -> None:
+        self.slave.setupExperiment(startTime=start_time)
+        self.slave.enterInitializationMode()
+
+    def exit_initialisation(self) -> None:
+        self.slave.exitInitializationMode()
+
+    def step(self, time: float, duration: float) -> None:
+        self.do_step(time, duration, self.keeps_state)
+
+    def snapshot(self):
+        return self.slave.getFMUstate()
+
+    def revert(self, snapshot) -> None:
+        self.slave.setFMUstate(snapshot)
+
+    def forget(self, snapshot) -> None:
+        self.slave.freeFMUstate(snapshot)
+
+    def serialise(self, snapshot) -> bytes:
+        return bytes(self.slave.serializeFMUstate(snapshot))
+
+    def deserialise(self, state: bytes):
+        return self.slave.deSerializeFMUstate(state)
+
+
+def copied(call: Callable[[], None], verb: str, native: np.ndarray, buffer: np.ndarray) -> Callable[[], None]:
+    """A transfer through an array of another width."""
+
+    def read():
+        call()
+        buffer[:] = native
+
+    def write():
+        native[:] = buffer
+        call()
+
+    return read if verb == "Get" else write
+
+
+def make_callbacks(log: Callable[[str], None]) -> fmi2CallbackFunctions:
+    """fmpy's callbacks, with messages kept for the error text instead of printed."""
+
+    def logger(environment, instance, status, category, message):
+        log(message.decode("utf-8", "replace").strip())
+
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = fmi2CallbackLoggerTYPE(logger)
+    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(defaultCallbacks.allocateMemory)
+    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(defaultCallbacks.freeMemory)
+    return callbacks

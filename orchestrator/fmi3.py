@@ -1,0 +1,155 @@
+"""FMI 3.0 calls: the same face as ``fmi2``, over variables that may be arrays."""
+
+import ctypes
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from fmpy.fmi3 import FMU3Slave
+
+from orchestrator.fmi2 import ERROR, WARNING
+from orchestrator.model_description import Described
+
+VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t)
+STEP = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_bool, *[ctypes.c_void_p] * 4)
+NATIVE = {
+    "Float64": "f8", "Float32": "f4", "Boolean": "?", "Enumeration": "i8",
+    **{f"{sign}Int{bits}": f"{kind}{bits // 8}" for sign, kind in (("", "i"), ("U", "u")) for bits in (8, 16, 32, 64)},
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Block:
+    """Whole variables of one type, moved in one call; ``place`` is where they stand in the buffer."""
+
+    kind: str
+    numbers: ctypes.Array
+    values: np.ndarray
+    taken: np.ndarray
+    place: np.ndarray
+
+    @property
+    def is_whole(self) -> bool:
+        return self.taken.size == self.values.size
+
+
+class Fmi3:
+    """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
+
+    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
+        description = described.description
+        self.slave = FMU3Slave(
+            instanceName=name, guid=description.instantiationToken, unzipDirectory=str(folder),
+            modelIdentifier=description.coSimulation.modelIdentifier, requireFunctions=False,
+        )  # fmt: skip
+        self.described, self.log, self.refuse = described, log, refuse
+        self.keeps_state = not description.coSimulation.canGetAndSetFMUstate
+
+    def instantiate(self) -> None:
+        def message(environment, status, category, text):
+            self.log(text.decode("utf-8", "replace").strip())
+
+        self.slave.instantiate(loggingOn=True, logMessage=message)
+        # event handling needed, terminate, early return (Booleans) and the last successful time.
+        self.flags, self.reached = (ctypes.c_bool * 3)(), ctypes.c_double()
+        first = ctypes.addressof(self.flags)
+        self.results = (first, first + 1, first + 2, ctypes.addressof(self.reached))
+        self.do_step = self.bound("fmi3DoStep", STEP)
+
+    def bound(self, function: str, types: tuple, *arguments) -> Callable[..., None]:
+        """The function with the instance and arguments held."""
+        call = self.slave.dll[function]
+        call.argtypes, call.restype = types, ctypes.c_int
+        instance, refuse = self.slave.component, self.refuse
+
+        def run(*rest):
+            status = call(instance, *arguments, *rest)
+            if status > WARNING:
+                refuse(function, status)
+
+        return run
+
+    def call_on(self, verb: str, block: Block) -> Callable[[], None]:
+        call = self.bound(
+            f"fmi3{verb}{'Int64' if block.kind == 'Enumeration' else block.kind}", VALUES,
+            block.numbers, len(block.numbers), block.values.ctypes.data, block.values.size,
+        )  # fmt: skip
+        call.buffer = block.values
+        return call
+
+    def blocks(self, references: tuple[int, ...], buffer: np.ndarray) -> list[Block]:
+        """The variables that the elements belong to, by type; in the buffer itself if they fill it."""
+        cells, layout = np.array(references), self.described.cells
+        owners = layout.variable_of(cells)
+        blocks = []
+        for kind in sorted({layout.kind[i] for i in owners}):
+            place = np.flatnonzero([layout.kind[i] == kind for i in owners])
+            variables = list(dict.fromkeys(owners[place].tolist()))
+            start = dict(zip(variables, np.cumsum([0, *layout.size[variables]]).tolist()))
+            taken = np.array([start[i] + cells[k] - layout.first[i] for i, k in zip(owners[place].tolist(), place)])
+            size = int(layout.size[variables].sum())
+            fills = size == buffer.size and buffer.dtype == NATIVE[kind] and np.array_equal(taken, np.arange(size))
+            numbers = (ctypes.c_uint * len(variables))(*layout.value_reference[variables].tolist())
+            blocks.append(Block(kind, numbers, buffer if fills else np.zeros(size, NATIVE[kind]), taken, place))
+        return blocks
+
+    def reader(self, references, buffer):
+        blocks = self.blocks(references, buffer)
+        calls = [self.call_on("Get", block) for block in blocks]
+        if len(blocks) == 1 and blocks[0].values is buffer:
+            return calls[0]
+
+        def read():
+            for call, block in zip(calls, blocks):
+                call()
+                buffer[block.place] = block.values[block.taken]
+
+        return read
+
+    def writer(self, references, buffer):
+        blocks = self.blocks(references, buffer)
+        calls = [self.call_on("Set", block) for block in blocks]
+        if len(blocks) == 1 and blocks[0].values is buffer:
+            return calls[0]
+        # FMI sets arrays as a whole: elements that are not written keep what they hold.
+        present = [None if block.is_whole else self.call_on("Get", block) for block in blocks]
+
+        def write():
+            for get, put, block in zip(present, calls, blocks):
+                if get is not None:
+                    get()
+                block.values[block.taken] = buffer[block.place]
+                put()
+
+        return write
+
+    def set_text(self, reference: int, text: str) -> None:
+        self.slave.setString([reference], [text])
+
+    def enter_initialisation(self, start_time: float) -> None:
+        self.slave.enterInitializationMode(startTime=start_time)
+
+    def exit_initialisation(self) -> None:
+        self.slave.exitInitializationMode()
+
+    def step(self, time: float, duration: float) -> None:
+        self.do_step(time, duration, self.keeps_state, *self.results)
+        if self.flags[1]:
+            self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
+            self.refuse("fmi3DoStep", ERROR)
+
+    def snapshot(self):
+        return self.slave.getFMUState()
+
+    def revert(self, snapshot) -> None:
+        self.slave.setFMUState(snapshot)
+
+    def forget(self, snapshot) -> None:
+        self.slave.freeFMUState(snapshot)
+
+    def serialise(self, snapshot) -> bytes:
+        return bytes(self.slave.serializeFMUState(snapshot))
+
+    def deserialise(self, state: bytes):
+        return self.slave.deserializeFMUState(state)

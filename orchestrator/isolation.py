@@ -1,0 +1,261 @@
+"""A unit in a process of its own: when it crashes, the run and the other units survive.
+
+The process talks through its standard input and output, a pickled request and a pickled
+answer at a time; what the unit itself prints goes to standard error.
+"""
+
+import contextlib
+import os
+import pickle
+import signal as signals
+import struct
+import subprocess
+import sys
+from pathlib import Path
+from threading import Timer
+
+import numpy as np
+
+from orchestrator.component import Component
+from orchestrator.faults import InputFault, RunFault
+
+LENGTH = struct.Struct("<Q")
+FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
+# Attributes of a component that its stand-in shows.
+SHOWN = ("signals", "can_restore", "can_vary_step", "input_derivatives", "usual_step")
+CLOSING_SECONDS = 5.0
+
+
+class Isolated(Component):
+    """Stands for an FMU that lives in another process.
+
+    ``timeout`` [s] ends a unit that hangs in a step.
+    """
+
+    def __init__(self, name: str, path: str | Path, timeout: float | None = None):
+        self.name, self.path, self.timeout = name, Path(path), timeout
+        self.doing = "its start"
+        self.timed_out = False
+        root = Path(__file__).resolve().parents[1]
+        paths = os.pathsep.join([str(root), *filter(None, [os.environ.get("PYTHONPATH")])])
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "orchestrator.isolation", name, str(self.path)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": paths},
+        )  # fmt: skip
+        shown = self.answer()
+        for key in SHOWN:
+            setattr(self, key, shown[key])
+        self.through = shown["feedthrough"]
+
+    def call(self, method: str, *arguments):
+        """Have the unit do something and return what comes of it."""
+        self.send(method, *arguments)
+        return self.answer()
+
+    def send(self, method: str, *arguments) -> None:
+        try:
+            write(self.process.stdin, (method, arguments))
+        except OSError:
+            raise self.loss() from None
+
+    def answer(self):
+        try:
+            kind, value = read(self.process.stdout)
+        except (EOFError, OSError):
+            raise self.loss() from None
+        if kind in FAULTS:
+            raise FAULTS[kind](value)
+        return value
+
+    def loss(self) -> RunFault:
+        """What is known of a process that is gone."""
+        self.process.kill()
+        code = self.process.wait()
+        if self.timed_out:
+            end = f"gave no answer for {self.timeout:g} s and was ended"
+        elif code < 0:
+            end = f"crashed with signal {-code} ({signals.Signals(-code).name})"
+        else:
+            end = f"ended with exit code {code}"
+        return RunFault(
+            f"{self.name} ({self.path.name}): the process of this unit {end} during {self.doing}. The other units are"
+            " unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step"
+        )
+
+    def feedthrough(self):
+        return self.through
+
+    def reader(self, references, buffer):
+        key = self.call("new_reader", references, buffer.dtype.str)
+
+        def read_values():
+            buffer[:] = np.frombuffer(self.call("read", key), buffer.dtype)
+
+        return read_values
+
+    def writer(self, references, buffer):
+        key = self.call("new_writer", references, buffer.dtype.str)
+        return lambda: self.call("write", key, buffer.tobytes())
+
+    def derivative_writer(self, references, order, buffer):
+        key = self.call("new_writer", references, buffer.dtype.str, order)
+        return lambda: self.call("write", key, buffer.tobytes())
+
+    def set_text(self, name, text):
+        self.call("set_text", name, text)
+
+    def enter_initialisation(self, start_time):
+        self.doing = "initialisation"
+        self.call("enter_initialisation", start_time)
+
+    def exit_initialisation(self):
+        self.call("exit_initialisation")
+
+    def step(self, time, duration):
+        self.begin_step(time, duration)
+        self.end_step()
+
+    def begin_step(self, time, duration):
+        self.doing = f"the step of {duration:.6g} s at time {time:.9g} s"
+        self.send("step", time, duration)
+
+    def end_step(self):
+        if self.timeout is None:
+            self.answer()
+            return
+        watch = Timer(self.timeout, self.give_up)
+        watch.start()
+        try:
+            self.answer()
+        finally:
+            watch.cancel()
+
+    def give_up(self) -> None:
+        self.timed_out = True
+        self.process.kill()
+
+    def save(self):
+        return self.call("save")
+
+    def restore(self, state):
+        self.call("restore", state)
+
+    def snapshot(self):
+        return self.call("keep_snapshot")
+
+    def revert(self, snapshot):
+        self.call("revert_to", snapshot)
+
+    def forget(self, snapshot):
+        self.call("drop_snapshot", snapshot)
+
+    def record(self):
+        return self.call("record")
+
+    def close(self):
+        if self.process.poll() is None:
+            try:
+                write(self.process.stdin, ("close", ()))
+                self.process.wait(CLOSING_SECONDS)
+            except (OSError, subprocess.TimeoutExpired):
+                self.process.kill()
+                self.process.wait()
+        for stream in (self.process.stdin, self.process.stdout):
+            # What was not sent to a process that crashed cannot be sent any more.
+            with contextlib.suppress(OSError):
+                stream.close()
+
+
+class Worker:
+    """The other end: the unit, its prepared transfers and its snapshots by number."""
+
+    def __init__(self, component: Component):
+        self.component = component
+        self.transfers: list[tuple] = []
+        self.snapshots: dict[int, object] = {}
+        self.taken = 0
+
+    def do(self, method: str, arguments: tuple):
+        own = getattr(self, method, None)
+        return own(*arguments) if own is not None else getattr(self.component, method)(*arguments)
+
+    def new_reader(self, references, dtype) -> int:
+        buffer = np.zeros(len(references), dtype)
+        self.transfers.append((self.component.reader(references, buffer), buffer))
+        return len(self.transfers) - 1
+
+    def new_writer(self, references, dtype, order=None) -> int:
+        buffer = np.zeros(len(references), dtype)
+        made = self.component.writer(references, buffer) if order is None else (
+            self.component.derivative_writer(references, order, buffer))
+        self.transfers.append((made, buffer))
+        return len(self.transfers) - 1
+
+    def read(self, key) -> bytes:
+        transfer, buffer = self.transfers[key]
+        transfer()
+        return buffer.tobytes()
+
+    def write(self, key, values) -> None:
+        transfer, buffer = self.transfers[key]
+        buffer[:] = np.frombuffer(values, buffer.dtype)
+        transfer()
+
+    def keep_snapshot(self) -> int:
+        self.taken += 1
+        self.snapshots[self.taken] = self.component.snapshot()
+        return self.taken
+
+    def revert_to(self, key) -> None:
+        self.component.revert(self.snapshots[key])
+
+    def drop_snapshot(self, key) -> None:
+        self.component.forget(self.snapshots.pop(key))
+
+
+def write(stream, message) -> None:
+    data = pickle.dumps(message)
+    stream.write(LENGTH.pack(len(data)) + data)
+    stream.flush()
+
+
+def read(stream):
+    head = stream.read(LENGTH.size)
+    if len(head) < LENGTH.size:
+        raise EOFError
+    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))
+
+
+def main(name: str, path: str) -> None:
+    """Serve one unit until told to close or the master is gone."""
+    from orchestrator.fmu import Fmu
+
+    requests = sys.stdin.buffer
+    answers = os.fdopen(os.dup(1), "wb")
+    # A unit may print: that must not get among the answers.
+    os.dup2(2, 1)
+    try:
+        component = Fmu(name, path)
+    except (InputFault, RunFault) as fault:
+        write(answers, (type(fault).__name__, str(fault)))
+        return
+    worker = Worker(component)
+    shown = {key: getattr(component, key) for key in SHOWN} | {"feedthrough": component.feedthrough()}
+    write(answers, ("done", shown))
+    while True:
+        try:
+            method, arguments = read(requests)
+        except EOFError:
+            break
+        if method == "close":
+            break
+        try:
+            answer = ("done", worker.do(method, arguments))
+        except (InputFault, RunFault) as fault:
+            answer = (type(fault).__name__, str(fault))
+        write(answers, answer)
+    component.close()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

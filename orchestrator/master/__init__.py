@@ -1,0 +1,8 @@
+"""The co-simulation master."""
+
+from orchestrator.master.connections import Connection
+from orchestrator.master.loops import LoopSettings
+from orchestrator.master.master import SCHEMES, Master
+from orchestrator.master.step_control import StepControl
+
+__all__ = ["SCHEMES", "Connection", "LoopSettings", "Master", "StepControl"]

@@ -1,0 +1,1 @@
+"""System Structure and Parameterization (SSP 1.0): packages read and written."""

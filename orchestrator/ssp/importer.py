@@ -1,0 +1,226 @@
+"""A system structure description, flattened: FMUs, their connections and parameter values.
+
+Connectors of nested systems are only passed through: a connection is traced from a unit's
+input back to a unit's output, the transformations on the way composed.  Units are
+converted before a transformation is applied, as the standard says.
+"""
+
+import re
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from urllib.parse import unquote
+from zipfile import BadZipFile, ZipFile
+
+from fmu_src.units import BaseUnit
+from orchestrator.faults import InputFault
+from orchestrator.master import Connection
+from orchestrator.ssp.parameters import Parameter, read_bindings
+from orchestrator.ssp.xml import child, children, local, number, parse, units_of
+
+MAIN_FILE = "SystemStructure.ssd"
+# A path of element names from the top, and a connector there.
+Node = tuple[tuple[str, ...], str]
+MAPPINGS = ("BooleanMappingTransformation", "IntegerMappingTransformation", "EnumerationMappingTransformation")
+# Where tools note their communication step: element and attribute, whatever the namespace.
+STEP_NOTES = (("Master", "step"), ("FixedStepAlgorithm", "baseStepSize"), ("FixedStepMaster", "stepSize"))
+
+
+@dataclass(frozen=True)
+class Edge:
+    """A connection as written, seen from its end."""
+
+    start: Node
+    factor: float
+    offset: float
+    convert_unit: bool
+
+
+@dataclass
+class Structure:
+    """A flattened system.  Unit names are paths joined by dots."""
+
+    name: str = "system"
+    fmus: dict[str, Path] = field(default_factory=dict)
+    connections: list[Connection] = field(default_factory=list)
+    parameters: list[tuple[str, str, Parameter]] = field(default_factory=list)
+    open_inputs: list[str] = field(default_factory=list)
+    start: float = 0.0
+    stop: float | None = None
+    step: float | None = None
+    scheme: str | None = None
+    notes: list[str] = field(default_factory=list)
+    folders: list[TemporaryDirectory] = field(default_factory=list)
+
+
+class Importer:
+    """Walks the systems and collects what the structure is made of."""
+
+    def __init__(self):
+        self.structure = Structure()
+        self.units: dict[tuple[str, ...], Path] = {}
+        self.systems: list[tuple[str, ...]] = []
+        self.edges: dict[Node, Edge] = {}
+        self.connector_units: dict[Node, BaseUnit] = {}
+        self.kinds: dict[Node, str] = {}
+        self.bound: list[tuple[tuple[str, ...], Parameter]] = []
+
+    def open(self, path: Path) -> Path:
+        """The description's file; a package is unpacked into a folder that goes with the structure."""
+        if path.is_dir():
+            return path / MAIN_FILE
+        if path.suffix == ".ssd":
+            return path
+        if not path.is_file():
+            raise InputFault(f"no SSP at {path}")
+        folder = TemporaryDirectory()
+        self.structure.folders.append(folder)
+        try:
+            with ZipFile(path) as archive:
+                archive.extractall(folder.name)
+        except BadZipFile:
+            raise InputFault(f"{path} is not an SSP package: it is no zip archive") from None
+        return Path(folder.name) / MAIN_FILE
+
+    def read(self, path: Path, place: tuple[str, ...]):
+        """One description, its system at ``place``; returns its root."""
+        file = self.open(path)
+        root = parse(file)
+        if local(root) != "SystemStructureDescription":
+            raise InputFault(f"{file}: a {local(root)}, not a SystemStructureDescription")
+        system = child(root, "System")
+        if system is None:
+            raise InputFault(f"{file}: no System")
+        self.walk(system, place, file.parent, units_of(root))
+        return root
+
+    def walk(self, system, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+        self.systems.append(place)
+        self.connectors(system, place, units)
+        self.bound += [(place, p) for p in read_bindings(system, folder)]
+        for element in [e for group in children(system, "Elements") for e in group]:
+            inner = (*place, element.get("name", ""))
+            if local(element) == "System":
+                self.walk(element, inner, folder, units)
+            elif local(element) == "Component":
+                self.component(element, inner, folder, units)
+            elif local(element):
+                raise InputFault(f"{'.'.join(inner)}: a {local(element)} cannot be run; only systems and components can")
+        for connection in children(system, "Connections", "Connection"):
+            self.connection(connection, place)
+
+    def connectors(self, element, place: tuple[str, ...], units: dict[str, BaseUnit]) -> None:
+        for connector in children(element, "Connectors", "Connector"):
+            self.kinds[place, connector.get("name")] = connector.get("kind", "")
+            kind = next((e for e in connector if e.get("unit")), None)
+            unit = units.get(kind.get("unit")) if kind is not None else None
+            if unit is not None:
+                self.connector_units[place, connector.get("name")] = unit
+
+    def component(self, element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+        source = unquote(element.get("source", ""))
+        if not source or re.match(r"[a-z]+://", source):
+            raise InputFault(f"{'.'.join(place)}: source {source!r} is not a file of the package")
+        path = folder / source
+        if path.suffix in (".ssp", ".ssd"):
+            self.read(path, place)
+        else:
+            self.units[place] = path
+            self.connectors(element, place, units)
+        self.bound += [(place, p) for p in read_bindings(element, folder)]
+
+    def connection(self, element, place: tuple[str, ...]) -> None:
+        ends = []
+        for side in ("start", "end"):
+            name = element.get(f"{side}Element")
+            ends.append(((*place, name) if name else place, element.get(f"{side}Connector", "")))
+        start, end = ends
+        # Which way values go is a matter of the connectors' kinds, not of what was written first.
+        if self.gives(end, place) and not self.gives(start, place):
+            start, end = end, start
+        for transformation in MAPPINGS:
+            if child(element, transformation) is not None:
+                raise InputFault(f"connection to {text_of(end)}: {transformation} is not supported")
+        linear = child(element, "LinearTransformation")
+        factor, offset = (1.0, 0.0) if linear is None else (number(linear, "factor", 1.0), number(linear, "offset", 0.0))
+        if end in self.edges:
+            raise InputFault(f"connection {text_of(start)} -> {text_of(end)}: driven already by {text_of(self.edges[end].start)}")
+        self.edges[end] = Edge(start, factor, offset, element.get("suppressUnitConversion", "false") not in ("true", "1"))
+
+    def gives(self, node: Node, place: tuple[str, ...]) -> bool:
+        """Whether a connector is a source within the system at ``place``: its own are seen from inside."""
+        return self.kinds.get(node) in (("input", "parameter") if node[0] == place else ("output", "calculatedParameter"))
+
+    def trace(self, end: Node) -> Connection | None:
+        """The connection that ends at a unit's input; None if it begins outside the system."""
+        node, factor, offset, convert = end, 1.0, 0.0, True
+        while node[0] not in self.units or node == end:
+            edge = self.edges.get(node)
+            if edge is None:
+                return None
+            # Later hops act on what the earlier ones give.
+            offset += factor * edge.offset
+            factor *= edge.factor
+            convert = convert and edge.convert_unit
+            node = edge.start
+        declared = self.connector_units.get(node), self.connector_units.get(end)
+        if convert and None not in declared:
+            found = declared[0].conversion(declared[1])
+            if found is None:
+                raise InputFault(f"connection {text_of(node)} -> {text_of(end)}: the units of the connectors do not fit")
+            offset += factor * found[1]
+            factor *= found[0]
+            convert = False
+        return Connection(text_of(node), text_of(end), factor, offset, convert)
+
+    def bind(self, place: tuple[str, ...], parameter: Parameter) -> None:
+        """Find the unit's variable that a value is for; a name that fits nothing is noted, as the standard allows it."""
+        if place in self.units:
+            self.structure.parameters.append((".".join(place), parameter.name, parameter))
+            return
+        if (place, parameter.name) in self.kinds:
+            # A connector of this system hands the value on to what it is connected with.
+            for inner, connector in [end for end, edge in self.edges.items() if edge.start == (place, parameter.name)]:
+                self.bind(inner, replace(parameter, name=connector))
+            return
+        # The longest path of elements that the name begins with.
+        below = [p for p in (*self.units, *self.systems) if p != place and p[: len(place)] == place]
+        for inner in sorted(below, key=len, reverse=True):
+            prefix = ".".join(inner[len(place) :]) + "."
+            if parameter.name.startswith(prefix):
+                self.bind(inner, replace(parameter, name=parameter.name[len(prefix) :]))
+                return
+        self.structure.notes.append(text_of((place, parameter.name)))
+
+    def finish(self, root) -> Structure:
+        structure = self.structure
+        structure.name = root.get("name") or "system"
+        structure.fmus = {".".join(place): path for place, path in self.units.items()}
+        for end in [node for node in self.edges if node[0] in self.units]:
+            connection = self.trace(end)
+            if connection is None:
+                structure.open_inputs.append(text_of(end))
+            else:
+                structure.connections.append(connection)
+        for place, parameter in self.bound:
+            self.bind(place, parameter)
+        experiment = child(root, "DefaultExperiment")
+        if experiment is not None:
+            structure.start = number(experiment, "startTime", 0.0)
+            structure.stop = number(experiment, "stopTime", 0.0) if experiment.get("stopTime") else None
+        for name, attribute in STEP_NOTES:
+            for element in root.iter():
+                if local(element) == name and element.get(attribute) and structure.step is None:
+                    structure.step = number(element, attribute, 0.0)
+                    structure.scheme = element.get("scheme")
+        return structure
+
+
+def text_of(node: Node) -> str:
+    return ".".join((*node[0], node[1]))
+
+
+def read_ssp(path: str | Path) -> Structure:
+    """The flattened system of a package (.ssp), a folder with one unpacked, or an .ssd file."""
+    importer = Importer()
+    return importer.finish(importer.read(Path(path), ()))

@@ -1,0 +1,102 @@
+"""Parameter values (SSV) and their mapping to names of the system (SSM)."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from fmu_src.units import BaseUnit, UnitError, conversion
+from orchestrator.component import Component, Signal
+from orchestrator.faults import InputFault
+from orchestrator.ssp.xml import child, children, local, number, parse, units_of
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One value; ``kind`` is Real, Integer, Boolean, Enumeration or String."""
+
+    name: str
+    kind: str
+    text: str
+    unit: str | None = None
+    base_unit: BaseUnit | None = None
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+def read_bindings(element, folder: Path) -> list[Parameter]:
+    """All values bound at a component or system, with prefix and mapping applied."""
+    return [p for binding in children(element, "ParameterBindings", "ParameterBinding") for p in read_binding(binding, folder)]
+
+
+def read_binding(binding, folder: Path) -> list[Parameter]:
+    source = binding.get("source")
+    root = parse(folder / source) if source else child(binding, "ParameterValues", "ParameterSet")
+    if root is None:
+        raise InputFault("ParameterBinding: neither a source nor values")
+    units = units_of(root)
+    found = []
+    for element in children(root, "Parameters", "Parameter"):
+        value = next((e for e in element if local(e)), None)
+        if value is None or value.get("value") is None and local(value) != "Enumeration":
+            raise InputFault(f"parameter {element.get('name')}: no value")
+        # Some tools write units in brackets.
+        unit = value.get("unit", "").strip("[]") or None
+        found.append(Parameter(
+            binding.get("prefix", "") + element.get("name"), local(value), value.get("value") or value.get("name"),
+            unit, units.get(value.get("unit")),
+        ))  # fmt: skip
+    mapping = child(binding, "ParameterMapping")
+    return found if mapping is None else mapped(found, mapping, folder)
+
+
+def mapped(parameters: list[Parameter], mapping, folder: Path) -> list[Parameter]:
+    """Those that the mapping names, under their new names."""
+    source = mapping.get("source")
+    root = parse(folder / source) if source else child(mapping, "ParameterMapping")
+    by_name = {p.name: p for p in parameters}
+    result = []
+    for entry in children(root, "MappingEntry"):
+        if entry.get("source") not in by_name:
+            # Tools write mappings of all that could be set, whether there is a value or not.
+            continue
+        if not entry.get("target"):
+            raise InputFault(f"parameter mapping: {entry.get('source')!r} has no target")
+        linear = child(entry, "LinearTransformation")
+        scale = {} if linear is None else {
+            "factor": number(linear, "factor", 1.0), "offset": number(linear, "offset", 0.0)}  # fmt: skip
+        result.append(replace(by_name[entry.get("source")], name=entry.get("target"), **scale))
+    return result
+
+
+def apply(parameter: Parameter, component: Component, variable: str) -> None:
+    """Set the variable, in its own unit."""
+    if parameter.kind == "String":
+        component.set_text(variable, parameter.text)
+        return
+    signal = component.signal(variable)
+    try:
+        component.set(variable, value_of(parameter, signal))
+    except (ValueError, UnitError) as problem:
+        raise InputFault(f"parameter {component.name}.{variable} = {parameter.text!r}: {problem}") from None
+
+
+def value_of(parameter: Parameter, signal: Signal) -> float | int | bool:
+    text = parameter.text.strip()
+    if parameter.kind == "Boolean":
+        return text in ("true", "1")
+    if parameter.kind == "Enumeration" and text in signal.choices:
+        return signal.choices.index(text)
+    if signal.is_integer:
+        return int(text)
+    factor, offset = unit_conversion(parameter, signal)
+    return parameter.factor * (factor * float(text) + offset) + parameter.offset
+
+
+def unit_conversion(parameter: Parameter, signal: Signal) -> tuple[float, float]:
+    if parameter.unit is None or parameter.unit == signal.unit or not signal.unit_given:
+        return 1.0, 0.0
+    if parameter.base_unit is not None and signal.base_unit is not None:
+        found = parameter.base_unit.conversion(signal.base_unit)
+        if found is None:
+            raise UnitError(f"unit {parameter.unit!r} does not fit {signal.unit!r}")
+        return found
+    return conversion(parameter.unit, signal.unit)

@@ -1,0 +1,166 @@
+"""A system ready to run, from an SSP package, a scenario file, or FMUs and connections.
+
+    system = load("RvReducer.ssp")
+    system["wear.acceleration"] = 1e6
+    series = system.run(duration=0.2, record=["plant.lag"])
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import numpy as np
+
+from orchestrator.component import Component
+from orchestrator.faults import InputFault
+from orchestrator.fmu import open_fmu
+from orchestrator.master import SCHEMES, Connection, Master
+from orchestrator.master.connections import resolve
+from orchestrator.settings import parse_value
+from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.parameters import apply
+
+# Steps of a system whose files give none, and the step [s] where they do not even give a duration.
+USUAL_STEPS = 1000
+LAST_RESORT = 1e-3
+MOST_STEPS = 1e7
+
+
+@dataclass
+class System:
+    """A master, how long it is to run, and what is recorded: (component, variable)."""
+
+    name: str
+    master: Master
+    steps: int
+    recorded: list[tuple[str, str]] = field(default_factory=list)
+    text: str = ""
+    # Folders that the units' files are in, kept until the system is gone.
+    folders: list = field(default_factory=list)
+    initialised: bool = False
+
+    def __getitem__(self, path: str) -> np.ndarray | float | int:
+        name, signal = resolve(self.master.components, path)
+        return self.master.components[name].get(signal.name)
+
+    def __setitem__(self, path: str, value) -> None:
+        """Set a parameter or input: a number in its unit, or a text with its own ("150 N.m")."""
+        name, signal = resolve(self.master.components, path)
+        self.master.components[name].set(signal.name, parse_value(value, signal) if isinstance(value, str) else value)
+
+    def initialise(self) -> None:
+        if not self.initialised:
+            self.master.initialise()
+            self.initialised = True
+
+    def run(
+        self, duration: float | None = None, record: Iterable[str] = (), each_step: Callable[[], None] | None = None
+    ) -> dict[str, np.ndarray]:
+        """Run on, for ``duration`` [s] or as the file says; ``time`` and ``component.variable`` series.
+
+        One row per base step, the first for where it starts.  ``record`` takes patterns: ``plant.*``.
+        """
+        self.initialise()
+        master = self.master
+        steps = self.steps if duration is None else whole_steps(duration, master.step_size)
+        recorded = [*self.recorded, *(found for pattern in record for found in self.matching(pattern))]
+        signals = {f"{name}.{variable}": (name, master.components[name].signal(variable)) for name, variable in recorded}
+        buffers = {path: signal.new_buffer() for path, (_, signal) in signals.items()}
+        readers = [
+            master.components[name].reader(signal.references, buffers[path]) for path, (name, signal) in signals.items()
+        ]
+        rows = {path: np.zeros((steps + 1, buffer.size), buffer.dtype) for path, buffer in buffers.items()}
+        time = np.zeros(steps + 1)
+        for i in range(steps + 1):
+            if i > 0:
+                master.step()
+                if each_step is not None:
+                    each_step()
+            time[i] = master.time
+            for read in readers:
+                read()
+            for path, buffer in buffers.items():
+                rows[path][i] = buffer
+        return {"time": time} | {path: rows[path].reshape(steps + 1, *signals[path][1].shape) for path in rows}
+
+    def matching(self, pattern: str) -> list[tuple[str, str]]:
+        """Variables that a name or pattern stands for."""
+        if not set(pattern) & set("*?"):
+            name, signal = resolve(self.master.components, pattern)
+            return [(name, signal.name)]
+        found = [
+            (name, variable) for name, component in self.master.components.items()
+            for variable in component.signals if fnmatchcase(f"{name}.{variable}", pattern)
+        ]  # fmt: skip
+        if not found:
+            raise InputFault(f"no variable matches {pattern!r}")
+        return found
+
+    def units(self) -> dict[str, str]:
+        """Units of all variables by path."""
+        return {f"{n}.{v}": s.unit for n, c in self.master.components.items() for v, s in c.signals.items()}
+
+    def close(self) -> None:
+        self.master.close()
+        for folder in self.folders:
+            folder.cleanup()
+
+
+def whole_steps(duration: float, step: float) -> int:
+    steps = duration / step
+    if not 1.0 <= steps * (1.0 + 1e-9) <= MOST_STEPS:
+        raise InputFault(f"duration = {duration:g} s with steps of {step:g} s: from one to ten million steps")
+    return round(steps)
+
+
+def load(path: str | Path, step: float | None = None, isolate: bool = False, **master) -> System:
+    """The system of an SSP package (.ssp, .ssd or a folder), a scenario (.toml), or a single FMU.
+
+    ``step`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
+    what the file says; with ``isolate`` every FMU runs in a process of its own.
+    """
+    path = Path(path)
+    if path.suffix == ".toml":
+        from orchestrator.scenario import load_scenario
+
+        return load_scenario(path, step, isolate, **master)
+    if path.suffix == ".fmu":
+        return connect({path.stem: path}, (), step, isolate, **master)
+    structure = read_ssp(path)
+    components = {name: open_fmu(name, fmu, isolate) for name, fmu in structure.fmus.items()}
+    for name, variable, parameter in structure.parameters:
+        if parameter.kind == "String" or components[name].has(variable):
+            apply(parameter, components[name], variable)
+        else:
+            structure.notes.append(f"{name}.{variable}")
+    named = step or structure.step or usual_step(components, structure.stop)
+    size = named or LAST_RESORT
+    usual = {"start_time": structure.start, "scheme": structure.scheme or SCHEMES[0]}
+    made = Master(components, structure.connections, size, **usual | master)
+    if structure.notes:
+        made.warn(f"{path.name}: left out the values of {', '.join(structure.notes)}, which are no variables of the system")
+    if named is None:
+        made.warn(f"step = {size:g} s: neither {path.name} nor its units name a communication step; give one (--step)")
+    stop = structure.stop if structure.stop is not None else structure.start + USUAL_STEPS * size
+    return System(structure.name, made, whole_steps(stop - structure.start, size), [], str(path), structure.folders)
+
+
+def connect(
+    fmus: dict[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
+    step: float | None = None, isolate: bool = False, **master,
+) -> System:  # fmt: skip
+    """A system of FMUs by name and their connections."""
+    components = {
+        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate) for name, fmu in fmus.items()
+    }
+    size = step or usual_step(components, None)
+    if size is None:
+        raise InputFault("no step: the units name no communication step; give one (step, --step)")
+    return System("system", Master(components, connections, size, **master), USUAL_STEPS)
+
+
+def usual_step(components: dict[str, Component], stop: float | None) -> float | None:
+    """The shortest step that a unit's default experiment names, else a thousandth of the duration."""
+    named = [step for c in components.values() if (step := c.usual_step) is not None]
+    return min(named) if named else stop / USUAL_STEPS if stop else None

@@ -1,0 +1,210 @@
+"""SSP packages: read as others write them, flattened, with units, transformations, bindings and mappings."""
+
+import shutil
+import zipfile
+
+import numpy as np
+import pytest
+
+from orchestrator.faults import InputFault
+from orchestrator.ssp.exporter import Experiment, export_ssp
+from orchestrator.ssp.importer import read_ssp
+from orchestrator.system import connect, load
+
+NAMES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+ xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
+ xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues"
+ xmlns:ssm="http://ssp-standard.org/SSP1/SystemStructureParameterMapping" """
+
+# Two springs, one in a subsystem; b.u = -2 (x in mm, as m) + 0.1 on a way of three hops.
+NESTED = f"""<?xml version="1.0"?>
+<ssd:SystemStructureDescription {NAMES} version="1.0" name="nested">
+ <ssd:System name="root">
+  <ssd:ParameterBindings>
+   <ssd:ParameterBinding>
+    <ssd:ParameterValues><ssv:ParameterSet version="1.0" name="p"><ssv:Parameters>
+     <ssv:Parameter name="a.x"><ssv:Real value="1.0"/></ssv:Parameter>
+     <ssv:Parameter name="inner.b.c"><ssv:Real value="0.25"/></ssv:Parameter>
+     <ssv:Parameter name="inner.b.note"><ssv:String value="hello"/></ssv:Parameter>
+     <ssv:Parameter name="inner.b.loud"><ssv:Boolean value="false"/></ssv:Parameter>
+    </ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>
+   </ssd:ParameterBinding>
+   <ssd:ParameterBinding prefix="inner." source="extra.ssv">
+    <ssd:ParameterMapping><ssm:ParameterMapping version="1.0">
+     <ssm:MappingEntry source="inner.stiffness" target="inner.k"><ssc:LinearTransformation factor="3" offset="1"/></ssm:MappingEntry>
+    </ssm:ParameterMapping></ssd:ParameterMapping>
+   </ssd:ParameterBinding>
+  </ssd:ParameterBindings>
+  <ssd:Elements>
+   <ssd:Component name="a" type="application/x-fmu-sharedlibrary" source="resources/Spring.fmu">
+    <ssd:Connectors>
+     <ssd:Connector name="x" kind="output"><ssc:Real unit="mm"/></ssd:Connector>
+     <ssd:Connector name="u" kind="input"><ssc:Real/></ssd:Connector>
+    </ssd:Connectors>
+   </ssd:Component>
+   <ssd:System name="inner">
+    <ssd:Connectors>
+     <ssd:Connector name="in" kind="input"><ssc:Real/></ssd:Connector>
+     <ssd:Connector name="out" kind="output"><ssc:Real/></ssd:Connector>
+     <ssd:Connector name="k" kind="parameter"><ssc:Real/></ssd:Connector>
+    </ssd:Connectors>
+    <ssd:Elements>
+     <ssd:Component name="b" source="resources/Spring.fmu">
+      <ssd:Connectors>
+       <ssd:Connector name="u" kind="input"><ssc:Real unit="m"/></ssd:Connector>
+       <ssd:Connector name="x" kind="output"><ssc:Real/></ssd:Connector>
+      </ssd:Connectors>
+     </ssd:Component>
+    </ssd:Elements>
+    <ssd:Connections>
+     <ssd:Connection startConnector="in" endElement="b" endConnector="u"><ssc:LinearTransformation factor="-1"/></ssd:Connection>
+     <ssd:Connection startElement="b" startConnector="x" endConnector="out"/>
+     <ssd:Connection startConnector="k" endElement="b" endConnector="k"/>
+    </ssd:Connections>
+   </ssd:System>
+  </ssd:Elements>
+  <ssd:Connections>
+   <ssd:Connection startElement="a" startConnector="x" endElement="inner" endConnector="in">
+    <ssc:LinearTransformation factor="2" offset="-0.1"/>
+   </ssd:Connection>
+   <ssd:Connection startElement="inner" startConnector="out" endElement="a" endConnector="u"/>
+  </ssd:Connections>
+ </ssd:System>
+ <ssd:Units>
+  <ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit>
+  <ssc:Unit name="mm"><ssc:BaseUnit m="1" factor="0.001"/></ssc:Unit>
+ </ssd:Units>
+ <ssd:DefaultExperiment startTime="1" stopTime="3">
+  <ssd:Annotations><ssc:Annotation type="org.openmodelica">
+   <oms:FixedStepMaster xmlns:oms="https://openmodelica.org" stepSize="0.05"/>
+  </ssc:Annotation></ssd:Annotations>
+ </ssd:DefaultExperiment>
+</ssd:SystemStructureDescription>
+"""
+EXTRA = """<ssv:ParameterSet version="1.0" name="extra"><ssv:Parameters>
+ <ssv:Parameter name="stiffness"><ssv:Real value="2"/></ssv:Parameter>
+ <ssv:Parameter name="unused"><ssv:Real value="7"/></ssv:Parameter>
+</ssv:Parameters></ssv:ParameterSet>
+"""
+
+
+def package(folder, spring, text=NESTED, extra=EXTRA):
+    (folder / "resources").mkdir(exist_ok=True)
+    shutil.copy(spring, folder / "resources")
+    (folder / "SystemStructure.ssd").write_text(text, encoding="utf-8")
+    (folder / "extra.ssv").write_text(extra, encoding="utf-8")
+    target = folder / "nested.ssp"
+    with zipfile.ZipFile(target, "w") as archive:
+        for name in ("SystemStructure.ssd", "extra.ssv", "resources/Spring.fmu"):
+            archive.write(folder / name, name)
+    return target
+
+
+def test_nested_system_is_flattened_with_everything_applied(tmp_path, spring):
+    system = load(package(tmp_path, spring))
+    master = system.master
+    assert (system.name, master.start_time, master.step_size, system.steps) == ("nested", 1.0, 0.05, 40)
+    assert list(master.components) == ["a", "inner.b"]
+    assert system["a.x"] == 1.0 and system["inner.b.c"] == 0.25
+    # 3 * 2 + 1, through the mapping and the subsystem's connector; "unused" is not mapped.
+    assert system["inner.b.k"] == 7.0
+    system.initialise()
+    assert system["inner.b.u"] == pytest.approx(-(2.0 * 1e-3 * system["a.x"] - 0.1))
+    system.run()
+    assert master.time == pytest.approx(3.0)
+    system.close()
+
+
+@pytest.mark.parametrize("form", ["package", "folder", "file"])
+def test_package_folder_and_file_are_the_same(tmp_path, spring, form):
+    target = package(tmp_path, spring)
+    path = {"package": target, "folder": tmp_path, "file": tmp_path / "SystemStructure.ssd"}[form]
+    structure = read_ssp(path)
+    assert [str(c) for c in structure.connections] == ["connection a.x -> inner.b.u", "connection inner.b.x -> a.u"]
+    assert (structure.connections[0].factor, structure.connections[0].offset) == pytest.approx((-2e-3, 0.1))
+
+
+def test_package_within_a_package(tmp_path, spring):
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    target = package(inner, spring)
+    text = f"""<ssd:SystemStructureDescription {NAMES} name="outer" version="1.0"><ssd:System name="s"><ssd:Elements>
+    <ssd:Component name="part" source="inner/{target.name}" type="application/x-ssp-package"/>
+    </ssd:Elements></ssd:System></ssd:SystemStructureDescription>"""
+    (tmp_path / "SystemStructure.ssd").write_text(text, encoding="utf-8")
+    system = load(tmp_path, step=0.1)
+    assert list(system.master.components) == ["part.a", "part.inner.b"]
+    assert system["part.inner.b.k"] == 7.0
+    system.close()
+
+
+@pytest.mark.parametrize("before, after, said", [
+    ("resources/Spring.fmu", "resources/Sprung.fmu", "no FMU at"),
+    ("resources/Spring.fmu", "http://there/Spring.fmu", "not a file of the package"),
+    ('endElement="a" endConnector="u"', 'endElement="a" endConnector="w"', "no variable 'w'"),
+    ('endElement="a" endConnector="u"', 'endElement="inner" endConnector="in"', "driven already"),
+    ('name="a.x"><ssv:Real value="1.0"', 'name="a.x"><ssv:Real value="one"', "'one'"),
+    ("extra.ssv", "more.ssv", "no file more.ssv"),
+    ('factor="2"', 'factor="two"', "factor = 'two' is not a number"),
+    ('<ssc:LinearTransformation factor="-1"/>', "<ssc:BooleanMappingTransformation/>", "not supported"),
+    ("</ssd:SystemStructureDescription>", "", "not readable as XML"),
+])  # fmt: skip
+def test_bad_package_is_told_what_is_wrong(tmp_path, spring, before, after, said):
+    assert before in NESTED
+    with pytest.raises(InputFault, match=said):
+        load(package(tmp_path, spring, NESTED.replace(before, after)))
+
+
+def test_values_that_fit_nothing_are_told_and_left_out(tmp_path, spring):
+    text = NESTED.replace('name="a.x"', 'name="z.x"').replace('name="inner.b.c"', 'name="inner.b.d"')
+    system = load(package(tmp_path, spring, text))
+    assert any("z.x" in warning and "inner.b.d" in warning for warning in system.master.warnings)
+    system.close()
+
+
+def test_direction_follows_the_connectors_and_not_the_order_of_writing(tmp_path, spring):
+    before = 'startElement="inner" startConnector="out" endElement="a" endConnector="u"'
+    after = 'startElement="a" startConnector="u" endElement="inner" endConnector="out"'
+    assert before in NESTED
+    structure = read_ssp(package(tmp_path, spring, NESTED.replace(before, after)))
+    assert "connection inner.b.x -> a.u" in map(str, structure.connections)
+
+
+def test_no_package_is_told(tmp_path):
+    (tmp_path / "text.ssp").write_text("no zip")
+    with pytest.raises(InputFault, match="no zip archive"):
+        load(tmp_path / "text.ssp")
+    with pytest.raises(InputFault, match="no SSP at"):
+        load(tmp_path / "none.ssp")
+
+
+def test_exported_system_comes_back_the_same(tmp_path, spring):
+    links = [("a.x", "b.u"), ("b.x", "a.u")]
+    path = export_ssp(
+        tmp_path / "ring.ssp", "ring", {"a": spring, "b": spring}, links, Experiment(0.1, 2.0),
+        {"a": {"k": 2.0}},
+    )  # fmt: skip
+    back, direct = load(path), connect({"a": spring, "b": spring}, links, 0.1, scheme="jacobi")
+    direct["a.k"] = 2.0
+    for system in (back, direct):
+        system["a.x"] = 1.0
+    one, other = back.run(record=["b.v"]), direct.run(2.0, record=["b.v"])
+    assert np.array_equal(one["b.v"], other["b.v"]) and one["b.v"].any()
+    back.close()
+    direct.close()
+
+
+def test_undeclared_dependencies_are_a_loop_that_costs_two_looks(tmp_path, spring):
+    """pythonfmu declares nothing, so every output may depend on every input; here none does."""
+    system = connect({"a": spring, "b": spring}, [("a.x", "b.u"), ("b.x", "a.u")], 0.1, scheme="jacobi")
+    system["a.x"] = 1.0
+    assert len(system.master.loops) == 1
+    system.run(1.0)
+    assert system.master.loops[0].evaluations <= 2
+    system.close()
+
+
+@pytest.mark.parametrize("settings, said", [({"a": {"z": 1.0}}, "no scalar parameter or open input z")])
+def test_export_refuses_what_it_cannot_write(tmp_path, spring, settings, said):
+    with pytest.raises(InputFault, match=said):
+        export_ssp(tmp_path / "x.ssp", "x", {"a": spring}, [], Experiment(0.1, 1.0), settings)
