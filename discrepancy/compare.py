@@ -47,7 +47,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
             jobs: int = 1, fmus: Path | None = None) -> Comparison:
     """Hold a model against a campaign; localises the misfit on the way.  ``fmus``: folder of FMUs to predict with."""
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
-    diagnostician = Diagnostician(model, settings, named_orders(model.bench))
+    diagnostician = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
     localisation = diagnostician.prepare()
     space = diagnostician.space
     every = list(range(len(space.records)))

@@ -45,7 +45,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     ``fmus``: folder of FMUs to predict with, instead of their kernels in this process.
     """
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
-    found = Diagnostician(model, settings, named_orders(model.bench)).run()
+    found = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders)).run()
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))

@@ -48,7 +48,8 @@ class EffectParameter:
 class Effect:
     """What is known about an effect beside its kernels; ``number`` is that of the physics audit's catalogue.
 
-    ``also_in`` names the unit whose effect of the same name is the other half.
+    ``also_in`` names the unit whose effect of the same name is the other half; ``needs`` says without what the effect
+    cannot show: "output pins" of the reducer, or a loop with "locked output".
     """
 
     number: int
@@ -60,6 +61,7 @@ class Effect:
     states: tuple[Variable, ...] = ()
     signals: tuple[str, ...] = ()
     also_in: str = ""
+    needs: str = ""
 
     def amplitudes(self) -> tuple[EffectParameter, ...]:
         return tuple(p for p in self.parameters if p.kind == "amplitude")

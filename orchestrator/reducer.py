@@ -47,10 +47,11 @@ class Head(Strict):
 
 class Counts(Strict):
     discs: int = Field(ge=1, le=3)
-    cranks: int = Field(ge=2, le=3)
+    cranks: int = Field(ge=1, le=3)
     pins: int = Field(ge=4, le=400)
     lobes: int = Field(ge=3, le=399)
     rollers: int = Field(ge=3, le=200)
+    output_pins: int = Field(default=0, ge=0, le=100)
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,18 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
             f"{path}: [topology] pins = {counts.pins}, lobes = {counts.lobes}: the pins do not close the ring;"
             f" a cycloid disc needs one pin more than it has lobes: set pins = {counts.lobes + 1}"
             f" or lobes = {counts.pins - 1}"
+        )
+    if counts.output_pins in (1, 2):
+        raise InputFault(f"{path}: [topology] output_pins = {counts.output_pins}: give at least 3, or 0 for output through the cranks")
+    if counts.output_pins == 0 and counts.cranks == 1:
+        raise InputFault(
+            f"{path}: [topology] cranks = 1, output_pins = 0: one crank cannot turn the carrier; set cranks = 2 or 3, or give"
+            " the number of output_pins of a plain cycloidal drive"
+        )
+    if counts.output_pins and counts.cranks != 1:
+        raise InputFault(
+            f"{path}: [topology] output_pins = {counts.output_pins}, cranks = {counts.cranks}: with output pins one eccentric on"
+            " the axis turns the discs; set cranks = 1, or output_pins = 0"
         )
     topology = Topology(**counts.model_dump())
     starts, sources = {}, {}

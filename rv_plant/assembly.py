@@ -24,6 +24,7 @@ from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift
 from rv_plant.mesh import mesh_contacts
 from rv_plant.needle_bearing import roller_contacts
+from rv_plant.output_pins import has_output_pins, output_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
 
 hold_effects = compose("rv_plant.effects", HOOKS).hold
@@ -146,6 +147,8 @@ def assemble(r, ideal_output, cage_angle, load_torque):
         mesh_contacts(r, d, ideal_output, -lobes * ideal_output + disc_offset(r, d), 0.0)
         for c in range(cranks):
             bearing_contacts(r, d, c, ideal_output, cage_angle, side)
+        if has_output_pins(r):
+            output_contacts(r, d, ideal_output, -lobes * ideal_output + disc_offset(r, d))
     r.residual_vector[3 * discs] += load_torque
     for i in range(3 * discs + 1, r.z.shape[0]):
         if r.compliance[i] > 0.0:

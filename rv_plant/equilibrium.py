@@ -11,9 +11,12 @@ from fmu_src.kernel import kernel
 
 from rv_plant.assembly import assemble
 from rv_plant.linear import cholesky_solve
+from rv_plant.output_pins import has_output_pins
 
 # No component may move a contact further than this in one iteration [m].
 LONGEST_STEP = 3e-5
+# With output pins, whose clearance may be a tenth of a millimetre and more.
+LONGEST_STEP_IN_PLAY = 2e-4
 # The residual is weighed with at least this force [N]; rounding leaves 1e-8 N.
 LEAST_FORCE = 30.0
 # Stiffness that stands for "a typical diagonal" [N/m].
@@ -94,9 +97,10 @@ def newton_direction(r):
         if not move < 1e300:
             return False
         longest = max(longest, move)
-    if longest > LONGEST_STEP:
+    most = LONGEST_STEP_IN_PLAY if has_output_pins(r) else LONGEST_STEP
+    if longest > most:
         for a in range(n):
-            r.direction[a] *= LONGEST_STEP / longest
+            r.direction[a] *= most / longest
     return longest < 1e30
 
 

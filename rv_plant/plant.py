@@ -11,7 +11,7 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
-from rv_plant.contact import HYSTERETIC, MODAL, law_constants
+from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
@@ -19,6 +19,7 @@ from rv_plant.geometry import centre_curve_curvature
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
 from rv_plant.motion import advance, publish_motion, start_motion
 from rv_plant.needle_bearing import cage_rate
+from rv_plant.output_pins import has_output_pins
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import crank_position
 
@@ -29,6 +30,7 @@ prepare_effects, advance_effects = effects.prepare, effects.advance
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
 NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
+OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations."
@@ -47,6 +49,16 @@ FAULTS = {
     " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
     TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
     " Set fidelity to dynamic, or drive to speed",
+    OUTPUT_HOLES_OVERLAP: "holes for the output pins overlap each other or the bearing: output_pin_radius {output_pin_radius:.6g} m"
+    " plus eccentricity {eccentricity:.6g} m is too large on output_circle_radius {output_circle_radius:.6g} m beside"
+    " outer_race_radius {outer_race_radius:.6g} m. Reduce output_pin_radius, outer_race_radius or the number of output pins",
+    OUTPUT_HOLES_OPEN: "holes for the output pins cut the flanks: output_circle_radius {output_circle_radius:.6g} m plus"
+    " output_pin_radius {output_pin_radius:.6g} m and eccentricity reaches the disc's roots."
+    " Reduce output_circle_radius or output_pin_radius",
+    OUTPUT_PINS_AT_REST: "fidelity = dynamic is not there for output through pins in holes of the disc."
+    " Set fidelity to quasi-static",
+    CRANKS_ON_AXIS: "crank_circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
+    " crank_circle_radius, or give the reducer output_pins in [topology]",
     LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
     " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
     " or in motion a looser dynamic_tolerance",
@@ -69,6 +81,9 @@ def geometry_fault(r):
         return RACES_DO_NOT_FIT
     if not r.roller_radius < (r.inner_race_radius + r.roller_radius) * math.sin(math.pi / rollers):
         return ROLLERS_OVERLAP
+    fault = output_fault(r)
+    if fault != 0:
+        return fault
     circle = r.pin_circle_radius + r.shift_modification
     k1 = r.eccentricity * pins / circle
     if not k1 < 1.0:
@@ -77,6 +92,24 @@ def geometry_fault(r):
     for i in range(721):
         if not radius * centre_curve_curvature(math.pi * i / 720.0, lobes, circle, k1) < 1.0:
             return UNDERCUT
+    return 0
+
+
+@kernel
+def output_fault(r):
+    """0, or the fault that keeps the load from reaching the discs."""
+    if not has_output_pins(r):
+        return CRANKS_ON_AXIS if r.crank_circle_radius == 0.0 else 0
+    if r.fidelity == DYNAMIC:
+        return OUTPUT_PINS_AT_REST
+    pins = r.output_pin_force.shape[1]
+    hole = r.output_pin_radius + r.eccentricity + r.output_clearance
+    bearing = r.outer_race_radius + r.crank_circle_radius
+    if not hole < r.output_circle_radius * math.sin(math.pi / pins) or not hole + bearing < r.output_circle_radius:
+        return OUTPUT_HOLES_OVERLAP
+    root = r.pin_circle_radius - r.eccentricity - r.pin_radius - r.equidistant_modification
+    if not hole + r.output_circle_radius < root:
+        return OUTPUT_HOLES_OPEN
     return 0
 
 
@@ -103,6 +136,9 @@ def prepare(r):
         r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
         r.exponent_lankarani, r.roller_length,
     )
+    r.output_constant, r.output_exponent = law_constants(
+        LINE, r.stiffness_reading, r.output_stiffness, r.output_stiffness, r.exponent_lankarani, r.mesh_width
+    )
     r.pressure_cosine = math.cos(r.pressure_angle)
     clear_added(r)
     prepare_effects(r)
@@ -124,7 +160,7 @@ def clear_added(r):
         r.seat_tangential_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
     for j in range(r.pin_x.shape[0]):
         r.pin_radius_added[j] = 0.0
-    r.profile_radius_added = r.profile_circle_added = 0.0
+    r.profile_radius_added = r.profile_circle_added = r.output_gap_added = 0.0
     r.ring_scale = r.grease_thinning = r.cage_share = 1.0
     r.friction_power = 0.0
 

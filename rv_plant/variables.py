@@ -22,6 +22,8 @@ class Topology:
     pins: int
     lobes: int
     rollers: int
+    # Pins with rollers in holes of the discs; 0: the output goes through the cranks, as in an RV reducer.
+    output_pins: int = 0
 
 
 def plant_table(topology: Topology) -> Table:
@@ -29,6 +31,8 @@ def plant_table(topology: Topology) -> Table:
     t = topology
     mesh, bearing = (t.discs, t.pins), (t.discs, t.cranks)
     roller = (*bearing, t.rollers)
+    output_pin = (t.discs, max(1, t.output_pins))
+    of_output = FILE if t.output_pins else "no output pins: without effect"
     mesh_axes, bearing_axes, roller_axes = ("disc", "pin"), ("disc", "crank"), ("disc", "crank", "roller")
     z, m = coordinate_count(t.discs, t.cranks), constraint_count(t.cranks)
 
@@ -70,13 +74,19 @@ def plant_table(topology: Topology) -> Table:
                -1e-3, maximum=1e-3),
         Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
                  0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none"),
-        length("crank_circle_radius", "radius of the circle of the cranks' centres", 1e-4, 28e-3),
+        length("crank_circle_radius", "radius of the circle of the cranks' centres (0: one central eccentric)", 0.0, 28e-3),
         length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
         length("outer_race_radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
         length("roller_radius", "radius of the needle rollers", 1e-5, 1.5e-3),
         length("roller_length", "length of the needle rollers", 1e-5, 8e-3),
         length("bearing_clearance", "radial clearance of the needle bearings (half the diametral one)", -1e-4,
                maximum=1e-3),
+        length("output_pin_radius", "radius of the output pins with their rollers", 1e-5, 5e-3, source=of_output),
+        length("output_circle_radius", "radius of the circle of the output pins' centres", 1e-4, 20e-3, source=of_output),
+        length("output_clearance", "hole in the disc beyond roller and eccentricity, in radius", -1e-3, maximum=1e-2,
+               source=of_output),
+        Variable("output_stiffness", "parameter", "N", "force of an output pin on its hole at 1 mm, exponent 10/9", 1e5,
+                 minimum=1.0, nominal=1e5, source=of_output),
         Variable("first_stage_ratio", "parameter", "1", "teeth of planet over teeth of sun (0: no first stage)",
                  3.0, minimum=0.0, maximum=100.0, source=FILE),
         Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
@@ -185,6 +195,8 @@ def plant_table(topology: Topology) -> Table:
                nominal=100.0),
         output("roller_force", "N", "force on a roller, mean over the communication step", roller, roller_axes,
                nominal=100.0),
+        output("output_pin_force", "N", "force of an output pin on its hole at the present angle", output_pin,
+               ("disc", "output pin"), nominal=100.0),
         output("tooth_force", "N", "tangential force of the sun on a planet", (t.cranks,), ("crank",),
                nominal=100.0),
         output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
@@ -263,6 +275,9 @@ def plant_table(topology: Topology) -> Table:
         state("mesh_exponent", "1", "n of disc and pin"),
         state("roller_constant", "1", "K of a roller in N/m^n"),
         state("roller_exponent", "1", "n of a roller"),
+        state("output_gap_added", "m", "added to the clearance of the output pins"),
+        state("output_constant", "1", "K of an output pin in N/m^n"),
+        state("output_exponent", "1", "n of an output pin"),
         state("pin_angle", "rad", "nominal direction of a pin", (t.pins,), ("pin",)),
         state("pin_x", "m", "centre of a pin", (t.pins,), ("pin",)),
         state("pin_y", "m", "centre of a pin", (t.pins,), ("pin",)),
@@ -288,6 +303,7 @@ def plant_table(topology: Topology) -> Table:
         scratch("mesh_phase", mesh), scratch("centre_curvature", mesh),
         scratch("crank_force", (t.cranks, 2)), scratch("crank_moment", (t.cranks,)),
         scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)), scratch("bearing_columns", (9, 4)),
+        scratch("output_columns", (6, 2)),
     ]
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",

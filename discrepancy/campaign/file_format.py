@@ -161,6 +161,7 @@ class CampaignFile(Strict):
     runs: list[Run] = Field(min_length=1)
     nuisances: dict[str, NuisanceEntry] = {}
     rig: RigEntry | None = None
+    orders: dict[str, list[float]] = {}
 
 
 def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:

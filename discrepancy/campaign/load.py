@@ -43,6 +43,7 @@ def load_campaign(folder: str | Path, data: str | Path | None = None) -> Campaig
         tuple(nuisance_of(name, entry, scales, f"{path}: nuisances.{name}") for name, entry in content.nuisances.items()),
         rig_of(content.rig, scales, f"{path}: rig") if content.rig else None,
         text, content.campaign.seal, tuple(dict.fromkeys(run.quantity for run in content.runs)),
+        {name: tuple(family) for name, family in content.orders.items()},
     )  # fmt: skip
 
 

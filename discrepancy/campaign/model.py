@@ -78,6 +78,8 @@ class Campaign:
     text: str
     seal: str = ""
     quantities: tuple[str, ...] = field(default=())
+    # Further families of orders per output turn to look for: of motor, coupling, bench.
+    orders: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     @property
     def training(self) -> tuple[Record, ...]:

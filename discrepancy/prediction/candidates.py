@@ -41,21 +41,24 @@ def shape_grid(shapes: Iterable[EffectParameter]) -> tuple[dict[str, float], ...
     return tuple(dict(zip((p.variable.name for p in searched), values)) for values in product(*(p.grid for p in searched)))
 
 
-def candidates(records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str]) -> tuple[Candidate, ...]:
+def candidates(
+    records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0
+) -> tuple[Candidate, ...]:
     """Every effect that the records can show and that is not among the nuisances.
 
     ``present`` are values that the model already has; an effect that is in it is not a
     candidate again.
     """
     quantities = list(dict.fromkeys(r.quantity for r in records))
+    there = {"": True, "output pins": output_pins > 0, "locked output": any(r.tags.get("locked") == "output" for r in records)}
     found = []
     for name, effect in every_effect().items():
         part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
         signals = tuple(q for s in effect.signals for q in SHOWN_BY.get(s, (s,)))
-        if signals and not set(signals) & set(quantities):
+        if signals and not set(signals) & set(quantities) or not there[effect.needs]:
             continue
         if part == "chain":
-            found += chain_candidates(name, effect, signals, quantities, mountings, present)
+            found += chain_candidates(name, effect, signals, quantities, mountings, present.keys() | excluded)
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
@@ -72,7 +75,7 @@ def candidates(records: list[Record], present: dict[str, float], excluded: set[s
     return tuple(found)
 
 
-def chain_candidates(name, effect, signals, quantities, mountings, present) -> list[Candidate]:
+def chain_candidates(name, effect, signals, quantities, mountings, taken_names) -> list[Candidate]:
     per = MODULES[name].PER
     places = {"quantity": quantities, "mounting": mountings, "campaign": [""]}[per]
     if per == "quantity" and name == "sensor_offset":
@@ -84,7 +87,7 @@ def chain_candidates(name, effect, signals, quantities, mountings, present) -> l
 
     if per == "mounting":
         amplitudes = tuple(parameter_of(p, 0.0, called(p, m)) for m in places for p in effect.amplitudes())
-        taken = any(a.name in present for a in amplitudes)
+        taken = any(a.name in taken_names for a in amplitudes)
         return [] if taken else [Candidate(name, effect.title, amplitudes, (), (), signals, "chain")]
     return [
         Candidate(
@@ -92,5 +95,5 @@ def chain_candidates(name, effect, signals, quantities, mountings, present) -> l
             tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), (), (),
             (place,) if place else signals, "chain",
         )
-        for place in places if not any(called(p, place) in present for p in effect.amplitudes())
+        for place in places if not any(called(p, place) in taken_names for p in effect.amplitudes())
     ]  # fmt: skip

@@ -10,12 +10,17 @@ from discrepancy.problem import Record
 from orchestrator.coupled import COLUMNS
 from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
 from orchestrator.life import peak_of_circle
+from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
 
 Values = Mapping[str, float]
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 4096
 TORQUE_STEPS = 12
+# Torques of either sign at which a locked drive's springs are computed.
+ELASTIC_STEPS = 20
+WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
+DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
@@ -85,6 +90,8 @@ def roller_ripple(bench: Bench, record: Record, values: Values) -> tuple[np.ndar
 
 
 def hysteresis(bench, record, values):
+    if record.tags.get("locked") == "output":
+        return locked_output(bench, record, values)
     torques = np.asarray(record.axes["torque"], float)
     condition = held_condition(bench, record)
     # The loop is entered from little torque; with none the output floats and has no place.
@@ -94,23 +101,51 @@ def hysteresis(bench, record, values):
     return turning + values.get(level(record), 0.0)
 
 
+def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
+    """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
+    applied = np.asarray(record.axes["torque"], float)
+    elastic = {name: value for name, value in values.items() if name not in DRIVE_FRICTION} | WITHOUT_FRICTION
+    # Finely about no torque, where play is.
+    rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
+    table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
+    turning = bench.held(held_condition(bench, record), elastic, table)
+    friction, share, presliding = (values.get(n, float(bench.templates[0][n][0])) for n in DRIVE_FRICTION)
+    if friction + share == 0.0:
+        return np.interp(applied, table, turning) + values.get(level(record), 0.0)
+    found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
+    # The ramp before left the elements somewhere: it was the same ramp.
+    for _ in range(2):
+        locked_output_loop(turning, table, applied, friction, share, presliding, sliders, found)
+    return found + values.get(level(record), 0.0)
+
+
 def held_condition(bench: Bench, record: Record) -> Condition:
-    c = condition_of(bench, record)
+    return at_rest(bench, condition_of(bench, record))
+
+
+def at_rest(bench: Bench, c: Condition) -> Condition:
+    """The held test of a unit that ran at rated speed and load before."""
     return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
 
 
-def loop(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def loop(bench: Bench, condition: Condition, values: Values) -> tuple[np.ndarray, np.ndarray]:
     """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
     way = torque_way(bench.rated_load, TORQUE_STEPS)
     quarter = len(way) // 4
     first = way[: quarter + 1]
-    turning = bench.held(held_condition(bench, record), values, np.concatenate([way, first[1:]]))
+    turning = bench.held(at_rest(bench, condition), values, np.concatenate([way, first[1:]]))
     return np.concatenate([way, first[1:]]), turning
 
 
 def lost_motion(bench, record, values):
     """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
-    torque, turning = loop(bench, record, values)
+    rows = row_conditions(bench, record)
+    by_condition = {c: lost_motion_at(bench, c, values) for c in dict.fromkeys(rows)}
+    return np.array([by_condition[c] for c in rows])
+
+
+def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
+    torque, turning = loop(bench, condition, values)
     rising = np.concatenate([[False], np.diff(torque) > 0.0])
     middle = []
     for torque_at in (LOST_MOTION_SHARE * bench.rated_load, -LOST_MOTION_SHARE * bench.rated_load):
@@ -119,7 +154,7 @@ def lost_motion(bench, record, values):
             order = np.argsort(torque[branch], kind="stable")
             branches.append(np.interp(torque_at, torque[branch][order], turning[branch][order]))
         middle.append(np.mean(branches))
-    return np.full(len(record.values), middle[0] - middle[1])
+    return float(middle[0] - middle[1])
 
 
 def torsional_stiffness(bench, record, values):

@@ -1,17 +1,35 @@
 """Names of the orders of the output's turn that a reducer makes."""
 
+from collections.abc import Mapping
+
 from discrepancy.prediction.bench import Bench
 
+HARMONICS = 3
 
-def named_orders(bench: Bench) -> dict[str, tuple[float, ...]]:
-    """Families of orders per revolution of the output; harmonics of one cause belong together."""
+
+def named_orders(bench: Bench, more: Mapping[str, tuple[float, ...]] | None = None) -> dict[str, tuple[float, ...]]:
+    """Families of orders per revolution of the output; harmonics of one cause belong together.
+
+    ``more`` are those that a campaign names, of motor or bench.  What is fixed to the ring is met z_c times a turn
+    and cancels at odd multiples between two discs; with one disc nothing cancels, and the ring's marks fall
+    on the cranks' orders.
+    """
     topology = bench.reducer.topology
     lobes, pins, ratio = topology.lobes, topology.pins, abs(bench.ratio)
-    found = {
-        "output shaft": (1, 2), "crank, absolute": (lobes,), "crank against carrier": (pins, 2 * pins),
-        "ring pins": (2 * lobes, 4 * lobes, 6 * lobes), "pin mesh": (lobes * pins,),
-    }  # fmt: skip
+    found: dict[str, tuple[float, ...]] = {"output shaft": (1, 2)}
+    if topology.discs == 1:
+        each = range(1, HARMONICS + 1)
+        found |= {
+            "crank, absolute, and ring": tuple(lobes * k for k in each),
+            "crank against carrier, and ring pins per disc turn": tuple(pins * k for k in each),
+        }  # fmt: skip
+    else:
+        found |= {
+            "crank, absolute": (lobes,), "crank against carrier": (pins, 2 * pins),
+            "ring pins": (2 * lobes, 4 * lobes, 6 * lobes),
+        }  # fmt: skip
+    found["pin mesh"] = (lobes * pins,)
     if float(bench.templates[0]["first_stage_ratio"][0]) > 0.0:
         teeth = float(bench.templates[0]["sun_teeth"][0])
         found |= {"sun": (ratio - 1.0, ratio), "first mesh": ((ratio - 1.0) * teeth,)}
-    return found
+    return found | dict(more or {})

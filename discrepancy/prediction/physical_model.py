@@ -64,7 +64,9 @@ class PhysicalModel:
             self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
-        self.candidates: tuple[Candidate, ...] = candidates(self.records, present, excluded, mountings)
+        self.candidates: tuple[Candidate, ...] = candidates(
+            self.records, present, excluded, mountings, model.reducer.topology.output_pins
+        )
 
     def angle_nuisances(self) -> list[Parameter]:
         width = 2.0 * np.pi / PHASE_ORDER
