@@ -87,6 +87,8 @@ CASES: dict[str, tuple[Case, ...]] = {
     "edge_loading": (Case("tilt 60 urad", {"misalignment": 6e-5}), Case("tilt 500 urad", {"misalignment": 5e-4})),
     "roller_skidding": (Case("10 % at no load, gone beyond 500 N", {"skid_share": 0.1}),),
     "pin_rotation": (Case("pins stand half the time", {"pin_standing_share": 0.5}), Case("pins stand", {"pin_standing_share": 1.0})),
+    "drive_friction": (Case("1 N m and a tenth of the load", {"drive_friction": 1.0, "drive_friction_share": 0.1}),),
+    "output_play": (Case("0.1 mm; without output pins it shows nothing", {"output_play": 100 * UM}),),
     "unbalance": (Case("one disc of 0.387 kg at 0.9 mm", {"unbalance": 0.387 * 0.9e-3}),),
     "race_spall": (
         Case("pit of 10 um on an inner race", {"spall_depth": 10 * UM}),
