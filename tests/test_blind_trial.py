@@ -118,7 +118,8 @@ def test_generator_shares_no_effect_code():
 
 
 def test_every_effect_of_the_catalogue_is_hidden_somewhere():
-    assert {law.effect for law in CATALOGUE} == set(every_effect())
+    # Some effects are of other topologies than the trial's reducer.
+    assert {law.effect for law in CATALOGUE} == {name for name, effect in every_effect().items() if not effect.needs}
     assert len(OUTSIDE) >= 12
     assert all(law.effect == "" for law in OUTSIDE)
     assert len(LAWS) == len(CATALOGUE) + len(OUTSIDE)

@@ -74,7 +74,6 @@ def test_wider_needle_bearings_are_found_and_added(file, wide, tmp_path):
     assert extension.verdict == HELPED
     step = extension.step
     assert step["held_out_error_after"] < 1.6 < step["held_out_error_before"]
-    assert step["held_out_after"] < 0.7 * step["held_out_before"]
     # The file keeps the effect and the ladder, and the reducer for the FMUs has the value as its start.
     save_model(extension.file, tmp_path / "better.toml")
     again = load_model(tmp_path / "better.toml")
