@@ -32,6 +32,9 @@ from orchestrator.settings import Setting, apply, parse_setting
 from orchestrator.solve import SERIES, figures_of, record_turn, require_positions
 from orchestrator.system_commands import run_system
 
+# FMU -> the package that makes it.
+UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
+
 # Options that are shorthands of settings: option -> (variable, unit).
 SHORTHANDS = {
     "torque": ("load_torque", "N.m"),
@@ -300,14 +303,14 @@ def reproduce(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    """``rvwear build``: FMUs of both units, validated; those that are up to date stay."""
+    """``rvwear build``: FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"rvwear {results.version('rvwear')}"
     native = native_versions(options)
     built = []
-    for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
+    for name, unit in UNITS.items():
         specification = reducer.specification(unit)
         identity, folder = guid(specification, source_hash()), Path(options.output)
         editable = folder / f"{name}.fmu"
@@ -335,7 +338,7 @@ def build(options: argparse.Namespace) -> int:
             state = "built" if entry["built"] else "up to date"
             print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
         for package in packages:
-            print(f"{package}  both, connected")
+            print(f"{package}  plant and wear, connected")
     return 0
 
 
