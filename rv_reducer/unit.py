@@ -12,4 +12,6 @@ def make_unit(specification: dict) -> Unit:
     """The unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
     table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))
-    return Unit(table.with_starts(specification["starts"], specification["sources"]), initialise, step, FAULTS)
+    table = table.with_starts(specification["starts"], specification["sources"])
+    # The wear refuses before it changes anything; what the plant changes is what a look at lost motion puts back.
+    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size)

@@ -148,6 +148,11 @@ def test_fmus_are_valid_and_equal_the_kernels(rv20e, one_unit_fmus, flavour):
     fmu.restore(saved)
     again = [np.array(run(fmu, 40, step, 80).get(name)) for name in outputs]
     assert all((a == b).all() for a, b in zip(first, again))
+    # Refused by the wear, after the plant has moved.
+    before = fmu.save()
+    with pytest.raises(RunFault, match="half a turn"):
+        fmu.step(0.12, 0.08)
+    assert fmu.save() == before
     fmu.close()
 
 
