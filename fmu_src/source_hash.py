@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-KERNEL_PACKAGES = ("fmu_src", "rv_plant", "wear_fmu")
+KERNEL_PACKAGES = ("fmu_src", "rv_plant", "wear_fmu", "rv_reducer")
 
 # Folder with a user's own effects: DIR/rv_plant/*.py and DIR/wear_fmu/*.py.
 USER_EFFECTS = "RVWEAR_EFFECTS"

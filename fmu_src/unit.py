@@ -33,15 +33,20 @@ class UnitFault(RuntimeError):
 class Unit:
     """``initialise(records)`` and ``step(records, time, duration)`` return 0 or a key of ``faults``.
 
-    ``refuses_before_change`` says that a step which returns a fault has changed nothing;
-    without it an FMU keeps a copy of the state during each step.
+    ``fault_reach`` is how many of the leading cells a step that returns a fault may have
+    changed (None: all of the state).  An FMU keeps a copy of these during each step.
     """
 
     table: Table
     initialise: Callable[[np.ndarray], int]
     step: Callable[[np.ndarray, float, float], int]
     faults: dict[int, str]
-    refuses_before_change: bool = False
+    fault_reach: int | None = None
+
+    @property
+    def guarded_cells(self) -> int:
+        """Number of leading cells that are put back after a fault."""
+        return self.table.state_cells if self.fault_reach is None else self.fault_reach
 
     def fault_text(self, code: int, records: np.ndarray, time: float) -> str:
         """What a status code means for this record, in words."""

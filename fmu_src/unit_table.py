@@ -34,7 +34,7 @@ def c_source(unit: Unit, identity: str) -> str:
         f"""const struct unit unit = {{
     {c_string(table.name)}, {c_string(identity)}, {table.cell_count}, {table.state_cells}, {table.interface_cells},
     VARIABLES, {len(variables)}, STARTS, {len(runs)}, FAULTS, {len(faults)}, CATEGORIES, {len(LOG_CATEGORIES)},
-    {int(unit.refuses_before_change)}, {LONGEST_STEP!r},
+    {unit.guarded_cells}, {LONGEST_STEP!r},
 }};""",
     ]
     return "\n\n".join(parts) + "\n"

@@ -106,20 +106,28 @@ class Table:
 
     ``starts_from_nothing`` says that the initial outputs depend on no input and no
     parameter (the wear unit's new surfaces), which FMI wants to be declared.
+
+    ``views`` lay other records over the same cells, each as {its field: variable of this
+    table}: a kernel written for another table then works on this one (``records.plant``).
+    A record with views also has all its ``cells`` as one row of ``i8``.
     """
 
-    def __init__(self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False):
+    def __init__(
+        self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False,
+        views: dict[str, dict[str, str]] | None = None,
+    ):  # fmt: skip
         self.name = name
         self.description = description
         self.starts_from_nothing = starts_from_nothing
+        self.views = views or {}
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
         if len(self.by_name) != len(variables):
             names = [v.name for v in variables]
             raise ValueError(f"{name}: declared twice: {sorted({n for n in names if names.count(n) > 1})}")
-        self.dtype = np.dtype(
-            [(v.name, "i8" if v.is_integer else "f8", v.shape) for v in self.variables], align=True
+        self.dtype = with_views(
+            np.dtype([(v.name, "i8" if v.is_integer else "f8", v.shape) for v in self.variables], align=True), self.views
         )
         self.offset = {v.name: self.dtype.fields[v.name][1] // 8 for v in self.variables}
 
@@ -186,7 +194,7 @@ class Table:
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed, self.starts_from_nothing)
+        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views)
 
     def cells(self, records: np.ndarray) -> np.ndarray:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
@@ -237,3 +245,21 @@ class Table:
             text = v.description + (f" ({', '.join(v.choices)})" if v.choices else "")
             rows.append(f"| `{v.name}`{shape} | {v.role} | {v.unit} | {start} | {text} | {v.source} |")
         return "\n".join(rows) + "\n"
+
+
+def with_views(plain: np.dtype, views: dict[str, dict[str, str]]) -> np.dtype:
+    """The record type with other records laid over it, see ``Table``."""
+    if not views:
+        return plain
+
+    def overlay(fields: list[tuple[str, np.dtype, int]]) -> np.dtype:
+        names, formats, offsets = zip(*fields)
+        layout = {"names": names, "formats": formats, "offsets": offsets, "itemsize": plain.itemsize}
+        return np.dtype(layout, align=True)
+
+    own = [(name, *plain.fields[name][:2]) for name in plain.names]
+    laid = [
+        (view, overlay([(field, *plain.fields[name][:2]) for field, name in fields.items()]), 0)
+        for view, fields in views.items()
+    ]
+    return overlay([*own, *laid, ("cells", np.dtype(("i8", (plain.itemsize // 8,))), 0)])

@@ -19,7 +19,7 @@ from orchestrator.component import InProcess
 from orchestrator.pair import POSITIONS_PER_TURN, crank_turn_time, export_pair
 from orchestrator.reducer import Reducer
 
-UNITS = (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu"))
+UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Wanted:
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy: Callable = nullcontext) -> tuple[list[dict], list[Path]]:
-    """(one entry per FMU, SSP packages): FMUs of both units, validated; those that are up to date stay.
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
 
     ``busy(text)`` is entered while something is compiled.
     """
@@ -41,7 +41,7 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy:
     tool = f"rvwear {results.version('rvwear')}"
     native = native_versions(wanted)
     built = []
-    for name, unit in UNITS:
+    for name, unit in UNITS.items():
         specification = reducer.specification(unit)
         identity = guid(specification, source_hash())
         editable = folder / f"{name}.fmu"

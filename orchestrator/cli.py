@@ -119,7 +119,7 @@ def parser() -> argparse.ArgumentParser:
     add_json(reproduce)
     reproduce.set_defaults(run=commands.reproduce)
 
-    build = sub.add_parser("build", help="build and validate RvPlant.fmu and RvWear.fmu")
+    build = sub.add_parser("build", help="build and validate RvPlant.fmu, RvWear.fmu and RvReducer.fmu")
     build.add_argument("--reducer", default="RV20E-121", help=REDUCER_HELP)
     build.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
     build.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"

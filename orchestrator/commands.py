@@ -296,7 +296,7 @@ def reproduce(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    """``rvwear build``: FMUs of both units, validated; those that are up to date stay."""
+    """``rvwear build``: FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     reducer = load_reducer(options.reducer)
     wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
     built, packages = build_units(reducer, Path(options.output), wanted, screen.busy)
@@ -307,7 +307,7 @@ def build(options: argparse.Namespace) -> int:
             state = "built" if entry["built"] else "up to date"
             print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
         for package in packages:
-            print(f"{package}  both, connected")
+            print(f"{package}  plant and wear, connected")
     return 0
 
 

@@ -13,14 +13,13 @@ from orchestrator.reducer import Reducer
 from orchestrator.settings import Setting, apply
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from rv_plant.gear_stage import total_ratio
+from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
 
 # Everything that the two units exchange.
 CONNECTIONS = [
-    *((f"plant.{name}", f"wear.{name}") for name in (
-        "crank_angle", "crank_speed", "output_angle", "cage_angle", "mesh_force", "roller_force")),
-    ("plant.reducer_temperature", "wear.temperature"),
-    *((f"wear.{name}", f"plant.{name}") for name in ("mesh_profile_error", "roller_profile_error")),
-]  # fmt: skip
+    *((f"plant.{source}", f"wear.{target}") for source, target in PLANT_TO_WEAR),
+    *((f"wear.{source}", f"plant.{target}") for source, target in WEAR_TO_PLANT),
+]
 
 POSITIONS_PER_TURN = 72
 

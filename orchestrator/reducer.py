@@ -1,8 +1,8 @@
 """Reducer files: read, checked against the units' tables, turned into start values.
 
 A file has [reducer] (name, description), [topology] (counts) and any other sections
-with ``key = { value, unit, source }``.  The keys are names of variables of the plant or
-the wear unit; sections only group them.  The units' tables say what exists, in which
+with ``key = { value, unit, source }``.  The keys are names of variables of the plant, the
+wear unit or the unit of both; sections only group them.  The units' tables say what exists, in which
 unit and within which bounds, so a new parameter needs no change here.
 """
 
@@ -19,6 +19,7 @@ from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from orchestrator.faults import InputFault
 from rv_plant.variables import FILE, Topology, plant_table
+from rv_reducer.variables import reducer_table
 from wear_fmu.variables import Resolution, wear_table
 
 LIBRARY = Path(rv_plant.__file__).parent / "reducers"
@@ -67,8 +68,8 @@ class Reducer:
     resolution: Resolution = Resolution()
 
     def specification(self, unit: str) -> dict:
-        """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant or wear_fmu."""
-        names = {"rv_plant": self.plant, "wear_fmu": self.wear}[unit].by_name
+        """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
+        names = {"rv_plant": self.plant, "wear_fmu": self.wear, "rv_reducer": self.joint}[unit].by_name
         return {
             "unit": unit,
             "reducer": self.name,
@@ -86,6 +87,11 @@ class Reducer:
     def wear(self) -> Table:
         """The wear unit's table with this reducer's numbers."""
         return wear_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+
+    @cached_property
+    def joint(self) -> Table:
+        """The table of both in one unit with this reducer's numbers."""
+        return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
 
 
 def available() -> list[str]:
@@ -128,7 +134,7 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
         )
     topology = Topology(**counts.model_dump())
     starts, sources = {}, {}
-    tables = (plant_table(topology), wear_table(topology))
+    tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
     for section, entries in content.items():
         if not isinstance(entries, dict):
             raise InputFault(f"{path}: {section} stands outside of a section; put it below a [section]")
@@ -141,6 +147,8 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
     missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
+    if "rated_torque" not in starts and starts["load_torque"] != 0.0:
+        starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
     return Reducer(head.name, head.description, topology, starts, sources, path)
 
 

@@ -68,7 +68,7 @@ class LoopsEntry(Strict):
 class ComponentEntry(Strict):
     fmu: str | None = None
     reducer: str | None = None
-    unit: Literal["plant", "wear"] | None = None
+    unit: Literal["plant", "wear", "reducer"] | None = None
     ratio: int = Field(default=1, ge=1)
     isolate: bool = False
     parameters: dict[str, str | float | int] = {}
@@ -149,14 +149,14 @@ def seconds(quantity: Quantity, place: str) -> float:
 def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool) -> Component:
     place = f"{path}: components.{name}"
     if (entry.fmu is None) == (entry.reducer is None):
-        raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant" or "wear"')
+        raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant", "wear" or "reducer"')
     if entry.fmu is not None:
         component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate)
     else:
         if entry.unit is None:
-            raise InputFault(f'{place}: reducer needs unit = "plant" or unit = "wear"')
+            raise InputFault(f'{place}: reducer needs unit = "plant", "wear" or "reducer" (both in one)')
         reducer_path = path.parent / entry.reducer if entry.reducer.endswith(".toml") else entry.reducer
-        unit = {"plant": "rv_plant", "wear": "wear_fmu"}[entry.unit]
+        unit = {"plant": "rv_plant", "wear": "wear_fmu", "reducer": "rv_reducer"}[entry.unit]
         component = InProcess(name, load_reducer(reducer_path).specification(unit))
     for key, value in entry.parameters.items():
         set_parameter(component, key, value, place)

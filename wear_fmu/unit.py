@@ -13,4 +13,4 @@ def make_unit(specification: dict) -> Unit:
     sizes = specification["sizes"]
     table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))
     table = table.with_starts(specification["starts"], specification["sources"])
-    return Unit(table, initialise, step, FAULTS, refuses_before_change=True)
+    return Unit(table, initialise, step, FAULTS, fault_reach=0)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define STATE_BYTES (unit.state_cells * sizeof(union cell))
+#define GUARDED_BYTES (unit.guarded_cells * sizeof(union cell))
 
 static const char *const CATEGORY[] = {"logAll", "logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"};
 
@@ -74,9 +75,9 @@ struct instance *new_instance(const char *name)
         return NULL;
     i->name = malloc(strlen(name) + 1);
     i->cells = calloc(unit.cell_count, sizeof *i->cells);
-    if (!unit.refuses_before_change)
-        i->backup = malloc(STATE_BYTES);
-    if (!i->name || !i->cells || (!unit.refuses_before_change && !i->backup)) {
+    if (unit.guarded_cells)
+        i->backup = malloc(GUARDED_BYTES);
+    if (!i->name || !i->cells || (unit.guarded_cells && !i->backup)) {
         free_instance(i);
         return NULL;
     }
@@ -238,7 +239,7 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     if (status > WARNING)
         return status;
     if (i->backup)
-        memcpy(i->backup, i->cells, STATE_BYTES);
+        memcpy(i->backup, i->cells, GUARDED_BYTES);
     int64_t code = step(i->cells, time, duration);
     const struct variable *spoilt = code ? NULL : spoilt_output(i);
     if (!code && !spoilt) {
@@ -250,8 +251,8 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     else
         report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs", time, spoilt->name);
     if (i->backup)
-        memcpy(i->cells, i->backup, STATE_BYTES);
-    else if (spoilt)
+        memcpy(i->cells, i->backup, GUARDED_BYTES);
+    if (spoilt && unit.guarded_cells < unit.state_cells)
         i->phase = TERMINATED;
     return i->last_step = DISCARD;
 }

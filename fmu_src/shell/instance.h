@@ -26,7 +26,7 @@ struct instance {
     double time, stop_time;
     enum status last_step;
     union cell *cells;
-    union cell *backup; /* state before a step; NULL if failing steps change nothing */
+    union cell *backup; /* guarded cells before a step; NULL if failing steps change nothing */
     struct state *states;
 };
 

@@ -65,7 +65,7 @@ struct unit {
     int fault_count;
     const char *const *categories;
     int category_count;
-    int refuses_before_change; /* a failing step has changed nothing */
+    uint32_t guarded_cells; /* leading cells that a failing step may have changed */
     double longest_step;
 };
 

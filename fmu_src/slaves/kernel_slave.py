@@ -106,7 +106,7 @@ class KernelSlave(Fmi2Slave):
     def compute_initial_outputs(self) -> None:
         """Some masters exchange values before they leave initialisation mode, as the standard allows."""
         self.stale = False
-        self.attempt(self.initialise, 0.0, changes=True)
+        self.attempt(self.initialise, 0.0, self.table.state_cells)
 
     def exit_initialization_mode(self):
         self.compute_initial_outputs()
@@ -120,20 +120,17 @@ class KernelSlave(Fmi2Slave):
                 f"{self.table.name}: at time {current_time:.9g} s: communication step of {step_size:g} s:"
                 f" give a positive one of at most {LONGEST_STEP:g} s"
             )
-        self.attempt(
-            lambda: self.step(current_time, step_size), current_time, changes=not self.unit.refuses_before_change
-        )
+        self.attempt(lambda: self.step(current_time, step_size), current_time, self.unit.guarded_cells)
         self.time = current_time + step_size
         return True
 
-    def attempt(self, entry_point, time: float, changes: bool) -> None:
-        """Run an entry point; on a fault the state is what it was. ``changes`` says that a fault may leave changes."""
-        before = self.cells[: self.table.state_cells].copy() if changes else None
+    def attempt(self, entry_point, time: float, guarded: int) -> None:
+        """Run an entry point; on a fault, which may change the ``guarded`` leading cells, the state is what it was."""
+        before = self.cells[:guarded].copy()
         code = entry_point()
         if code != 0:
             text = self.unit.fault_text(code, self.records, time)
-            if before is not None:
-                self.cells[: self.table.state_cells] = before
+            self.cells[:guarded] = before
             self.fail(text)
 
     # values

@@ -1,0 +1,1 @@
+"""Plant and wear of one reducer as one unit."""

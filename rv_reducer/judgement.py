@@ -1,0 +1,119 @@
+"""Lost motion and remaining life, looked at every ``judgement_interval`` of crank turning.
+
+Lost motion is that of the standard stiffness test at one input angle: always the same
+one, so that it changes with wear alone.  It costs two equilibria.
+
+Remaining life extrapolates along straight lines.  Depths grow at the rate of the last
+interval.  The growth of lost motion in so short a time drowns in the equilibrium's
+tolerance; it is taken as proportional to that of the depths.
+"""
+
+from fmu_src.kernel import kernel
+from rv_plant.plant import solve
+from wear_fmu.accumulator import publish_profile_errors
+
+# Share of the rated torque at which lost motion is read.
+LOST_MOTION_SHARE = 0.03
+# No end in sight [s]: 30,000 years.
+LONGEST_LIFE = 1e12
+
+NONE, FLANK, RACE, LOST_MOTION = range(4)
+
+
+@kernel
+def turning_under(p, load_torque, z):
+    """(found, turning of the output [rad]) at rest; starts from ``z`` and leaves the equilibrium there."""
+    p.load_torque = load_torque
+    for i in range(z.shape[0]):
+        p.z[i] = z[i]
+    found = solve(p)
+    for i in range(z.shape[0]):
+        z[i] = p.z[i]
+    return found, p.z[3 * p.roller_force.shape[0]] - p.carrier_compliance * load_torque
+
+
+@kernel
+def measure_lost_motion(records):
+    """Update ``lost_motion``; it stays what it was where there is no equilibrium."""
+    r, p, w = records[0], records.plant[0], records.wear[0]
+    for i in range(r.kept.shape[0]):
+        r.kept[i] = r.cells[i]
+    p.ideal_output = p.cage = 0.0
+    p.crank_angle = p.output_angle = p.cage_angle = 0.0
+    publish_profile_errors(w, 0.0)
+    torque = LOST_MOTION_SHARE * r.rated_torque
+    found_forward, forward = turning_under(p, torque, r.z_forward)
+    found_backward, backward = turning_under(p, -torque, r.z_backward)
+    for i in range(r.kept.shape[0]):
+        r.cells[i] = r.kept[i]
+    if found_forward and found_backward:
+        r.lost_motion = abs(forward - backward)
+
+
+@kernel
+def find_worst_depths(r):
+    r.worst_flank_depth = r.worst_pin_depth = r.worst_race_depth = 0.0
+    for d in range(r.flank_depth.shape[0]):
+        r.worst_flank_depth = max(r.worst_flank_depth, r.flank_depth[d])
+        for j in range(r.pin_depth.shape[1]):
+            r.worst_pin_depth = max(r.worst_pin_depth, r.pin_depth[d, j])
+        for c in range(r.inner_race_depth.shape[1]):
+            deeper = max(r.inner_race_depth[d, c], r.outer_race_depth[d, c])
+            r.worst_race_depth = max(r.worst_race_depth, deeper)
+
+
+@kernel
+def time_until(limit, present, rate):
+    """Time until ``present`` reaches ``limit`` [s]."""
+    if limit == 0.0:
+        return LONGEST_LIFE
+    if present >= limit:
+        return 0.0
+    return (limit - present) / rate if limit - present < rate * LONGEST_LIFE else LONGEST_LIFE
+
+
+@kernel
+def extrapolate_life(r, flank_rate, race_rate):
+    """``remaining_life`` and ``limited_by`` from the rates of the depths [m/s]."""
+    depth = r.worst_flank_depth + r.worst_race_depth
+    lost_motion_rate = 0.0
+    if depth > 0.0:
+        lost_motion_rate = (r.lost_motion - r.new_lost_motion) * (flank_rate + race_rate) / depth
+    r.remaining_life, r.limited_by = LONGEST_LIFE, NONE
+    flank = time_until(r.flank_depth_limit, r.worst_flank_depth, flank_rate)
+    if flank < r.remaining_life:
+        r.remaining_life, r.limited_by = flank, FLANK
+    race = time_until(r.race_depth_limit, r.worst_race_depth, race_rate)
+    if race < r.remaining_life:
+        r.remaining_life, r.limited_by = race, RACE
+    lost_motion = time_until(r.lost_motion_limit, r.lost_motion, lost_motion_rate)
+    if lost_motion < r.remaining_life:
+        r.remaining_life, r.limited_by = lost_motion, LOST_MOTION
+
+
+@kernel
+def start_judgement(records):
+    """Of new surfaces."""
+    r = records[0]
+    find_worst_depths(r)
+    measure_lost_motion(records)
+    r.new_lost_motion = r.lost_motion
+    extrapolate_life(r, 0.0, 0.0)
+
+
+@kernel
+def judge(records, turned):
+    """After a step in which the cranks turned by ``turned`` [rad]."""
+    r = records[0]
+    find_worst_depths(r)
+    r.turned += turned
+    passed = r.operating_time - r.judged_time
+    # A step may miss the interval by rounding.
+    if r.turned < r.judgement_interval * (1.0 - 1e-9) or not passed > 0.0:
+        return
+    measure_lost_motion(records)
+    flank_rate = (r.worst_flank_depth - r.judged_flank_depth) / passed
+    race_rate = (r.worst_race_depth - r.judged_race_depth) / passed
+    extrapolate_life(r, flank_rate, race_rate)
+    r.judged_time, r.turned = r.operating_time, 0.0
+    r.judged_flank_depth, r.judged_race_depth = r.worst_flank_depth, r.worst_race_depth

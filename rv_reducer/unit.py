@@ -1,0 +1,17 @@
+"""Plant and wear as one unit."""
+
+from fmu_src.unit import Unit
+from rv_plant.variables import FILE, Topology
+from wear_fmu.variables import Resolution
+
+from rv_reducer.reducer import FAULTS, initialise, step
+from rv_reducer.variables import reducer_table
+
+
+def make_unit(specification: dict) -> Unit:
+    """The unit of a specification, see fmu_src.unit."""
+    sizes = specification["sizes"]
+    table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))
+    table = table.with_starts(specification["starts"], specification["sources"])
+    # The wear refuses before it changes anything; what the plant changes is what a look at lost motion puts back.
+    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size)

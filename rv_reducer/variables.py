@@ -1,0 +1,95 @@
+"""The variables of plant and wear in one table, with what the two give together.
+
+Each unit's kernels see the record through a view with their own names.  What the units
+exchange is one cell in both views, so nothing is copied.  Parameters of the same name
+are one parameter.
+"""
+
+import math
+from dataclasses import replace
+
+from fmu_src.variables import Table, Variable
+from rv_plant.variables import plant_table
+from wear_fmu.variables import Resolution, wear_table
+
+from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
+
+INTERFACE = ("input", "parameter", "output")
+LIMITS = ("none", "flank depth", "race depth", "lost motion")
+ARCMIN = math.pi / 10800.0
+
+
+def reducer_table(topology, resolution: Resolution = Resolution()) -> Table:
+    """The unit's variables; ``topology`` has discs, cranks, pins, lobes, rollers."""
+    plant, wear = plant_table(topology), wear_table(topology, resolution)
+    plant_view = {v.name: name_beside(wear, v, "plant") for v in plant.variables}
+    wear_view = {v.name: name_beside(plant, v, "wear") for v in wear.variables}
+    wear_view |= {target: plant_view[source] for source, target in PLANT_TO_WEAR}
+    plant_view |= {target: wear_view[source] for source, target in WEAR_TO_PLANT}
+
+    moving = [in_one_unit(v, plant_view[v.name]) for v in plant.variables]
+    taken = {v.name for v in moving}
+    worn = [in_one_unit(v, wear_view[v.name]) for v in wear.variables if wear_view[v.name] not in taken]
+    judged = judgement(plant.by_name["z"])
+    # Cells before the first state of the wear: interface and the plant's states.
+    before = [v for v in moving if v.role != "scratch"] + [v for v in worn + judged if v.role in INTERFACE]
+    kept = Variable("kept", "scratch", "1", "", 0, (sum(v.size for v in before),), ("",), integer=True)
+    return Table("RvReducer", "RV reducer that wears: motion, contacts and wear in one unit",
+                 [*moving, *worn, *judged, kept], views={"plant": plant_view, "wear": wear_view})
+
+
+def name_beside(other: Table, v: Variable, unit: str) -> str:
+    """The variable's name in the common table: a hidden one makes way for what the other unit calls the same."""
+    namesake = other.by_name.get(v.name)
+    if namesake is None or v.role in INTERFACE or (unit == "wear" and namesake.role not in INTERFACE):
+        return v.name
+    return f"{unit}_{v.name}"
+
+
+def in_one_unit(v: Variable, name: str) -> Variable:
+    """The variable in the common table: what goes from unit to unit, and each single contact, is hidden."""
+    exchanged = v.role == "input" and v.name in dict(WEAR_TO_PLANT).values()
+    of_contacts = v.role == "output" and {"pin", "roller"} & set(v.axes)
+    return replace(v, name=name, role="state" if exchanged or of_contacts else v.role)
+
+
+def judgement(z: Variable) -> list[Variable]:
+    """Worst depths, lost motion and remaining life; ``z`` is the plant's vector of coordinates."""
+
+    def limit(name, unit, text, start, nominal, source):
+        return Variable(name, "parameter", unit, f"{text} at which the reducer's life ends (0: no limit)", start,
+                        minimum=0.0, nominal=nominal, tunable=True, source=source)
+
+    def depth(name, text):
+        return Variable(name, "output", "m", f"deepest wear of {text}", nominal=1e-6)
+
+    def state(name, unit, text, like=None, **more):
+        shape, axes = (like.shape, like.axes) if like else ((), ())
+        return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
+
+    return [
+        limit("flank_depth_limit", "m", "wear of a flank", 20e-6, 1e-6, "assumed: two to three times that of 10,000 h"),
+        limit("race_depth_limit", "m", "wear of a raceway", 10e-6, 1e-6, "assumed: two to three times that of 10,000 h"),
+        limit("lost_motion_limit", "rad", "lost motion", 2.0 * ARCMIN, 1e-4, "assumed: twice the 1 arcmin of a new one"),
+        Variable("rated_torque", "parameter", "N.m", "lost motion is the turning of the output between 3 % of it in"
+                 " one sense and in the other, input held", 100.0, minimum=1e-3, nominal=100.0,
+                 source="the reducer file's load_torque unless it says"),
+        Variable("judgement_interval", "parameter", "rad", "turning of the cranks between two looks at lost motion and"
+                 " remaining life", 2.0 * math.pi, minimum=0.0, tunable=True,
+                 source="one turn: each lobe has met a pin at every phase"),
+        depth("worst_flank_depth", "all flanks"),
+        depth("worst_pin_depth", "all pins"),
+        depth("worst_race_depth", "all raceways"),
+        Variable("lost_motion", "output", "rad", "turning of the output between +3 % and -3 % of rated_torque, input held"
+                 " at angle 0", nominal=1e-4),
+        Variable("remaining_life", "output", "s", "operating time until the first limit if wear goes on as in the last"
+                 " judgement_interval", nominal=1e6),
+        Variable("limited_by", "output", "1", "the limit that remaining_life refers to", choices=LIMITS),
+        state("turned", "rad", "turning of the cranks since the last judgement"),
+        state("judged_time", "s", "operating time at the last judgement"),
+        state("judged_flank_depth", "m", "worst flank depth at the last judgement"),
+        state("judged_race_depth", "m", "worst raceway depth at the last judgement"),
+        state("new_lost_motion", "rad", "lost motion when new"),
+        state("z_forward", "1", "the plant's z under +3 % of rated_torque, to start from", z),
+        state("z_backward", "1", "the plant's z under -3 % of rated_torque, to start from", z),
+    ]

@@ -1,0 +1,161 @@
+"""RvReducer: plant and wear in one unit give what the pair gives."""
+
+import fmpy.validation
+import numpy as np
+import pytest
+
+from fmu_src.link import compiler, host_platform
+from fmu_src.native import NativeFault, host_triple, object_codes
+from fmu_src.package import build_fmu, build_native, triples_for
+from orchestrator.component import InProcess
+from orchestrator.faults import InputFault, RunFault
+from orchestrator.fmu import open_fmu
+from orchestrator.hysteresis import hysteresis
+from orchestrator.pair import crank_turn_time, make_pair
+from orchestrator.settings import Setting
+from rv_reducer.exchange import WEAR_TO_PLANT
+from rv_reducer.reducer import OF_WEAR
+from rv_reducer.variables import LIMITS
+
+ARCMIN = np.degrees(1.0) * 60.0
+HOUR = 3600.0
+
+
+@pytest.fixture(scope="module")
+def one_unit_fmus(rv20e, tmp_path_factory):
+    """Folder of RvReducer.fmu, editable, with the native ones in fmi2 and fmi3."""
+    try:
+        compiler(host_platform(), False)
+    except NativeFault as fault:
+        pytest.skip(f"no native FMUs: {fault}")
+    specification, folder = rv20e.specification("rv_reducer"), tmp_path_factory.mktemp("reducer")
+    codes = object_codes(specification, triples_for(False))
+    build_fmu("RvReducer", specification, 1e-3, "rvwear test", folder, codes[host_triple()])
+    build_native("RvReducer", specification, 1e-3, "rvwear test", folder, codes=codes)
+    return folder
+
+
+def make_unit(reducer, **values):
+    unit = InProcess("reducer", reducer.specification("rv_reducer"))
+    for name, value in values.items():
+        unit.set(name, value)
+    return unit
+
+
+def run(unit, steps, step, start=0):
+    if start == 0:
+        unit.enter_initialisation(0.0)
+        unit.exit_initialisation()
+    for i in range(start, start + steps):
+        unit.step(i * step, step)
+    return unit
+
+
+def run_with_wear(reducer, steps, acceleration=1e6, **values):
+    """The unit through ``steps`` positions of 72 a crank turn."""
+    unit = make_unit(reducer, acceleration=acceleration, **values)
+    return run(unit, steps, crank_turn_time(reducer, unit) / 72)
+
+
+@pytest.mark.parametrize("values", [
+    {}, {"pins": 1, "load_torque": -100.0, "lobe_profile_error": 2e-6, "grease_life": 1e7, "temperature": 320.0},
+    {"fidelity": 1, "dynamic_tolerance": 0.03},
+], ids=["ideal", "standing pins, errors", "in motion"])  # fmt: skip
+def test_it_equals_the_pair(rv20e, values):
+    steps = 200
+    pair = make_pair(rv20e, [Setting(name, value) for name, value in values.items()])
+    pair.wear.set("acceleration", 1e6)
+    pair.master.run(steps)
+    unit = run_with_wear(rv20e, steps, **values)
+    # The plant takes its last inputs with its next step.
+    pending = {target for _, target in WEAR_TO_PLANT}
+    for name, component, left_out in (("plant", pair.plant, pending), ("wear", pair.wear, set())):
+        for v in component.table.variables:
+            if v.role != "scratch" and v.name not in left_out:
+                alone, together = component.records[v.name], unit.records[name][v.name]
+                assert np.allclose(together, alone, rtol=1e-12, atol=1e-12 * np.abs(alone).max()), v.name
+    assert unit.get("worst_flank_depth") == pair.wear.get("flank_depth").max() > 0.0
+    assert unit.get("worst_pin_depth") == pair.wear.get("pin_depth").max() > 0.0
+    races = pair.wear.get("inner_race_depth").max(), pair.wear.get("outer_race_depth").max()
+    assert unit.get("worst_race_depth") == max(races) > 0.0
+
+
+def test_looks_at_lost_motion_change_nothing_else(rv20e):
+    often, never = (run_with_wear(rv20e, 100, judgement_interval=interval) for interval in (0.0, 1e9))
+    judged = {"judgement_interval", "lost_motion", "remaining_life", "limited_by", "turned", "judged_time",
+              "judged_flank_depth", "judged_race_depth", "z_forward", "z_backward"}  # fmt: skip
+    for v in often.table.variables:
+        if v.role != "scratch" and v.name not in judged:
+            assert (often.records[v.name] == never.records[v.name]).all(), v.name
+
+
+def test_lost_motion_is_that_of_the_stiffness_test(rv20e):
+    """There averaged over the input angle, here at one."""
+    unit = run_with_wear(rv20e, 1)
+    assert unit.get("lost_motion") * ARCMIN == pytest.approx(hysteresis(rv20e, []).lost_motion_arcmin, rel=0.15)
+    wider = run_with_wear(rv20e, 1, bearing_clearance=10e-6)
+    assert wider.get("lost_motion") > 2.0 * unit.get("lost_motion")
+
+
+def test_remaining_life_is_that_of_the_run_beyond_it(rv20e):
+    """Run in, the depth grows nearly along a straight line: the limit is reached when it was foretold."""
+    limit = 1e-6
+    unit = run_with_wear(
+        rv20e, 6 * 72, run_in_ratio=1.0, flank_depth_limit=limit, race_depth_limit=0.0, lost_motion_limit=0.0,
+        load_exponent=0.0,
+    )  # fmt: skip
+    foretold = unit.get("operating_time") + unit.get("remaining_life")
+    assert LIMITS[unit.get("limited_by")] == "flank depth"
+    step, i = crank_turn_time(rv20e, unit) / 72, 6 * 72
+    unit.set("acceleration", 4e6)
+    while unit.get("worst_flank_depth") < limit:
+        run(unit, 1, step, i)
+        i += 1
+    assert unit.get("operating_time") == pytest.approx(foretold, rel=0.1)
+    run(unit, 72, step, i)
+    assert unit.get("remaining_life") == 0.0
+
+
+def test_without_limits_there_is_no_end(rv20e):
+    unit = run_with_wear(rv20e, 80, flank_depth_limit=0.0, race_depth_limit=0.0, lost_motion_limit=0.0)
+    assert unit.get("remaining_life") == 1e12
+    assert LIMITS[unit.get("limited_by")] == "none"
+
+
+def test_faults_of_either_part_are_told(rv20e):
+    with pytest.raises(InputFault, match="trochoid has loops"):
+        run(make_unit(rv20e, eccentricity=3e-3), 1, 1e-3)
+    unit = make_unit(rv20e)
+    with pytest.raises(RunFault, match="more than half a turn"):
+        run(unit, 1, crank_turn_time(rv20e, unit))
+    assert "half a turn" in unit.unit.faults[OF_WEAR + 3]
+
+
+@pytest.mark.parametrize("flavour", [".", "fmi2", "fmi3"])
+def test_fmus_are_valid_and_equal_the_kernels(rv20e, one_unit_fmus, flavour):
+    path = one_unit_fmus / flavour / "RvReducer.fmu"
+    assert fmpy.validation.validate_fmu(str(path)) == []
+    step, fmu = 1e-3, open_fmu("reducer", path)
+    fmu.set("acceleration", 1e6)
+    run(fmu, 80, step)
+    own = run(make_unit(rv20e, acceleration=1e6), 80, step)
+    outputs = [v.name for v in own.table.of_role("output")]
+    for name in outputs:
+        assert np.allclose(fmu.get(name), own.get(name), rtol=1e-9, atol=1e-14), name
+    # A saved state goes on as it went.
+    saved = fmu.save()
+    first = [np.array(run(fmu, 40, step, 80).get(name)) for name in outputs]
+    fmu.restore(saved)
+    again = [np.array(run(fmu, 40, step, 80).get(name)) for name in outputs]
+    assert all((a == b).all() for a, b in zip(first, again))
+    # Refused by the wear, after the plant has moved.
+    before = fmu.save()
+    with pytest.raises(RunFault, match="half a turn"):
+        fmu.step(0.12, 0.08)
+    assert fmu.save() == before
+    fmu.close()
+
+
+def test_few_connections_are_enough(rv20e):
+    assert sum(v.size for v in rv20e.joint.of_role("input")) == 4
+    assert sum(v.size for v in rv20e.joint.of_role("output")) < 80
