@@ -1,10 +1,10 @@
 """Motion through a part of a crank turn at rated speed: the plant against SciPy and SUNDIALS.
 
 All start from the same state with the same forces; the sun is a flywheel.  A peer's tolerances are
-laid on deflections of 1 um as the plant's are.  Each is run over a ladder of tolerances; costs are
-compared where the worst contact force is within 1 % of the largest (reference: SciPy's Radau at a
-thousandth of the tightest tolerance).  A peer goes through in one call and also from point to point;
-the cheaper counts.
+laid on deflections of 1 um as the plant's are.  Each is run over a ladder of tolerances, and the
+cheapest run whose worst contact force is within 1 % (0.3 %) of the largest counts, so that a peer is
+judged at its best setting; reference is SciPy's Radau at a tolerance of 1e-5.  A SciPy peer goes through
+in one call and also from point to point; the cheaper counts.
 """
 
 import math
@@ -16,13 +16,13 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.integrators import REFERENCE, Stretch, errors, jacobian, observe, rate_of_change, rated, with_alpha, with_scipy
 from benchmarks.numpy_plant import NumpyPlant
-from benchmarks.ratios import Curve, Figure, Measured, Ratio, cost_at
+from benchmarks.ratios import Curve, Figure, Measured, Ratio
 from orchestrator.reducer import load_reducer
 
-LEVEL = 1e-2
-OURS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
-PEERS = (1.0, 1e-1, 1e-2, 1e-3)
-SLOW_PEERS = (1e-1, 1e-2)
+LEVELS = (1e-2, 3e-3)
+OURS = (3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
+PEERS = (1.0, 3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
+SLOW_PEERS = (1e-1, 3e-2, 1e-2, 3e-3)
 # Velocities are weighed at the frequency of the contacts [rad/s].
 CONTACTS = 2e4
 
@@ -165,15 +165,13 @@ def peers(problem: Problem, quick: bool) -> dict[str, tuple[Callable[[float], ob
         found[label] = (lambda t: scipy_states(problem, function, jac, method, t, through), ladder, runs, target)
 
     methods = ("Radau", "BDF", "LSODA")
-    ladder, runs = (PEERS[1:3], 1) if quick else (PEERS, 3)
+    ladder, runs = (PEERS[2:5:2], 2) if quick else (PEERS, 3)
     for method in methods:
         for through, way in ((False, "point to point"), (True, "in one go")):
             scipy(f"SciPy {method}, our right-hand side and Jacobian, {way}", problem.ours, problem.tangent, method, through, ladder, runs, None)
     for method in methods:
-        scipy(f"SciPy {method}, NumPy right-hand side, point to point", problem.numpy, None, method, False,
-              SLOW_PEERS[:1] if quick else SLOW_PEERS + (1e-3,), 1, 100.0)
         scipy(f"SciPy {method}, NumPy right-hand side, in one go", problem.numpy, None, method, True,
-              SLOW_PEERS[:1] if quick else SLOW_PEERS + (1e-3,), 1, 100.0)
+              SLOW_PEERS[:1] if quick else SLOW_PEERS, 1, 100.0)
     try:
         import sksundae  # noqa: F401
     except ImportError:
@@ -181,7 +179,7 @@ def peers(problem: Problem, quick: bool) -> dict[str, tuple[Callable[[float], ob
     for name, states in (("CVODE", cvode_states), ("IDA", ida_states)):
         for jac in (True, False):
             label = f"SUNDIALS {name}, our right-hand side" + (" and Jacobian" if jac else "")
-            found[label] = (lambda t, states=states, jac=jac: states(problem, t, jac), (*ladder, 1e-4), runs, 3.0)
+            found[label] = (lambda t, states=states, jac=jac: states(problem, t, jac), ladder, runs, 3.0)
     return found
 
 
@@ -192,44 +190,44 @@ def check_right_hand_sides(problem: Problem) -> float:
     return float(np.abs(kernel - whole).max() / np.abs(kernel).max())
 
 
-def cheapest_way(costs: dict[str, float]) -> dict[str, float]:
-    """Of a SciPy method gone through both ways, the cheaper."""
-    best: dict[str, float] = {}
-    for label, seconds in costs.items():
-        name = label.removesuffix(", point to point").removesuffix(", in one go")
-        best[name] = min(x for x in (best.get(name, math.nan), seconds, math.inf) if not math.isnan(x))
-    return best
+def short(label: str) -> str:
+    return label.removesuffix(", point to point").removesuffix(", in one go")
+
+
+def cheapest(points: list[Point], level: float) -> float:
+    """Cost of the cheapest run within the level; NaN if there is none."""
+    return min((seconds for error, seconds in points if error <= level), default=math.nan)
 
 
 def measure(quick: bool = False) -> Measured:
     found = Measured()
     for name in ("RV20E-121",) if quick else ("RV20E-121", "BX-40E"):
         stretch = rated(load_reducer(name).plant)
-        if quick:
-            stretch = Stretch(stretch.start, stretch.loads[:3], stretch.step)
+        stretch = Stretch(stretch.start, np.full(3 if quick else 36, stretch.loads[0]), stretch.step)
         reference, *_ = with_scipy(stretch, "Radau", REFERENCE)
         problem = Problem(stretch)
         away = check_right_hand_sides(problem)
         assert away < 1e-7, f"NumPy's right-hand side is off by {away:.1e}"
         mine = ours(stretch, reference, 3)
-        lines, costs, notes, targets = {"rvwear": mine}, {}, {}, {}
+        lines, targets, evaluations = {}, {}, {}
         for label, (states, ladder, runs, target) in peers(problem, quick).items():
             made = [run(problem, reference, lambda: states(t), runs) for t in ladder]
-            lines[label] = [point for point, _ in made if math.isfinite(point[0])]
-            costs[label] = cost_at(lines[label], LEVEL) if lines[label] else math.nan
-            short = label.removesuffix(", point to point").removesuffix(", in one go")
-            targets[short] = target
-            notes[short] = f"{made[-1][1]} evaluations at the tightest"
-        # Once more, so that ours is not only from the start of a run on a machine with other load.
-        lines["rvwear"] = [(e, min(a, b)) for (e, a), (_, b) in zip(mine, ours(stretch, reference, 3))]
-        seconds = cost_at(lines["rvwear"], LEVEL)
-        duration = len(stretch.loads) * stretch.step
-        for label, peer in cheapest_way(costs).items():
-            found.ratios.append(Ratio("motion", f"{name}, {len(stretch.loads)} of 72 positions of a turn", label, seconds,
-                                      peer if math.isfinite(peer) else math.nan, f"contact forces within {LEVEL:.0%}",
-                                      targets[label], note=notes[label] if math.isfinite(peer) else "never within tolerances run"))
-        found.figures.append(Figure("motion", f"{name}: times real time at rated speed, forces within {LEVEL:.0%}",
-                                    duration / seconds, "1", at_least=2.0))
+            targets[short(label)] = target
+            for (error, seconds), calls in made:
+                if math.isfinite(error):
+                    lines.setdefault(short(label), []).append((error, seconds))
+                    evaluations[seconds] = calls
+        # Once more at the end: load of the machine at the start alone must not decide.
+        mine = [(e, min(a, b)) for (e, a), (_, b) in zip(mine, ours(stretch, reference, 3))]
+        for level in LEVELS[:1] if quick else LEVELS:
+            seconds = cheapest(mine, level)
+            for label, points in lines.items():
+                peer = cheapest(points, level)
+                note = f"{evaluations[peer]} evaluations" if peer in evaluations else "never within, at the tolerances run"
+                found.ratios.append(Ratio("motion", f"{name}, {len(stretch.loads)} of 72 positions of a turn", label, seconds, peer,
+                                          f"contact forces within {level:.1%}", targets[label], note=note))
+            found.figures.append(Figure("motion", f"{name}: times real time at rated speed, forces within {level:.1%}",
+                                        len(stretch.loads) * stretch.step / seconds, "1", at_least=2.0))
         found.curves.append(Curve(f"Motion of the {name}: cost against error", "error of the contact force", "s",
-                                  lines))
+                                  {"rvwear": mine} | lines))
     return found
