@@ -180,7 +180,7 @@ def peers(problem: Problem, quick: bool) -> dict[str, tuple[Callable[[float], ob
     for name, states in (("CVODE", cvode_states), ("IDA", ida_states)):
         for jac in (True, False):
             label = f"SUNDIALS {name}, our right-hand side" + (" and Jacobian" if jac else "")
-            found[label] = (lambda t, states=states, jac=jac: states(problem, t, jac), ladder, runs, 3.0)
+            found[label] = (lambda t, states=states, jac=jac: states(problem, t, jac), (*ladder, 3e-4), runs, 3.0)
     # Orders above 2 are unstable on lightly damped oscillations, which CVODE does not always notice.
     found["SUNDIALS CVODE of order 2, our right-hand side and Jacobian"] = (
         lambda t: cvode_states(problem, t, True, 2), ladder, runs, 3.0)
