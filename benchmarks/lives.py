@@ -84,37 +84,41 @@ def through_native(reducer: Reducer, hours: float) -> tuple[np.ndarray, float] |
 
 def measure(quick: bool = False) -> Measured:
     found = Measured()
-    hours = 400.0 if quick else 10_000.0
     for name in ("RV20E-121",) if quick else ("RV20E-121", "BX-40E"):
-        reducer = load_reducer(name)
-        work = f"{name}, {hours:,.0f} h"
-        reference, _ = controlled(make_pair(reducer), hours, TOLERANCE / 3.0 if quick else REFERENCE_TOLERANCE)
-        ours = []
-        for tolerance in (TOLERANCE,) if quick else TOLERANCES:
-            runs = [controlled(make_pair(reducer), hours, tolerance) for _ in range(2 if tolerance == TOLERANCE else 1)]
-            ours.append((tolerance, error_of(runs[0][0], reference), min(s for _, s in runs)))
-        _, error, seconds = next(row for row in ours if row[0] == TOLERANCE)
-        fixed = []
-        for length in SEGMENTS[1:] if quick else SEGMENTS:
-            end, spent = segments(make_pair(reducer), hours, min(length, hours / 2))
-            fixed.append((error_of(end, reference), spent))
-            if length in SEGMENTS:
-                found.ratios.append(Ratio("life", work, f"fixed segments of {length:g} h", seconds, spent,
-                                          f"ours {error:.2%}, segments {fixed[-1][0]:.2%}",
-                                          note="not at equal error"))
-        equal = cost_at(fixed, error)
-        found.ratios.append(Ratio("life", work, "fixed segments as short as our error needs", seconds, equal,
-                                  f"both {error:.2%}", note="" if math.isfinite(equal) else "finer than 100 h"))
-        stepping, cycles = every_cycle(make_pair(reducer), hours)
-        found.ratios.append(Ratio("life", work, "stepping through every meshing cycle", seconds, stepping, f"ours {error:.2%}",
-                                  PUBLISHED_FACTOR, note=f"extrapolated: {cycles:.3g} cycles from {MEASURED_CYCLES}"))
-        found.figures.append(Figure("life", f"{work}, in process, error control at {TOLERANCE:.0%}", seconds, "s",
-                                    at_most=5.0, note=f"error {error:.2%}"))
-        native = through_native(reducer, hours)
-        if native is not None:
-            found.figures.append(Figure("life", f"{work}, native FMUs", native[1], "s", at_most=10.0,
-                                        note=f"error {error_of(native[0], reference):.2%}"))
-        found.curves.append(Curve(f"Life of the {name}: cost against error", "error of the deepest wear", "s", {
-            "error control": [(e, s) for _, e, s in ours], "fixed segments": fixed,
-        }))
+        measure_one(found, name, quick)
     return found
+
+
+def measure_one(found: Measured, name: str, quick: bool) -> None:
+    hours = 400.0 if quick else 10_000.0
+    reducer = load_reducer(name)
+    work = f"{name}, {hours:,.0f} h"
+    reference, _ = controlled(make_pair(reducer), hours, TOLERANCE / 3.0 if quick else REFERENCE_TOLERANCE)
+    ours = []
+    for tolerance in (TOLERANCE,) if quick else TOLERANCES:
+        runs = [controlled(make_pair(reducer), hours, tolerance) for _ in range(2 if tolerance == TOLERANCE else 1)]
+        ours.append((tolerance, error_of(runs[0][0], reference), min(s for _, s in runs)))
+    _, error, seconds = next(row for row in ours if row[0] == TOLERANCE)
+    fixed = []
+    for length in SEGMENTS[1:] if quick else SEGMENTS:
+        end, spent = segments(make_pair(reducer), hours, min(length, hours / 2))
+        fixed.append((error_of(end, reference), spent))
+        if length in SEGMENTS:
+            found.ratios.append(Ratio("life", work, f"fixed segments of {length:g} h", seconds, spent,
+                                      f"ours {error:.2%}, segments {fixed[-1][0]:.2%}",
+                                      note="not at equal error"))
+    equal = cost_at(fixed, error)
+    found.ratios.append(Ratio("life", work, "fixed segments as short as our error needs", seconds, equal,
+                              f"both {error:.2%}", note="" if math.isfinite(equal) else "finer than 100 h"))
+    stepping, cycles = every_cycle(make_pair(reducer), hours)
+    found.ratios.append(Ratio("life", work, "stepping through every meshing cycle", seconds, stepping, f"ours {error:.2%}",
+                              PUBLISHED_FACTOR, note=f"extrapolated: {cycles:.3g} cycles from {MEASURED_CYCLES}"))
+    found.figures.append(Figure("life", f"{work}, in process, error control at {TOLERANCE:.0%}", seconds, "s",
+                                at_most=5.0, note=f"error {error:.2%}"))
+    native = through_native(reducer, hours)
+    if native is not None:
+        found.figures.append(Figure("life", f"{work}, native FMUs", native[1], "s", at_most=10.0,
+                                    note=f"error {error_of(native[0], reference):.2%}"))
+    found.curves.append(Curve(f"Life of the {name}: cost against error", "error of the deepest wear", "s", {
+        "error control": [(e, s) for _, e, s in ours], "fixed segments": fixed,
+    }))
