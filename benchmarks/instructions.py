@@ -11,7 +11,7 @@ from fmu_src.native import object_code
 from orchestrator.reducer import load_reducer
 
 KEPT = Path(__file__).with_suffix(".json")
-REDUCERS = ("RV20E-121", "BX-40E")
+REDUCERS = ("RV20E-121",)
 FIDELITIES = ("equilibrium", "motion")
 
 
