@@ -3,6 +3,7 @@
 
     python3 build.py            set up, build and check the FMUs, run the main job, write the report
     python3 build.py test       set up, run the tests (further arguments go to pytest)
+    python3 build.py bench      set up, measure the cost of everything against others' (benchmarks/; --quick tries it out)
     python3 build.py COMMAND    set up, then: rvwear COMMAND ...
 
 The main job co-simulates RvPlant.fmu and RvWear.fmu of the RV20E-121 at rated load over
@@ -20,6 +21,8 @@ HERE = Path(__file__).resolve().parent
 ENVIRONMENT = HERE / ".venv"
 SCRIPTS = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
 REQUIREMENTS = HERE / "requirements.txt"
+# What the measurements compare with, and what spreads ensembles.
+PEERS = ("scikit-sundae==1.2.0", "joblib==1.6.0", "SALib==1.6.0", "dask==2026.8.0", "distributed==2026.8.0")
 STAMP = ENVIRONMENT / "set-up-done"
 
 
@@ -46,12 +49,25 @@ def rvwear(*arguments: str) -> int:
     return subprocess.run([str(SCRIPTS / "rvwear"), *arguments]).returncode
 
 
+def bench(arguments: list[str]) -> int:
+    """The measurements; what they compare with is installed if it can be, and left out if not."""
+    python = str(SCRIPTS / "python")
+    peers = [python, "-c", "import sksundae, joblib, SALib, distributed"]
+    if subprocess.run(peers, stderr=subprocess.DEVNULL).returncode != 0:
+        pip = [python, "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
+        if subprocess.run([*pip, *PEERS]).returncode != 0:
+            print("build.py: pip could not install the packages compared with; their rows are missing", file=sys.stderr)
+    return subprocess.run([python, "-m", "benchmarks", *arguments], cwd=HERE).returncode
+
+
 def main(arguments: list[str]) -> int:
     if sys.version_info < (3, 11):
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
     set_up()
     if arguments[:1] == ["test"]:
         return subprocess.run([str(SCRIPTS / "python"), "-m", "pytest", *arguments[1:]], cwd=HERE).returncode
+    if arguments[:1] == ["bench"]:
+        return bench(arguments[1:])
     if arguments:
         return rvwear(*arguments)
     os.chdir(HERE)

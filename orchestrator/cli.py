@@ -10,6 +10,7 @@ import sys
 from fmu_src.native import NativeFault
 from fmu_src.package import PackageFault
 from orchestrator import commands, system_commands
+from orchestrator.ensemble.options import add_ensemble_command
 from orchestrator.faults import InputFault, RunFault
 from orchestrator.master import SCHEMES
 from orchestrator.reducer import available
@@ -89,6 +90,8 @@ def parser() -> argparse.ArgumentParser:
     start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
     add_json(life)
     life.set_defaults(run=commands.life)
+
+    add_ensemble_command(sub)
 
     hysteresis = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
     add_reducer_options(hysteresis)

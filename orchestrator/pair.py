@@ -84,6 +84,7 @@ def make_pair(
     scheme: str = "gauss-seidel",
     positions: int = POSITIONS_PER_TURN,
     duty: tuple[Segment, ...] = (),
+    master_kind: type[Master] = Master,
 ) -> Pair:
     """Initialised pair of a reducer: in this process, or as FMUs from the folder ``fmus``."""
     if fmus is None:
@@ -100,7 +101,7 @@ def make_pair(
             raise InputFault(f"{setting.name} is exchanged by the two units; a setting of it would have no effect")
     apply(list(settings), components)
     step = crank_turn_time(reducer, plant) / positions
-    master = Master(components, CONNECTIONS, step, scheme=scheme)
+    master = master_kind(components, CONNECTIONS, step, scheme=scheme)
     if scheme == "jacobi":
         # Each unit then sees the other one step later than with Gauss-Seidel.
         wear.set("contact_lead", 2.0)

@@ -1,0 +1,120 @@
+"""Ensembles on several workers: a Dask scheduler and two workers on this machine, workers killed on the way.
+
+Every life must arrive, once, and be the same to the last bit as in one process.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+
+from benchmarks.ratios import Figure, Measured
+from orchestrator.ensemble.backends import through_dask, through_joblib
+from orchestrator.ensemble.command import tasks_of
+from orchestrator.ensemble.ensemble_file import load_ensemble
+from orchestrator.ensemble.member import run
+from orchestrator.ensemble.store import Store
+
+TEXT = """
+reducer = "RV20E-121"
+hours = 400
+tolerance = 0.1
+[parameters]
+bearing_clearance = { distribution = "normal", mean = 2.5, deviation = 0.4, unit = "um" }
+load_torque = { distribution = "uniform", low = 120, high = 200, unit = "N.m" }
+"""
+
+
+@dataclass(frozen=True)
+class Killed:
+    """What came of an ensemble whose workers were killed."""
+
+    lives: int
+    killed: int
+    lost: int
+    twice: int
+    different: int
+
+
+@contextmanager
+def cluster(folder: Path) -> Iterator[tuple[str, list[subprocess.Popen]]]:
+    """(address, processes of the workers); all are ended at the end."""
+    file = folder / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
+               "--scheduler-file", str(file)]
+    scheduler = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    workers: list[subprocess.Popen] = []
+    try:
+        while not file.exists():
+            assert scheduler.poll() is None, "the Dask scheduler did not start"
+            time.sleep(0.1)
+        time.sleep(0.2)
+        address = json.loads(file.read_text())["address"]
+        workers += [worker(address) for _ in range(2)]
+        yield address, workers
+    finally:
+        for process in (*workers, scheduler):
+            process.kill()
+            process.wait()
+
+
+def worker(address: str) -> subprocess.Popen:
+    """One that nobody starts again."""
+    command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+    return subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+
+def killed_workers(samples: int = 8, kills: int = 3) -> Killed:
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        (folder / "e.toml").write_text(TEXT)
+        tasks = tasks_of(load_ensemble(folder / "e.toml", samples))
+        store, killed, twice = Store(folder / "e.lives", {}), 0, 0
+        with cluster(folder) as (address, workers):
+            for count, life in enumerate(through_dask(run, tasks, address), 1):
+                twice += not store.add(life)
+                # Spread over the run, in the midst of the next lives; a new worker comes for each.
+                if killed < kills and count * (kills + 1) >= (killed + 1) * len(tasks):
+                    workers[killed].kill()
+                    workers.append(worker(address))
+                    killed += 1
+        kept = Store(folder / "e.lives", {}).lives
+        alone = {life["number"]: life for life in map(run, tasks)}
+        return Killed(len(tasks), killed, sum(n not in kept for n in alone), twice,
+                      sum(kept.get(n) != json.loads(json.dumps(life)) for n, life in alone.items()))  # fmt: skip
+
+
+def joblib_efficiency(samples: int) -> tuple[float, float]:
+    """(seconds a life in one process, wall time of one process over twice that of two)."""
+    with tempfile.TemporaryDirectory() as temporary:
+        (file := Path(temporary) / "e.toml").write_text(TEXT)
+        tasks = tasks_of(load_ensemble(file, samples))
+        # Workers load and compile before what is timed.
+        list(through_joblib(run, tasks[:4], 2))
+        list(map(run, tasks[:1]))
+        begun, wall = process_time(), time.perf_counter()
+        list(map(run, tasks))
+        alone, wall = process_time() - begun, time.perf_counter() - wall
+        begun = time.perf_counter()
+        list(through_joblib(run, tasks, 2))
+        return alone / len(tasks), wall / (2.0 * (time.perf_counter() - begun))
+
+
+def measure(quick: bool = False) -> Measured:
+    found = killed_workers(2 if quick else 8, 1 if quick else 3)
+    text = f"{found.lives} lives on a Dask cluster, {found.killed} workers killed"
+    seconds, efficiency = joblib_efficiency(2 if quick else 8)
+    return Measured(figures=[
+        Figure("many machines", f"{text}: lost", found.lost, "1", at_most=0.0),
+        Figure("many machines", f"{text}: counted twice", found.twice, "1", at_most=0.0),
+        Figure("many machines", f"{text}: not as in one process, to the last bit", found.different, "1", at_most=0.0),
+        Figure("many machines", "processor time of an ensemble's life of 400 h", seconds, "s"),
+        Figure("many machines", "efficiency of two joblib processes, by wall time", efficiency, "1", at_least=0.9,
+               note="other load on the machine counts against it"),
+    ])  # fmt: skip

@@ -1,0 +1,1 @@
+"""Many lives of one reducer whose parts, duty and parameters scatter."""

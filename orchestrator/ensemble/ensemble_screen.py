@@ -1,0 +1,45 @@
+"""Tables of an ensemble."""
+
+from rich.console import Console
+from rich.table import Table
+
+# Of a console: wide enough for all columns, also where the output goes to a file.
+WIDTH = 130
+
+
+def show(found: dict) -> None:
+    console = Console(width=max(Console().width, WIDTH))
+    console.print(f"{found['reducer']}: {found['lives_done']} of {found['lives_planned']} lives of {found['hours']:g} h, "
+                  f"{found['lives_failed']} failed", highlight=False)
+    for fault in found["faults"]:
+        console.print(f"  {fault}", highlight=False, markup=False)
+    if "distributions" not in found:
+        console.print("too few lives for a distribution")
+        return
+    table = Table(title="at the end, with 95 % intervals", title_justify="left")
+    for head in ("figure", "mean", "5 %", "50 %", "95 %"):
+        table.add_column(head, justify="left" if head == "figure" else "right", no_wrap=True)
+    for name, values in found["distributions"].items():
+        table.add_row(name, *(cell(value) for value in values.values()))
+    if "life_hours" in found:
+        table.add_row("life_hours", "", *(cell(value, found["hours"]) for value in found["life_hours"].values()))
+    console.print(table)
+    for name, share in found.get("beyond_limits", {}).items():
+        console.print(f"share of reducers with {name} beyond {found['limits'][name]:g}: {cell(share)}", highlight=False)
+    shown = {name: rows for name, rows in found.get("sensitivity", {}).items() if rows}
+    if not shown:
+        return
+    table = Table(title="share of the variance that a parameter makes, alone / with all interactions", title_justify="left")
+    table.add_column("parameter")
+    for name in shown:
+        table.add_column(name.rpartition("_")[0].replace("_", "\n"), justify="right")
+    for parameter in sorted(next(iter(shown.values()))):
+        table.add_row(parameter, *(f"{rows[parameter]['alone']:.2f} / {rows[parameter]['total']:.2f}" for rows in shown.values()))
+    console.print(table)
+
+
+def cell(value: dict, most: float | None = None) -> str:
+    def text(number):
+        return f"> {most:g}" if number is None else f"{number:.3g}" if most is None else f"{number:.0f}"
+
+    return f"{text(value['value'])} ({text(value['low'])} .. {text(value['high'])})"

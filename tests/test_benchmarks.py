@@ -1,0 +1,46 @@
+"""The measurements themselves: what NumPy computes is what the kernels compute, and cost at equal error."""
+
+import math
+
+import numpy as np
+import pytest
+
+from benchmarks.equilibrium import FREE, compiled, start
+from benchmarks.integrators import rated
+from benchmarks.motion import Problem, check_right_hand_sides, cheapest
+from benchmarks.numpy_plant import NumpyPlant
+from benchmarks.ratios import Figure, Measured, Ratio, cost_at, exponent, machine
+from benchmarks.table import write
+
+
+@pytest.mark.parametrize("name", ["RV20E-121", "BX-40E"])
+def test_residual_in_numpy_is_that_of_the_kernels(name):
+    records, _ = start(name)
+    r, residual = records[0], compiled(records.copy())[0]
+    z = r["z"][:FREE] * (1.0 + 0.1 * np.sin(np.arange(FREE)))
+    angle, cage = 0.3, 1.1
+    wanted = residual(z, angle, cage)
+    assert NumpyPlant(r).out_of_balance(z, angle, cage) == pytest.approx(wanted, abs=1e-8 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("reducer", ["rv20e", "bx40e"])
+def test_right_hand_side_in_numpy_is_that_of_the_kernels(request, reducer):
+    assert check_right_hand_sides(Problem(rated(request.getfixturevalue(reducer).plant))) < 1e-7
+
+
+def test_cost_at_an_error_is_read_in_logarithms():
+    points = [(1e-1, 1.0), (1e-2, 2.0), (1e-4, 8.0)]
+    assert cost_at(points, 1e-3) == pytest.approx(4.0)
+    assert cost_at(points, 0.5) == 1.0 and math.isnan(cost_at(points, 1e-5))
+    assert cheapest(points, 1e-2) == 2.0 and math.isnan(cheapest(points, 1e-5))
+
+
+def test_exponent_of_a_power():
+    assert exponent([(n, 3.0 * n**1.5) for n in (1, 2, 4, 8, 16)]) == pytest.approx(1.5)
+
+
+def test_table_holds_rows_that_could_not_be_measured(tmp_path):
+    found = {"x": Measured([Ratio("x", "work", "peer", 1.0, math.nan, "1 %", 3.0)], [Figure("x", "what", 2.0, "s", at_most=1.0)])}
+    write(found, machine(), True, tmp_path / "bench")
+    assert '"ratio": null' in (tmp_path / "bench.json").read_text()
+    assert "not met" in (tmp_path / "bench.html").read_text()
