@@ -92,7 +92,7 @@ def in_motion(table):
         records["dynamic_tolerance"] *= share
         step = turn / POSITIONS_PER_TURN
         run(records, step, POSITIONS_PER_TURN)
-        before, energy = records.copy(), float(records["energy_error"][0])
+        before = records.copy()
         seen = run(records, step, POSITIONS_PER_TURN, lambda r: (
             forces(r), mean_forces(r), [int(r[name]) for name in COUNTS], float(r["energy_error"])))
         found[share] = [np.array(column) for column in zip(*seen)]

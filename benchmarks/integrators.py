@@ -288,7 +288,7 @@ def advance_by(records, duration, kind, order, gamma, a, c, b, e, ks, damping, c
     """Integrate over a communication step; counts: assemblies, factorisations, steps, rejected."""
     r = records[0]
     n = r.q.shape[0]
-    time = h_before = 0.0
+    time = 0.0
     while time < duration * (1.0 - 1e-12):
         left = duration - time
         h = r.internal_step
