@@ -131,6 +131,7 @@ def test_faults_of_either_part_are_told(rv20e):
     assert "half a turn" in unit.unit.faults[OF_WEAR + 3]
 
 
+@pytest.mark.campaign
 @pytest.mark.parametrize("flavour", [".", "fmi2", "fmi3"])
 def test_fmus_are_valid_and_equal_the_kernels(rv20e, one_unit_fmus, flavour):
     path = one_unit_fmus / flavour / "RvReducer.fmu"

@@ -5,8 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from orchestrator.component import InProcess
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "examples" / "robot_joint"))
 import robot_joint
 
