@@ -75,6 +75,8 @@ def test_exception_in_a_kernel_becomes_a_status():
     assert functions["step"](cells, 0.0, -1.0) == -1
 
 
+# Whole FMUs are built twice in test_fmu.
+@pytest.mark.campaign
 def test_object_code_is_the_same_twice(rv20e):
     specification = rv20e.specification("wear_fmu")
     assert native.object_code(specification) == native.object_code(specification)
