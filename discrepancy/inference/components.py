@@ -41,11 +41,14 @@ def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: 
     width = next(iter(grams.values())).shape[0]
     scores = np.zeros((draws, width))
     for component, gram in grams.items():
-        values, vectors = np.linalg.eigh(gram)
+        # In units of each column: sizes differ by many powers of ten, and rounding goes with the largest.
+        size = np.sqrt(np.maximum(np.diag(gram), 0.0))
+        scaled = gram / np.maximum(np.outer(size, size), 1e-300)
+        values, vectors = np.linalg.eigh(scaled)
         keep = values > 1e-12 * max(values.max(), 1e-300)
         if not keep.any():
             continue
-        root = vectors[:, keep] * np.sqrt(values[keep])
+        root = size[:, None] * vectors[:, keep] * np.sqrt(values[keep])
         dof = space.noise.dof(component)
         inflation = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
         scores += inflation[:, None] * (rng.standard_normal((draws, keep.sum())) @ root.T)

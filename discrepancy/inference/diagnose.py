@@ -11,10 +11,16 @@ from discrepancy.inference.features import ORDERS
 from discrepancy.inference.fit import Workspace
 from discrepancy.inference.held_out import HeldOutJudge
 from discrepancy.inference.localise import Localisation, Localiser
-from discrepancy.inference.refit import Refit, estimates, finished, leave_condition_out, refit
-from discrepancy.inference.screen import Score, candidate_columns, screen
+from discrepancy.inference.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
+from discrepancy.inference.screen import Score, candidate_columns, joint_gain, screen
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Settings, decide
 from discrepancy.problem import Model
+
+# Refits are dear: what a linear estimate leaves this far behind is not tried.
+HOPELESS = 0.35
+HOPELESS_EXCHANGE = 0.7
+# An effect that is this many times as needed as it must be is kept without a refit of the others.
+SURELY = 3.0
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -85,6 +91,7 @@ class Diagnostician:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = [s for s in more.scores if s.p_adjusted < settings.second_level][:4]
+            promising = [s for s in promising if s.statistic >= HOPELESS * promising[0].statistic]
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
@@ -94,7 +101,9 @@ class Diagnostician:
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 for other in self.screening.scores[:5]:
-                    if other.name not in (names[0], newest) and frozenset([other.name, newest]) not in self.fitted:
+                    if other.name in (names[0], newest) or frozenset([other.name, newest]) in self.fitted:
+                        continue
+                    if joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * challenger.gain:
                         trials.append(self.fit([other.name, newest]))
             challenger = min(trials, key=penalised)
             extra = current.fit.chi2 - challenger.fit.chi2
@@ -112,8 +121,11 @@ class Diagnostician:
             rest = [n for n in names if n != name]
             if not rest:
                 continue
+            least = max(self.settings.second_gain * first, 12.0)
+            if drop_cost(joint, self.by_name[name]) > SURELY * least:
+                continue
             without = self.fit(rest)
-            if without.fit.chi2 - joint.fit.chi2 < max(self.settings.second_gain * first, 12.0):
+            if without.fit.chi2 - joint.fit.chi2 < least:
                 return self._backward(without, first)
         return joint
 
@@ -184,8 +196,9 @@ class Diagnostician:
         rest_fit = self.fit(rest)
         more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
+        needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         for s in more.scores[:4]:
-            if s.name == member.name:
+            if s.name == member.name or s.statistic < HOPELESS_EXCHANGE * needed:
                 continue
             rival = self.fit([*rest, s.name], own, [s])
             if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2:
@@ -201,7 +214,7 @@ class Diagnostician:
             before, after = self._errors(judge, member, captured, held_out)
             numbers = {e.name: e for e in estimates(self.space, member, self.settings.coverage, np.sqrt(min(inflation, 4.0)))}
             for c in member.candidates:
-                gain = member.gain if not several else self.fit([o.name for o in member.candidates if o is not c]).fit.chi2 - member.fit.chi2
+                gain = self._gain_of(member, c) if several else member.gain
                 bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
                 if bounds:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
@@ -241,6 +254,11 @@ class Diagnostician:
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
                          {"space": self.space, "members": members, "rivals": rivals, "localiser": self.localiser})
+
+    def _gain_of(self, joint: Refit, candidate) -> float:
+        """What one of several effects adds to the others."""
+        rest = self.fitted.get(frozenset(c.name for c in joint.candidates if c is not candidate))
+        return drop_cost(joint, candidate) if rest is None else rest.fit.chi2 - joint.fit.chi2
 
     def _errors(self, judge, member, captured, held_out):
         if judge is not None and self.space.held_out:

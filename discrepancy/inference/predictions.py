@@ -21,10 +21,12 @@ class Predictions:
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
         """The values that differ from the base model's; shapes of effects that are off do not count."""
         active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
+        idle, used = set(), set()
         for c in self.model.candidates:
-            if not any(p.name in active for p in c.amplitudes):
-                for p in c.shapes:
-                    active.pop(p.name, None)
+            # Variants of one effect can have a shape in common.
+            (used if any(p.name in active for p in c.amplitudes) else idle).update(p.name for p in c.shapes)
+        for name in idle - used:
+            active.pop(name, None)
         return active
 
     def prefetch(self, requests: Sequence[tuple[Mapping[str, float], Sequence[int]]]) -> None:

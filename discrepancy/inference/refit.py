@@ -108,6 +108,16 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
     return estimated
 
 
+def drop_cost(result: Refit, candidate: Candidate) -> float:
+    """Growth of chi-square without one of several effects, if all were linear (Wald)."""
+    index = [k for k, p in enumerate(result.fit.parameters) if any(p is a for a in candidate.amplitudes)]
+    parameters = [result.fit.parameters[k] for k in index]
+    size = np.array([p.scale for p in parameters])
+    amounts = np.array([result.fit.values[p.name] - p.off for p in parameters]) / size
+    covariance = result.covariance[np.ix_(index, index)] / np.outer(size, size)
+    return float(amounts @ np.linalg.pinv(covariance, rcond=1e-9, hermitian=True) @ amounts)
+
+
 def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
     """Chi-square of each condition when the fit had not seen it, e_c = (I - H_cc)^-1 e_c in the form of normal equations."""
     rows = defaultdict(list)

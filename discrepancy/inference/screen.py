@@ -234,6 +234,14 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     return Screen(scores, columns.blocks)
 
 
+def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
+    """Gain in chi-square of several effects together, linear and without bounds, at the places where each fits best alone."""
+    chosen = np.hstack([columns.values[:, columns.blocks[s.best_block].columns] for s in scores])
+    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    score = chosen.T @ fit.settled
+    return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
+
+
 def _tail(value, sims, width, dof):
     """Probability under the null: counted, beyond the 99th percentile continued with the law of F."""
     draws = sims.size

@@ -64,6 +64,7 @@ class Bench:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
         self.runs: dict[tuple, object] = {}
+        self.most_runs = KEPT_RUNS
         topology = reducer.topology
         self.ratio = total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes)
         self.rated_speed = float(self.templates[0]["input_speed"][0])
@@ -72,7 +73,7 @@ class Bench:
     def kept(self, key: tuple, make):
         """The run under ``key``, made if there is none yet."""
         if key not in self.runs:
-            if len(self.runs) > KEPT_RUNS:
+            if len(self.runs) > self.most_runs:
                 self.runs.clear()
             self.runs[key] = make()
         return self.runs[key]
@@ -92,12 +93,28 @@ class Bench:
 
         ``cage`` is how far the roller cages stand ahead of where rolling from 0 brings them [rad].
         """
-        plants, wears = (t.copy() for t in self.templates)
-        for table, records in zip(self.tables, (plants, wears)):
-            for name, value in values.items():
-                if name in table.by_name:
-                    records[name] = value
-            records["temperature"] = condition.temperature
+        plants = self.new_plant(condition, values, first_angle, cage, **plant_values)
+        wears = self.set_up(1, values, condition)
+        for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
+            wears[name] = plants[name]
+        fault = accumulator.initialise(wears)
+        if fault:
+            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+        return plants, wears
+
+    def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
+        """Records of a unit (0 plant, 1 wear) with values and the condition's temperature."""
+        records = self.templates[unit].copy()
+        for name, value in values.items():
+            if name in self.tables[unit].by_name:
+                records[name] = value
+        records["temperature"] = condition.temperature
+        return records
+
+    def new_plant(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
+                  **plant_values) -> np.ndarray:
+        """The plant's records, see ``pair``: all that runs of a new unit need."""
+        plants = self.set_up(0, values, condition)
         plants["input_speed"] = self.input_speed(condition)
         plants["load_torque"] = condition.direction * condition.load
         plants["ideal_output"] = first_angle
@@ -111,12 +128,7 @@ class Bench:
         fault = plant.initialise(plants)
         if fault:
             raise RunFault(plant.FAULTS[fault].format(**scalars(self.tables[0], plants)))
-        for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
-            wears[name] = plants[name]
-        fault = accumulator.initialise(wears)
-        if fault:
-            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
-        return plants, wears
+        return plants
 
     def input_speed(self, condition: Condition) -> float:
         """Speed of the sun [rad/s] with its sign."""
@@ -172,13 +184,14 @@ class Bench:
         key = ("running", condition, relevant, angles.tobytes(), cage)
 
         def run():
-            plants, wears = self.pair(condition, values, angles[0], cage=cage, largest_crank_step=1.0)
+            plants = self.new_plant(condition, values, angles[0], cage=cage, largest_crank_step=1.0)
+            # The wear unit of a new reducer has nothing to do.
+            wears = self.templates[1]
             if condition.hours > 0.0:
-                worn = self.worn(condition, values, condition.hours)
-                wears[:] = worn
+                wears = self.worn(condition, values, condition.hours).copy()
                 for name in ("crank_angle", "output_angle", "cage_angle"):
                     wears[name] = wears[f"{name}_before"] = plants[name]
-            wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
+                wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
             out_speed = condition.speed / abs(self.ratio)
             durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
@@ -211,23 +224,21 @@ class Bench:
             total = np.zeros(len(torques))
             for k in range(HELD_ANGLES):
                 angle = 2.0 * math.pi * k / (HELD_ANGLES * self.reducer.topology.lobes)
-                plants, wears = self.pair(condition, values, angle, input_speed=0.0, load_torque=torques[0])
+                plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=torques[0])
                 if condition.hours > 0.0:
-                    self.put_wear(condition, values, plants, wears)
+                    self.put_wear(condition, values, plants)
                 turning = np.zeros(len(torques))
-                self.check((coupled.torque_sweep(plants, torques, turning), 0), plants, wears)
+                self.check((coupled.torque_sweep(plants, torques, turning), 0), plants, self.templates[1])
                 total += turning / HELD_ANGLES
             return total
 
         return self.kept(key, run)
 
-    def put_wear(self, condition, values, plants, wears):
+    def put_wear(self, condition, values, plants):
         """Profile errors of the worn surfaces at the present angles."""
-        worn = self.worn(condition, values, condition.hours)
-        places = {name: wears[name].copy() for name in ("crank_angle", "output_angle", "cage_angle")}
-        wears[:] = worn
-        for name, value in places.items():
-            wears[name] = wears[f"{name}_before"] = value
+        wears = self.worn(condition, values, condition.hours).copy()
+        for name in ("crank_angle", "output_angle", "cage_angle"):
+            wears[name] = wears[f"{name}_before"] = plants[name]
         wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
         self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):

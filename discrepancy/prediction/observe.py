@@ -24,22 +24,23 @@ DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
+def settings_of(bench: Bench, record: Record) -> list:
+    """Speed, load, temperature and hours, each one number or one a row."""
+    defaults = {**DEFAULTS, "speed": bench.rated_speed, "load": bench.rated_load}
+    return [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
+
+
 def row_conditions(bench: Bench, record: Record) -> list[Condition]:
     """The condition of every row (rows may differ in speed, load, temperature, hours)."""
-    n = len(record.values)
-
-    def column(name: str, default: float) -> np.ndarray:
-        return np.broadcast_to(record.axes.get(name, record.factors.get(name, DEFAULTS.get(name, default))), n)
-
-    speed, load = column("speed", bench.rated_speed), column("load", bench.rated_load)
-    temperature, hours = column("temperature", 293.15), column("hours", 0.0)
+    columns = [np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)]
     direction = int(record.factors.get("direction", 1))
-    return [Condition(*map(float, row), direction) for row in zip(speed, load, temperature, hours)]
+    return [Condition(*map(float, row), direction) for row in zip(*columns)]
 
 
 def condition_of(bench: Bench, record: Record) -> Condition:
     """The one condition of a record whose rows share it."""
-    return row_conditions(bench, record)[0]
+    first = (float(c if np.ndim(c) == 0 else c[0]) for c in settings_of(bench, record))
+    return Condition(*first, int(record.factors.get("direction", 1)))
 
 
 def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
