@@ -158,11 +158,12 @@ def tooth_contact(r, c, rate_weight):
         # d(turned)/d(x, y) is (-y, x)/distance^2.
         along = -s * ca * (small + planet) / (distance * distance)
         index[0], index[1], index[2], index[3], index[4] = carrier, crank, crank + 1, crank + 2, sun
-        gradient[0] = error_slope
+        gap_slope = error_slope + s * r.tooth_gap_rate[c]
+        gradient[0] = gap_slope
         gradient[1] = -along * y - sa * x / distance
         gradient[2] = along * x - sa * y / distance
         gradient[3] = s * planet * ca
-        gradient[4] = s * small * ca - error_slope
+        gradient[4] = s * small * ca - gap_slope
         rate = 0.0
         for a in range(5):
             rate += gradient[a] * r.v[index[a]]

@@ -158,6 +158,7 @@ def clear_added(r):
             r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
     for c in range(cranks):
         r.seat_tangential_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
+        r.tooth_gap_rate[c] = r.crank_turn_rate[c] = 0.0
     for j in range(r.pin_x.shape[0]):
         r.pin_radius_added[j] = 0.0
     r.profile_radius_added = r.profile_circle_added = r.output_gap_added = 0.0
@@ -174,7 +175,7 @@ def publish(r, output_speed):
     carrier = 3 * discs
     turning = r.z[carrier]
     crank_turning = crank_turn_per_carrier_turn(r.first_stage_ratio) * turning
-    moment = 0.0
+    moment = of_errors = 0.0
     side = 1.0 if r.load_torque >= 0.0 else -1.0
     for c in range(cranks):
         crank = carrier + 3 + 3 * c
@@ -185,6 +186,7 @@ def publish(r, output_speed):
         shift_x, shift_y = r.z[carrier + 1] + r.z[crank], r.z[carrier + 2] + r.z[crank + 1]
         crank_turning += (r.z[crank + 2] + r.crank_turn_added[c] + per_x * shift_x + per_y * shift_y) / cranks
         moment += r.crank_moment[c]
+        of_errors += r.crank_moment[c] * r.crank_turn_rate[c]
         lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio)
         r.tooth_force[c] = r.crank_moment[c] / lever if lever > 0.0 else 0.0
     r.input_angle = ratio * r.ideal_output
@@ -197,7 +199,8 @@ def publish(r, output_speed):
     r.output_speed = output_speed
     r.transmission_error = turning - twist
     r.lag = -crank_turning / lobes - turning + twist
-    r.drive_torque = moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment
+    # Virtual work of the cranks' turning, as the teeth's errors have it.
+    r.drive_torque = moment / r.first_stage_ratio - of_errors if r.first_stage_ratio > 0.0 else -moment
     r.drive_torque += publish_losses(r, r.input_speed)
     r.power_loss = r.friction_power
     r.reaction_torque = r.load_torque - r.drive_torque

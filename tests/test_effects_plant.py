@@ -226,6 +226,24 @@ def test_first_stage_shows_reduced_by_the_second(bench, values, order, size):
         assert amplitudes(turn(bench, conditions(bench)[c], values) * ARCSEC)[order] == pytest.approx(expected, rel=0.02)
 
 
+@pytest.mark.parametrize("values", [{"tooth_error": 10 * UM}, {"sun_runout": 50 * UM, "planet_runout": 50 * UM}], ids=["teeth", "run-out"])
+def test_first_stage_errors_do_no_net_work_in_a_turn(bench, values):
+    """Their torque at the input ripples, but over a turn of the output the input's work is the load's."""
+    c = rated(bench)
+    torque = turn(bench, c, values, "drive_torque")
+    ripple = torque - turn(bench, c, {}, "drive_torque")
+    assert torque.mean() * RATIO == pytest.approx(c.load, rel=1e-4)
+    assert np.std(ripple) > 1e-4 * torque.mean()
+
+
+def test_tooth_error_makes_the_input_torque_follow_the_speed_of_the_output(bench):
+    """Nearly rigid: T_in = T_out d(theta_out)/d(theta_in); springs take up the rest of the ripple's power."""
+    c = rated(bench)
+    values = {"tooth_error": 10 * UM}
+    ripple = amplitudes(turn(bench, c, values, "drive_torque"))[1440]
+    assert ripple == pytest.approx(c.load / RATIO * 1440 * 10 * UM / LEVER / CRANK_PER_OUTPUT, rel=0.02)
+
+
 def test_play_adds_to_lost_motion(bench):
     added = observed(bench, "lost_motion", rated(bench), {"backlash": 50 * UM}) - observed(bench, "lost_motion", rated(bench), {})
     assert added == pytest.approx(50 * UM / LEVER / CRANK_PER_OUTPUT, rel=0.02)

@@ -5,8 +5,9 @@ Along the line of action the flanks lack
     g_c = E cos(z1 psi) + R_s cos(psi - 2 pi c/n) + R_p cos(psi/i1) for planet 1
 
 with psi the sun's turning against the carrier; a crank falls back by g/(r2 cos alpha), the output by that
-over z_c; play b adds b/2 on either flank.  With planets evenly spread, what a sun off centre takes from
-one planet it gives to the others: it moves load between the cranks, and the output hardly.
+over z_c + 1 + 1/i1 (40.33); play b adds b/2 on either flank.  With planets evenly spread, what a sun off centre
+takes from one planet it gives to the others: it moves load between the cranks, and the output hardly.  By
+virtual work the sun feels the tooth force times -dg/dpsi beside its constant lever.
 
 Source: geometry; 10 to 20 um pitch error, 30 to 80 um play in spur first stages.
 """
@@ -23,7 +24,8 @@ EFFECT = Effect(
     15, "first-stage gear error and backlash",
     "g_c = E cos(z1 psi) + R_s cos(psi - 2 pi c/n) + R_p cos(psi/i1); play b/2 on either flank",
     "geometry of the spur stage; 10 to 20 um, play 30 to 80 um",
-    "orders 1440 (mesh, 12 teeth) and 40 (planet) at the output, reduced by the second stage, whatever the load;"
+    "orders 1440 (mesh, 12 teeth) and 40 (planet) at the output, reduced by the second stage, whatever the load, and"
+    " of the input's torque, in proportion to load;"
     " sun: order 120 in the cranks' shares of the load, which cancels at the output; play: lost motion at reversal",
     (
         amplitude("tooth_error", "m", "profile error of the first stage, amplitude at mesh order", 5 * UM, -100 * UM, 100 * UM,
@@ -49,9 +51,14 @@ def before(r):
     lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
     side = 1.0 if r.load_torque >= 0.0 else -1.0
     flank = side * (0.5 * r.backlash + r.tooth_error * math.cos(r.sun_teeth * sun))
+    flank_rate = -side * r.tooth_error * r.sun_teeth * math.sin(r.sun_teeth * sun)
     for c in range(cranks):
-        gap = r.sun_runout * math.cos(sun - crank_position(r, c))
+        at_crank = sun - crank_position(r, c)
+        gap, rate = r.sun_runout * math.cos(at_crank), -r.sun_runout * math.sin(at_crank)
         if c == 0:
-            gap += r.planet_runout * math.cos(sun / r.first_stage_ratio)
-        r.tooth_gap[c] = gap
+            planet = sun / r.first_stage_ratio
+            gap += r.planet_runout * math.cos(planet)
+            rate -= r.planet_runout * math.sin(planet) / r.first_stage_ratio
+        r.tooth_gap[c], r.tooth_gap_rate[c] = gap, rate
         r.crank_turn_added[c] = (gap + flank) / lever
+        r.crank_turn_rate[c] = (rate + flank_rate) / lever
