@@ -3,6 +3,7 @@
 import contextlib
 import json
 import shutil
+import weakref
 from collections.abc import Callable
 from pathlib import Path
 
@@ -50,6 +51,8 @@ class Fmu(Component):
         if version not in VERSIONS:
             raise InputFault(f"{self.path} is of FMI {version}; the master steps units of FMI 2.0 and 3.0")
         self.folder = Path(fmpy.extract(str(self.path)))
+        # At the latest when the process ends, also if this unit is refused below or never closed.
+        self.discard_folder = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
         self.require_same_sources()
         self.messages: list[str] = []
         self.described = Described(self.description)
@@ -181,7 +184,7 @@ class Fmu(Component):
             # Refused before initialisation; it is freed all the same.
             self.slave.terminate()
         self.slave.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self.discard_folder()
 
 
 def raise_refusal(function: str, status: int) -> None:

@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from threading import Timer
 
 import numpy as np
@@ -38,9 +39,11 @@ class Isolated(Component):
         self.timed_out = False
         root = Path(__file__).resolve().parents[1]
         paths = os.pathsep.join([str(root), *filter(None, [os.environ.get("PYTHONPATH")])])
+        # Where the unit is unpacked: a process that crashes cannot remove it.
+        self.scratch = TemporaryDirectory(ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
             [sys.executable, "-m", "orchestrator.isolation", name, str(self.path)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": paths},
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": paths, "TMPDIR": self.scratch.name},
         )  # fmt: skip
         shown = self.answer()
         for key in SHOWN:
@@ -164,6 +167,7 @@ class Isolated(Component):
             # What was not sent to a process that crashed cannot be sent any more.
             with contextlib.suppress(OSError):
                 stream.close()
+        self.scratch.cleanup()
 
 
 class Worker:

@@ -1,4 +1,9 @@
-"""Fixtures: the two reducers that come with the software."""
+"""Fixtures: the two reducers that come with the software and their FMUs; the order of the files."""
+
+import os
+
+# Every worker has a core of its own: more threads would wait for each other.  Before NumPy is loaded.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 
@@ -6,7 +11,20 @@ from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
 from orchestrator.reducer import load_reducer
+from shared import made_once
 from small_fmus import build_spring
+
+# The workers take files in this order: the first two compile what most others need, one the kernels of the units,
+# the other their object code; the longest come early, so that no worker is left with one at the end.
+FIRST = (
+    "test_effects_off", "test_fmu", "test_inference_diagnose", "test_blind_trial", "test_reducer_unit", "test_ensemble",
+    "test_native_fmu", "test_loop", "test_fmu_bench", "test_strangers", "test_output_pins", "test_dynamics", "test_equilibrium",
+)  # fmt: skip
+
+
+def pytest_collection_modifyitems(items):
+    place = {name: i for i, name in enumerate(FIRST)}
+    items.sort(key=lambda item: place.get(item.path.stem, len(FIRST)))
 
 
 @pytest.fixture(scope="session")
@@ -23,9 +41,18 @@ UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu"}
 
 
 @pytest.fixture(scope="session")
-def codes(rv20e):
+def codes(rv20e, tmp_path_factory):
     """Object code of both units of the RV20E-121 for this machine, by unit and triple."""
-    return {name: object_codes(rv20e.specification(unit), triples_for(False)) for name, unit in UNITS.items()}
+    triples = triples_for(False)
+
+    def make(folder):
+        for name, unit in UNITS.items():
+            (folder / name).mkdir(parents=True, exist_ok=True)
+            for triple, code in object_codes(rv20e.specification(unit), triples).items():
+                (folder / name / triple).write_bytes(code)
+
+    folder = made_once(tmp_path_factory, "codes", make)
+    return {name: {triple: (folder / name / triple).read_bytes() for triple in triples} for name in UNITS}
 
 
 @pytest.fixture(scope="session")

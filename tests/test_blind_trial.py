@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from benchmarks.blind_trial import run as trial_run  # noqa: E402
+from benchmarks.blind_trial import tool  # noqa: E402
 from benchmarks.blind_trial.generator.designs import make_design  # noqa: E402
 from benchmarks.blind_trial.generator.folder import seal_of  # noqa: E402
 from benchmarks.blind_trial.generator.laws import CATALOGUE, Drag  # noqa: E402
@@ -34,22 +35,13 @@ SEED = 7
 FORBIDDEN = ("rv_plant.effects", "wear_fmu.effects", "discrepancy.effects", "discrepancy.prediction", "discrepancy.inference")
 
 
-def some(tasks: list[Task], folder: Path) -> list[dict]:
-    """A share of the trial; campaigns of equal conditions share the bench's runs."""
-    from benchmarks.blind_trial import tool
-
-    tool.SHARED = {}
-    return [trial_run.one(task, folder, False, False) for task in tasks]
-
-
 @pytest.fixture(scope="module")
 def results(tmp_path_factory) -> dict[int, dict]:
-    from joblib import Parallel, delayed
-
+    """In this one process: campaigns of equal conditions share the bench's runs, and other tests use the other cores."""
     folder = tmp_path_factory.mktemp("blind_trial")
-    tasks = reduced_plan(SEED)
-    parts = Parallel(n_jobs=2)(delayed(some)(tasks[i::2], folder) for i in range(2))
-    return {r["number"]: r for part in parts for r in part}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tool, "SHARED", {})
+        return {task.number: trial_run.one(task, folder, False, False) for task in reduced_plan(SEED)}
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,9 @@ from fmu_src import native
 from fmu_src.unit import Unit
 
 
-@pytest.mark.parametrize("unit", ["rv_plant", "wear_fmu"])
-def test_object_code_needs_nothing_but_libm(rv20e, unit):
-    code = native.object_code(rv20e.specification(unit))
-    assert undefined_symbols(code) <= native.LIBM
+@pytest.mark.parametrize("unit", ["RvPlant", "RvWear"])
+def test_object_code_needs_nothing_but_libm(codes, unit):
+    assert undefined_symbols(codes[unit][native.host_triple()]) <= native.LIBM
 
 
 def undefined_symbols(code: bytes) -> set[str]:

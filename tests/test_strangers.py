@@ -5,6 +5,7 @@ All of them exchange values at the beginning of the step (Jacobi), as our master
 
 import importlib.util
 import json
+import os
 import subprocess
 import sys
 import zipfile
@@ -47,11 +48,12 @@ def ours(folder):
     return values
 
 
-def stranger(script, *arguments, needs):
+def stranger(script, *arguments, needs, scratch):
+    """What another tool finds; whatever it unpacks goes to ``scratch``, for they do not tidy up."""
     if importlib.util.find_spec(needs) is None:
         pytest.skip(f"{needs} is not installed: pip install rvwear[strangers]")
     command = [sys.executable, SCRIPTS / script, *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | {"TMPDIR": str(scratch)})
     assert done.returncode == 0, done.stderr[-2000:]
     return json.loads(done.stdout.splitlines()[-1])["values"]
 
@@ -62,18 +64,18 @@ def unpacked(folder, target):
     return target
 
 
-def test_ecos_runs_the_package(folder):
+def test_ecos_runs_the_package(folder, tmp_path):
     if folder.name == "fmi3":
         pytest.skip("ecos 0.7.2 knows no arrays: see the test of scalars")
-    theirs = stranger("ecos.py", folder / "RvReducer.ssp", STEP, STEPS, *WATCHED, needs="ecospy")
+    theirs = stranger("ecos.py", folder / "RvReducer.ssp", STEP, STEPS, *WATCHED, needs="ecospy", scratch=tmp_path)
     assert theirs == pytest.approx(ours(folder), **SAME)
 
 
-def test_ecos_couples_fmi3_units_by_their_scalars(folder):
+def test_ecos_couples_fmi3_units_by_their_scalars(folder, tmp_path):
     if folder.name != "fmi3":
         pytest.skip("FMI 2.0 units are coupled as a package")
     watched = WATCHED[:3]
-    theirs = stranger("ecos_scalars.py", folder, STEP, STEPS, *watched, needs="ecospy")
+    theirs = stranger("ecos_scalars.py", folder, STEP, STEPS, *watched, needs="ecospy", scratch=tmp_path)
     units = {"plant": Fmu("plant", folder / "RvPlant.fmu"), "wear": Fmu("wear", folder / "RvWear.fmu")}
     scalars = [(a, b) for a, b in CONNECTIONS if not units[a.partition(".")[0]].signal(a.partition(".")[2]).shape]
     master = Master(units, scalars, STEP, scheme="jacobi")
@@ -86,21 +88,21 @@ def test_ecos_couples_fmi3_units_by_their_scalars(folder):
 def test_libcosim_runs_the_package(folder, tmp_path):
     if folder.name == "fmi3":
         pytest.skip("libcosim knows FMI 1.0 and 2.0 only")
-    theirs = stranger("libcosim.py", unpacked(folder, tmp_path), STEP, STEPS, *WATCHED, needs="libcosimpy")
+    theirs = stranger("libcosim.py", unpacked(folder, tmp_path), STEP, STEPS, *WATCHED, needs="libcosimpy", scratch=tmp_path)
     assert theirs == pytest.approx(ours(folder), **SAME)
 
 
 class Fmpy:
     """A unit through fmpy's own calls with lists."""
 
-    def __init__(self, path, starts):
+    def __init__(self, path, starts, scratch):
         description = read_model_description(str(path))
         self.three = description.fmiVersion == "3.0"
         self.described = Described(description)
         kind = FMU3Slave if self.three else FMU2Slave
         self.slave = kind(
             instanceName=path.stem, guid=description.instantiationToken if self.three else description.guid,
-            unzipDirectory=extract(str(path)), modelIdentifier=description.coSimulation.modelIdentifier,
+            unzipDirectory=extract(str(path), scratch / path.stem), modelIdentifier=description.coSimulation.modelIdentifier,
         )  # fmt: skip
         self.slave.instantiate()
         for name, value in starts.items():
@@ -123,8 +125,8 @@ class Fmpy:
         (self.slave.setFloat64 if self.three else self.slave.setReal)(self.references(name), values)
 
 
-def test_fmpy_couples_the_units(folder):
-    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}), "wear": Fmpy(folder / "RvWear.fmu", {"contact_lead": 2.0})}
+def test_fmpy_couples_the_units(folder, tmp_path):
+    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}, tmp_path), "wear": Fmpy(folder / "RvWear.fmu", {"contact_lead": 2.0}, tmp_path)}
 
     def exchange():
         moved = [(b, units[a.split(".")[0]].get(a.split(".")[1])) for a, b in CONNECTIONS]

@@ -1,0 +1,33 @@
+"""What is made once per run of the tests, whichever worker of pytest-xdist asks first."""
+
+import os
+from collections.abc import Callable
+from contextlib import contextmanager
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows: every worker makes its own.
+    fcntl = None
+
+
+@contextmanager
+def alone(path: Path):
+    """Only one process at a time gets in here; the system lets go of a process that is gone."""
+    with path.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def made_once(tmp_path_factory, name: str, make: Callable[[Path], None]) -> Path:
+    """The folder ``name`` that ``make`` fills; a second worker waits for it and takes it as it is."""
+    own = tmp_path_factory.getbasetemp()
+    if fcntl is None or "PYTEST_XDIST_WORKER" not in os.environ:
+        make(own / name)
+        return own / name
+    folder, complete = own.parent / name, own.parent / f"{name}.complete"
+    with alone(own.parent / f"{name}.lock"):
+        if not complete.exists():
+            make(folder)
+            complete.touch()
+    return folder
