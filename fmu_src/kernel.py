@@ -36,7 +36,6 @@ def use_cache_folder(folder: Path) -> None:
         pass
 
 
-
 # Compiled code is kept per user, so that a second process starts in a second.
 # numba looks only at the file of the outermost function to see whether its cache is
 # stale; a folder per state of all kernel sources makes that safe.  Set before any
