@@ -64,7 +64,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
             "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
         })  # fmt: skip
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values),
-                      warnings_of(model, list(space.noise.warnings), localisation), predictions)
+                      warnings_of(model, list(space.noise.warnings)), predictions)
 
 
 def by_signal(runs: list[dict]) -> list[dict]:
@@ -86,7 +86,7 @@ def rms(values) -> float:
     return float(np.sqrt(np.mean(np.square(list(values)))))
 
 
-def warnings_of(model: PhysicalModel, warnings: list[str], localisation) -> list[str]:
+def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
     if not any(r.held_out for r in model.records):

@@ -58,7 +58,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         fit = found.fits["members"][0].fit if found.fits["members"] else space.base
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         laws = recover(space, fit, sorted(touched) or None)
-    warnings = warnings_of(model, list(found.warnings), None)
+    warnings = warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, effects, confusable, laws, list(dict.fromkeys(warnings)))
 
 
