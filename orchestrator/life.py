@@ -28,6 +28,8 @@ WATCHED = ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")
 FIRST_JUMPS = 0.3
 # Where jumps are long against running-in, twice as many do not halve the error; the estimate is raised by this.
 CAUTION = 1.3
+# The order at which the error is taken to fall, where it seems to fall faster.
+HIGHEST_ORDER = 1.5
 # A depth below a picometre is rounding, no wear [um].
 LEAST_DEPTH = 1e-6
 # No more jumps than this: the life shall end.
@@ -259,22 +261,27 @@ def refinement(life: Life) -> int:
     """How many times as many jumps the life needs; 1 if it may end.  Sets its ``errors``."""
     if not life.coarse:
         return 2
-    life.errors = estimates(life)
-    error, before = max(life.errors), life.error_before
-    life.error_before = error
-    stuck = life.jumps >= MANY_JUMPS and error > 0.7 * before
+    factor = life.jumps // (len(life.coarse) - 1)
+    errors = estimates(life, factor)
+    raw, before = max(errors), life.error_before
+    # From three runs on, the order at which the error falls is known.
+    order = 1.0
+    if 0.0 < raw < before < math.inf:
+        order = min(HIGHEST_ORDER, max(1.0, math.log(before / raw) / math.log(factor)))
+    life.errors = [error * (factor - 1) / (factor**order - 1) for error in errors]
+    life.error_before, error = raw, max(life.errors)
+    stuck = life.jumps >= MANY_JUMPS and raw > 0.7 * before
     if error <= life.settings.tolerance or stuck or 2 * life.jumps > MOST_JUMPS:
         return 1
     # The error often falls faster than to the half.
     return 4 if error > 8.0 * life.settings.tolerance and 4 * life.jumps <= MOST_JUMPS else 2
 
 
-def estimates(life: Life) -> list[float]:
-    """Error of the depths at each recorded hour over those at the end, worst of the watched.
+def estimates(life: Life, factor: int) -> list[float]:
+    """Error of the depths at each recorded hour over those at the end, worst of the watched, if it is of first order.
 
-    It falls with the number of jumps, so k times as many leave 1/(k - 1) of the difference to the coarser run.
+    ``factor`` times as many jumps as in the coarser run then leave 1/(factor - 1) of the difference.
     """
-    factor = life.jumps // (len(life.coarse) - 1)
     fine = np.array(life.watched())
     apart = np.abs(fine[::factor] - life.coarse) / np.maximum(fine[-1], LEAST_DEPTH)
     known = CAUTION / (factor - 1) * apart.max(axis=1)
