@@ -1,16 +1,25 @@
-"""Cost and memory against pins, rollers, bins of the surfaces and hours, with fitted exponents.
+"""Cost and memory against pins, rollers, bins of the surfaces, hours and lives, with fitted exponents.
 
 Sizes go from small to well past real ones; the exponent is fitted over the larger half.  Work grows with the
 number of contacts and bins, so an exponent above 1 (with a margin for the fit) tells that something grows faster.
 """
 
 import math
+import resource
+import tempfile
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
-from benchmarks.lives import controlled
+from benchmarks.lives import in_process, timed
+from benchmarks.many import TEXT
 from benchmarks.ratios import Curve, Figure, Measured, cost, exponent
 from orchestrator.coupled import run_pair
+from orchestrator.ensemble.command import tasks_of
+from orchestrator.ensemble.ensemble_file import load_ensemble
+from orchestrator.ensemble.member import run
+from orchestrator.ensemble.store import Store
+from orchestrator.life import Life, LifeSettings, live
 from orchestrator.pair import Pair, make_pair
 from orchestrator.reducer import Reducer, load_reducer
 from wear_fmu.variables import Resolution
@@ -52,10 +61,44 @@ def grow(found: Measured, what: str, sizes: tuple[int, ...], make: Callable[[int
         seconds.append((size, step_cost(pair)))
         memory.append((size, float(pair.plant.records.nbytes + pair.wear.records.nbytes)))
     for kind, points, unit in (("cost of a coupled step", seconds, "s"), ("memory of both units", memory, "byte")):
-        power = exponent(points)
-        found.figures.append(Figure("growth", f"{kind} against {what}, exponent", power, "1", at_most=MOST,
-                                    note=f"{what} {sizes[0]} to {sizes[-1]}: {points[0][1]:.3g} to {points[-1][1]:.3g} {unit}"))
-        found.curves.append(Curve(f"{kind} against {what}", what, unit, {kind: points}, {kind: power}))
+        note(found, kind, what, unit, points, MOST)
+
+
+def note(found: Measured, kind: str, what: str, unit: str, points: list[tuple[float, float]], most: float) -> None:
+    """Figure and curve of what is known for each size."""
+    power = exponent(points)
+    found.figures.append(Figure("growth", f"{kind} against {what}, exponent", power, "1", at_most=most,
+                                note=f"{what} {points[0][0]:g} to {points[-1][0]:g}: {points[0][1]:.3g} to {points[-1][1]:.3g} {unit}"))
+    found.curves.append(Curve(f"{kind} against {what}", what, unit, {kind: points}, {kind: power}))
+
+
+def lives(found: Measured, reducer: Reducer, hours: tuple[float, ...]) -> None:
+    """Cost of a life at 3 %, and what its recorded hours hold."""
+    seconds, memory = [], []
+    for h in hours:
+        life, pair = Life(LifeSettings(h, 0.03)), in_process(reducer)
+        seconds.append((h, timed(lambda: live(pair, life, lambda _: None, lambda _: None))))
+        arrays = [a for rows in (life.surfaces, [turn.series for turn in life.turns]) for row in rows for a in row.values()]
+        memory.append((h, float(sum(a.nbytes for a in arrays))))
+    note(found, "cost of a life", "hours", "s", seconds, 1.0)
+    note(found, "memory of a life's records", "hours", "byte", memory, 1.0)
+
+
+def ensembles(found: Measured, sizes: tuple[int, ...]) -> None:
+    """Cost of an ensemble in this process, bytes of its file of finished lives, and memory that the process gained."""
+    with tempfile.TemporaryDirectory() as temporary:
+        (file := Path(temporary) / "e.toml").write_text(TEXT)
+        tasks = tasks_of(load_ensemble(file, max(sizes)))
+        run(tasks[0])
+        seconds, size, peak = [], [], []
+        for count in sizes:
+            store = Store(Path(temporary) / f"{count}.lives", {})
+            seconds.append((count, timed(lambda: [store.add(run(task)) for task in tasks[:count]])))
+            size.append((count, float(store.path.stat().st_size)))
+            peak.append((count, 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+    note(found, "cost of an ensemble", "lives", "s", seconds, MOST)
+    note(found, "file of finished lives", "lives", "byte", size, MOST)
+    note(found, "most memory of the process", "lives", "byte", peak, MOST)
 
 
 def measure(quick: bool = False) -> Measured:
@@ -65,10 +108,6 @@ def measure(quick: bool = False) -> Measured:
     if not quick:
         grow(found, "rollers", (8, 16, 32, 64), lambda n: with_rollers(reducer, n))
         grow(found, "bins of a surface", (90, 180, 720, 2880), lambda n: with_bins(reducer, n))
-    hours = (100.0, 200.0) if quick else (300.0, 1000.0, 3000.0, 10_000.0, 30_000.0)
-    lives = [(h, controlled(make_pair(reducer), h, 0.03)[1]) for h in hours]
-    power = exponent(lives)
-    found.figures.append(Figure("growth", "cost of a life against hours, exponent", power, "1", at_most=1.0,
-                                note=f"{hours[0]:g} to {hours[-1]:g} h: {lives[0][1]:.3g} to {lives[-1][1]:.3g} s"))
-    found.curves.append(Curve("cost of a life against hours", "h", "s", {"life": lives}, {"life": power}))
+    lives(found, reducer, (100.0, 200.0) if quick else (300.0, 1000.0, 3000.0, 10_000.0, 30_000.0))
+    ensembles(found, (1, 2) if quick else (2, 4, 8, 16))
     return found

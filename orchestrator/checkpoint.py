@@ -12,18 +12,19 @@ from orchestrator.life import Life, LifeSettings
 from orchestrator.solve import Turn
 
 # Fields of Life that are plain numbers or lists of them.
-PLAIN = ("hours", "figures", "next_jump", "errors", "cycles")
+PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "coarse", "error_before")
 
 
 def save_checkpoint(path: Path, life: Life, saved: dict, inputs: dict) -> None:
     """Write beside the target and move: a kill at any moment leaves a whole file."""
     arrays = {f"state.{name}": np.frombuffer(state, "u1") for name, state in saved["states"].items()}
+    arrays |= {f"start.{name}": np.frombuffer(state, "u1") for name, state in life.start["states"].items()}
     for name in life.surfaces[0]:
         arrays[f"surface.{name}"] = np.stack([surface[name] for surface in life.surfaces])
     for name in life.turns[0].series:
         arrays[f"turn.{name}"] = np.stack([turn[name] for turn in life.turns])
     head = {
-        "inputs": inputs, "clock": saved["clock"], "settings": asdict(life.settings),
+        "inputs": inputs, "clock": saved["clock"], "start_clock": life.start["clock"], "settings": asdict(life.settings),
         "life": {name: getattr(life, name) for name in PLAIN},
     }
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -51,8 +52,12 @@ def load_checkpoint(path: Path, inputs: dict) -> tuple[Life, dict]:
     count = len(life.hours)
     life.surfaces = [rows(data, "surface.", i) for i in range(count)]
     life.turns = [Turn(rows(data, "turn.", i)) for i in range(count)]
-    states = {name.removeprefix("state."): data[name].tobytes() for name in data if name.startswith("state.")}
-    return life, {"clock": head["clock"], "states": states}
+    life.start = {"clock": head["start_clock"], "states": states(data, "start.")}
+    return life, {"clock": head["clock"], "states": states(data, "state.")}
+
+
+def states(data: dict[str, np.ndarray], prefix: str) -> dict[str, bytes]:
+    return {name.removeprefix(prefix): data[name].tobytes() for name in data if name.startswith(prefix)}
 
 
 def rows(data: dict[str, np.ndarray], prefix: str, i: int) -> dict[str, np.ndarray]:

@@ -79,9 +79,10 @@ def parser() -> argparse.ArgumentParser:
     add_coupling_options(life)
     life.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
     life.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
-    life.add_argument("--tolerance", type=float, default=0.01, help="error per jump over wear added (default 0.01)")
-    life.add_argument("--first-jump", type=float, default=50.0, help="hours of the first jump (default 50)")
-    life.add_argument("--largest-jump", type=float, default=2000.0, help="hours of the longest jump (default 2000)")
+    life.add_argument("--tolerance", type=float, default=0.01,
+                      help="error of the depths over those at the end (default 0.01)")
+    life.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
+    life.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
     life.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
     life.add_argument("--no-report", action="store_true", help="write no HTML report")
     start = life.add_mutually_exclusive_group()

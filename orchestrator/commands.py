@@ -14,6 +14,7 @@ from orchestrator import results, screen
 from orchestrator.building import Wanted, build_units
 from orchestrator.checkpoint import load_checkpoint, save_checkpoint
 from orchestrator.component import InProcess
+from orchestrator.coupled_master import CoupledMaster
 from orchestrator.duty import load_duty
 from orchestrator.dynamics_wear import as_json as dynamics_as_json
 from orchestrator.dynamics_wear import compare
@@ -169,7 +170,9 @@ def life(options: argparse.Namespace) -> int:
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
     with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
-        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty)
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty,
+                         # In this process many steps go into one compiled call.
+                         Master if options.fmus else CoupledMaster)
     lived = Life(life_settings)
     first_orders = results.order_spectrum(pair, 0.0)
     if resume:

@@ -2,18 +2,19 @@
 
 In a full meshing cycle (z_c crank turns, every lobe meets every pin) the wear counts
 ``acceleration`` times.  Because the profile errors are exchanged all along, wear and
-load distribution develop together within the cycle.  How long a jump may be is
-decided by comparing it with two half as long, run from the same restored state: the
-difference must stay below ``tolerance`` of the wear that was added.  The two halves,
-which are the better result, are kept.
+load distribution develop together within the cycle.  The jumps grow in proportion to the
+root of the hours, because new parts wear fastest.  How many a life needs is decided by
+running the whole of it again with several times as many, until depths of both runs agree
+within ``tolerance`` of the depth at the end.  The finer run is kept.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from orchestrator.faults import InputFault
+from orchestrator.faults import InputFault, RunFault
 from orchestrator.pair import Pair
 from orchestrator.solve import Turn, measure
 
@@ -23,10 +24,18 @@ SURFACES = ("disc_wear", "pin_wear", "pin_even_wear", "inner_race_wear", "outer_
 # What the error estimate looks at: deepest wear of each kind of surface.
 WATCHED = ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")
 
-# Wear added by a jump that its error is relative to, at least, as a share of the depth.
-LEAST_ADDED = 0.01
-# Shortest jump that is cut for its error, as a share of the life: it shall end.
-SHORTEST_SHARE = 0.005
+# Jumps of the first run are this over the root of the tolerance: its error falls with their number to the power of 1 to 2.
+FIRST_JUMPS = 0.3
+# Where jumps are long against running-in, twice as many do not halve the error; the estimate is raised by this.
+CAUTION = 1.3
+# The order at which the error is taken to fall, where it seems to fall faster.
+HIGHEST_ORDER = 1.5
+# A depth below a picometre is rounding, no wear [um].
+LEAST_DEPTH = 1e-6
+# No more jumps than this: the life shall end.
+MOST_JUMPS = 256
+# From this many jumps on, an error that hardly falls is that of the positions per turn.
+MANY_JUMPS = 32
 
 # Harmonics of a profile that place its peak.
 SMOOTH_HARMONICS = 12
@@ -40,34 +49,52 @@ class LifeSettings:
 
     hours: float = 10_000.0
     tolerance: float = 0.01
-    first_jump: float = 50.0
-    largest_jump: float = 2_000.0
-    smallest_jump: float = 1.0
+    # No longer than these, whatever the tolerance: points of the curve over the hours.
+    first_jump: float | None = None
+    largest_jump: float | None = None
 
     def check(self) -> None:
         """InputFault unless the numbers make sense together."""
         for name in ("hours", "tolerance", "first_jump", "largest_jump"):
             value = getattr(self, name)
-            if not 0.0 < value < np.inf:
+            if value is not None and not 0.0 < value < np.inf:
                 raise InputFault(f"{name} = {value}: a positive finite number is needed")
         if self.tolerance > 0.5:
             raise InputFault(f"tolerance = {self.tolerance}: it is relative; 0.01 is usual, 0.5 the largest")
 
+    def first_jumps(self) -> int:
+        """Jumps of the first run."""
+        number = FIRST_JUMPS / math.sqrt(self.tolerance)
+        # Of n jumps the first takes 1/n^2 of the hours, the last (2 n - 1)/n^2.
+        if self.first_jump is not None:
+            number = max(number, math.sqrt(self.hours / self.first_jump))
+        if self.largest_jump is not None:
+            share = max(1.0, self.hours / self.largest_jump)
+            number = max(number, share + math.sqrt(share * (share - 1.0)))
+        return math.ceil(number * (1.0 - 1e-9))
+
 
 @dataclass
 class Life:
-    """What a life run has found so far, one entry per recorded hour."""
+    """What a life run has found so far, one entry per recorded hour of the present run.
+
+    ``start`` is the state of the new pair; ``coarse`` holds the watched depths [um] of the run before, whose error
+    was ``error_before``.
+    """
 
     settings: LifeSettings
     hours: list[float] = field(default_factory=list)
     figures: list[dict[str, float]] = field(default_factory=list)
     surfaces: list[dict[str, np.ndarray]] = field(default_factory=list)
     turns: list[Turn] = field(default_factory=list)
-    next_jump: float = 0.0
     errors: list[float] = field(default_factory=list)
     cycles: int = 0
+    jumps: int = 0
+    coarse: list[list[float]] = field(default_factory=list)
+    error_before: float = math.inf
+    start: dict | None = None
 
-    def note(self, pair: Pair, error: float) -> None:
+    def note(self, pair: Pair) -> None:
         """Record the present state of the pair."""
         record = pair.wear.record()
         turn, figures = measure(pair)
@@ -75,7 +102,17 @@ class Life:
         self.surfaces.append({name: record[name][0].copy() for name in SURFACES})
         self.turns.append(turn)
         self.figures.append(figures | wear_figures(record))
-        self.errors.append(error)
+        # Unknown until the run is held against a coarser one.
+        self.errors.append(math.nan)
+
+    def watched(self) -> list[list[float]]:
+        """The watched depths of all recorded hours [um]."""
+        return [[figures[name] for name in WATCHED] for figures in self.figures]
+
+    def forget(self) -> None:
+        """No recorded hours."""
+        for rows in (self.hours, self.figures, self.surfaces, self.turns, self.errors):
+            rows.clear()
 
 
 def wear_figures(record: np.ndarray) -> dict[str, float]:
@@ -145,9 +182,26 @@ def run_cycle(pair: Pair, hours: float) -> None:
 
 
 def count_cycle(pair: Pair, hours: float) -> None:
-    """One full meshing cycle at the present speed and torque."""
-    steps = pair.reducer.topology.lobes * pair.positions
-    pair.wear.set("acceleration", hours * HOUR / (steps * pair.master.step_size))
+    """One full meshing cycle at the present speed and torque.
+
+    Wear rises through the first crank turn and falls through one turn more.  A contact that the cycle meets early
+    in each turn is then as old on average as one that it meets late; cut off sharply, the two would differ by
+    the wear of a turn.
+    """
+    positions = pair.positions
+    steps = pair.reducer.topology.lobes * positions
+    full = hours * HOUR / (steps * pair.master.step_size)
+    rise = (np.arange(positions) + 0.5) / positions
+    for share in rise:
+        count_steps(pair, full * share, 1)
+    count_steps(pair, full, steps - positions)
+    for share in rise[::-1]:
+        count_steps(pair, full * share, 1)
+
+
+def count_steps(pair: Pair, acceleration: float, steps: int) -> None:
+    """Steps whose wear, time and distance count ``acceleration`` times."""
+    pair.wear.set("acceleration", acceleration)
     pair.master.run(steps)
 
 
@@ -157,69 +211,81 @@ def depths(pair: Pair) -> np.ndarray:
     return np.array([figures[name] for name in WATCHED])
 
 
-def jump(pair: Pair, hours: float) -> float:
-    """Advance by ``hours`` in two halves; returns the error of one jump against them.
-
-    The error is relative to the wear added, or to a hundredth of the depth if that is more.
-    """
-    saved, before = pair.master.save(), depths(pair)
-    run_cycle(pair, hours)
-    whole = depths(pair)
-    pair.master.restore(saved)
-    run_cycle(pair, 0.5 * hours)
-    run_cycle(pair, 0.5 * hours)
-    halves = depths(pair)
-    added = halves - before
-    # Wear below a picometre is rounding, no wear; a surface that hardly wears on says nothing of the jump.
-    return float(np.max(np.abs(whole - halves) / np.maximum(added, np.maximum(1e-6, LEAST_ADDED * halves))))
-
-
-def controlled_jump(pair: Pair, life: Life, hours: float) -> tuple[float, float, float]:
-    """Jump by at most ``hours`` within the tolerance; (hours done, error, factor for the next).
-
-    The error of a jump relative to its wear is proportional to its length.  Where a
-    shorter jump is hardly better, the positions per turn limit the accuracy, not the jump:
-    it is taken, and its error stands in the result.
-    """
-    tolerance = life.settings.tolerance
-    smallest = max(life.settings.smallest_jump, SHORTEST_SHARE * life.settings.hours)
-    before = np.inf
-    while True:
-        saved = pair.master.save()
-        error = jump(pair, hours)
-        life.cycles += 3
-        if error <= tolerance:
-            return hours, error, 0.9 * tolerance / max(error, 1e-12)
-        if error > 0.7 * before or hours <= smallest:
-            return hours, error, 1.0
-        pair.master.restore(saved)
-        before = error
-        hours = max(smallest, hours * max(0.2, 0.5 * tolerance / error))
-
-
 def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callable[[Life], None]) -> Life:
     """Run ``life`` to its end from where it stands.
 
-    ``progress`` is called after each accepted jump, ``keep`` whenever the state is worth
-    a checkpoint: at the start and after each accepted jump.
+    ``progress`` is called after each jump, ``keep`` whenever the state is worth a checkpoint: at the start of each run
+    through the life and after each jump.
     """
-    settings = life.settings
-    if not life.hours:
-        life.note(pair, 0.0)
-        life.next_jump = min(settings.first_jump, settings.largest_jump)
-        keep(life)
-    while life.hours[-1] < settings.hours * (1.0 - 1e-9):
-        left = settings.hours - life.hours[-1]
-        hours = min(life.next_jump, left)
-        # No last jump that is hardly worth a cycle: share what is left.
-        if hours < left < 1.5 * hours:
-            hours = 0.5 * left
-        hours, error, factor = controlled_jump(pair, life, hours)
-        life.note(pair, error)
-        life.next_jump = min(settings.largest_jump, hours * min(2.0, max(0.5, factor)))
+    if life.start is None:
+        life.start = pair.master.save()
+        begin(pair, life, life.settings.first_jumps(), keep)
+    while True:
+        try:
+            run_through(pair, life, progress, keep)
+        except RunFault:
+            # Too much wear in one position; a fault that many jumps do not cure is the reducer's.
+            if life.jumps >= MANY_JUMPS:
+                raise
+            life.coarse = []
+            begin(pair, life, 2 * life.jumps, keep)
+            continue
+        factor = refinement(life)
+        if factor == 1:
+            return life
+        life.coarse = life.watched()
+        begin(pair, life, factor * life.jumps, keep)
+
+
+def begin(pair: Pair, life: Life, jumps: int, keep: Callable[[Life], None]) -> None:
+    """From the new state again, in ``jumps`` jumps."""
+    pair.master.restore(life.start)
+    life.forget()
+    life.jumps = jumps
+    life.note(pair)
+    keep(life)
+
+
+def run_through(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callable[[Life], None]) -> None:
+    """All jumps that are left."""
+    while (done := len(life.hours) - 1) < life.jumps:
+        # From (i/n)^2 of the hours to ((i + 1)/n)^2: hours of a coarser run are among those of a finer one.
+        run_cycle(pair, life.settings.hours * (2 * done + 1) / life.jumps**2)
+        life.cycles += 1
+        life.note(pair)
         keep(life)
         progress(life)
-    return life
+
+
+def refinement(life: Life) -> int:
+    """How many times as many jumps the life needs; 1 if it may end.  Sets its ``errors``."""
+    if not life.coarse:
+        return 2
+    factor = life.jumps // (len(life.coarse) - 1)
+    errors = estimates(life, factor)
+    raw, before = max(errors), life.error_before
+    # From three runs on, the order at which the error falls is known.
+    order = 1.0
+    if 0.0 < raw < before < math.inf:
+        order = min(HIGHEST_ORDER, max(1.0, math.log(before / raw) / math.log(factor)))
+    life.errors = [error * (factor - 1) / (factor**order - 1) for error in errors]
+    life.error_before, error = raw, max(life.errors)
+    stuck = life.jumps >= MANY_JUMPS and raw > 0.7 * before
+    if error <= life.settings.tolerance or stuck or 2 * life.jumps > MOST_JUMPS:
+        return 1
+    # The error often falls faster than to the half.
+    return 4 if error > 8.0 * life.settings.tolerance and 4 * life.jumps <= MOST_JUMPS else 2
+
+
+def estimates(life: Life, factor: int) -> list[float]:
+    """Error of the depths at each recorded hour over those at the end, worst of the watched, if it is of first order.
+
+    ``factor`` times as many jumps as in the coarser run then leave 1/(factor - 1) of the difference.
+    """
+    fine = np.array(life.watched())
+    apart = np.abs(fine[::factor] - life.coarse) / np.maximum(fine[-1], LEAST_DEPTH)
+    known = CAUTION / (factor - 1) * apart.max(axis=1)
+    return np.interp(life.hours, life.hours[::factor], known).tolist()
 
 
 def as_arrays(life: Life) -> dict[str, list[float]]:

@@ -70,7 +70,7 @@ def axes_of(pair: Pair, unit: str, name: str) -> tuple[str, ...]:
 
 
 def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict) -> xr.Dataset:
-    """Everything that a life run found; one entry of ``hour`` per accepted jump."""
+    """Everything that a life run found; one entry of ``hour`` per jump."""
     topology = pair.reducer.topology
     variables: dict[str, xr.Variable] = {}
     for name, values in as_arrays(life).items():

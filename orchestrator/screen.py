@@ -53,7 +53,7 @@ class Progress:
 
 
 class LifeProgress:
-    """One line per accepted jump; on a terminal a bar over the hours too."""
+    """One line per jump; on a terminal a bar over the hours too."""
 
     def __init__(self, life: Life):
         columns = (TextColumn("hours"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
@@ -72,7 +72,7 @@ class LifeProgress:
         f = life.figures[-1]
         line = (
             f"{life.hours[-1]:8.0f} h  raceways {f['inner_raceway_um']:.3f} / {f['outer_raceway_um']:.3f} um  "
-            f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  error {100 * life.errors[-1]:.2f} %"
+            f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  jump {len(life.hours) - 1} of {life.jumps}"
         )
         if errors.is_terminal:
             self.bar.update(self.task, completed=round(life.hours[-1]))

@@ -32,7 +32,7 @@ def short_life(reducer, hours, *texts, positions=24):
         live(pair, life, lambda _: None, lambda _: None)
         spectra.append(results.order_spectrum(pair, life.hours[-1], 8))
     else:
-        life.note(pair, 0.0)
+        life.note(pair)
     given = {"settings": {s.name: s.value for s in settings}, "life": vars(life.settings).copy()}
     return results.life_dataset(pair, life, spectra, given)
 

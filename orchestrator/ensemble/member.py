@@ -37,12 +37,11 @@ class Task:
 class LeanLife(Life):
     """Keeps the judged figures alone."""
 
-    def note(self, pair: Pair, error: float) -> None:
+    def note(self, pair: Pair) -> None:
         record = pair.wear.record()
         worn = wear_figures(record)
         self.hours.append(float(record["operating_time"][0]) / HOUR)
         self.figures.append({name: worn[name] for name in WEAR} | stiffness_figures(pair))
-        self.errors.append(error)
 
 
 def stiffness_figures(pair: Pair) -> dict[str, float]:

@@ -128,7 +128,7 @@ def places(result: Result) -> Figure:
 
 
 def jumps(result: Result) -> Figure:
-    """Hours of each accepted jump."""
+    """Hours of each jump."""
     spans = np.diff(result.hours)
     trace = {
         "type": "bar", "x": short(result.hours[:-1] + 0.5 * spans, 6), "y": short(spans, 5),
@@ -144,9 +144,9 @@ def jumps(result: Result) -> Figure:
 
 
 def errors(result: Result) -> Figure:
-    """Error estimate of each accepted jump against the tolerance of the run."""
+    """Error estimate at each recorded hour against the tolerance of the run."""
     percent = 100.0 * result["error_estimate"][1:]
-    traces = [marked(result.hours[1:], percent, LOAD, "solid", "jump to %{x:,.0f} h: %{y:.2~g} %")]
+    traces = [marked(result.hours[1:], percent, LOAD, "solid", "%{x:,.0f} h: %{y:.2~g} %")]
     life = result.inputs.get("life", {})
     tolerance = life.get("tolerance") if isinstance(life, dict) else None
     limit = []
@@ -154,8 +154,8 @@ def errors(result: Result) -> Figure:
         limit = [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 100.0 * tolerance, "y1": 100.0 * tolerance,
                   "line": {"color": SECOND, "width": 1.4, "dash": "dash"}}]  # fmt: skip
     top = max([*percent, 100.0 * (tolerance or 0.0), 1e-3])
-    vertical = look.axis("share of the wear added [%]", range=[0.0, round(1.12 * top, 5)], nticks=6)
+    vertical = look.axis("share of the depth at the end [%]", range=[0.0, round(1.12 * top, 5)], nticks=6)
     picture = look.layout(xaxis=look.hour_axis(result.hours), yaxis=vertical, shapes=limit)
     keys = [("estimate", LOAD, "solid"), ("tolerance", SECOND, "dash")] if tolerance else []
-    return Figure("growth_errors", "Error estimate of the jumps", "One jump against two of half the length.", traces,
+    return Figure("growth_errors", "Error estimate", "From the same life in fewer jumps.", traces,
                   picture, 4, 230, keys=keys)

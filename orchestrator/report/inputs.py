@@ -102,7 +102,7 @@ def run_rows(result: Result) -> list[tuple[str, str]]:
     made = [(f"setting {name}", f"{value:.6g}") for name, value in sorted(named_settings(result).items())]
     life = result.inputs.get("life")
     if isinstance(life, dict):
-        made += [(f"life, {key.replace('_', ' ')}", f"{value:,.6g}") for key, value in life.items()]
+        made += [(f"life, {key.replace('_', ' ')}", f"{value:,.6g}") for key, value in life.items() if value is not None]
     made += [
         (key, str(result.inputs[key])) for key in ("scheme", "positions", "units") if key in result.inputs
     ]

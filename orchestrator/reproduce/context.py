@@ -23,6 +23,8 @@ MODIFIED = ("equidistant_modification=-13um", "shift_modification=-20um")
 RIGID_BEARINGS = ("bearing_clearance=0um", "roller_stiffness=1e8", "tolerance=1e-6")
 STAND, TURN = ("pins=stand",), ()
 POSITIONS, TOLERANCE, HOURS = 72, 0.02, 10_000.0
+# At most [h]: statements are looked at from a few hundred hours on.
+FIRST_JUMP = 200.0
 
 
 @dataclass
@@ -100,9 +102,12 @@ class Context:
 
     def lived(self, name: str, texts: tuple[str, ...], hours: float, tolerance: float, positions: int) -> LifeRun:
         run = LifeRun(self.pair(name, *texts, positions=positions),
-                      Life(LifeSettings(hours=hours, tolerance=tolerance)))
+                      Life(LifeSettings(hours, tolerance, FIRST_JUMP)))
 
-        def keep(_: Life) -> None:
+        def keep(life: Life) -> None:
+            # A finer run begins anew.
+            before = len(life.hours) - 1
+            del run.contacts[before:], run.lost_motion_arcsec[before:]
             run.contacts.append(contacts_of(run.pair))
             run.lost_motion_arcsec.append(lost_motion(run.pair))
 
@@ -120,7 +125,7 @@ class Context:
                     pair.plant.set("load_torque", sign * torque)
                     run_cycle(pair, 0.5 * hours / parts)
             pair.plant.set("load_torque", torque)
-            run.life.note(pair, 0.0)
+            run.life.note(pair)
             return run
 
         label = f"{name}, {hours:.0f} h with reversing torque" + (f" ({', '.join(texts)})" if texts else "")
