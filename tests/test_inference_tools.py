@@ -1,12 +1,18 @@
 """Screening statistics, splines, closed forms and the choice of the next experiment."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from discrepancy.inference.closed_forms import propose
+from discrepancy.inference.components import simulate
+from discrepancy.inference.correlation import autoregression_of
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
+from discrepancy.inference.predictions import Predictions
 from discrepancy.inference.screen import cone_statistic
 from discrepancy.inference.splines import additive
+from discrepancy.problem import Candidate, Parameter
 
 
 def test_cone_statistic_is_the_best_admissible_projection():
@@ -20,6 +26,55 @@ def test_cone_statistic_is_the_best_admissible_projection():
         a, _ = nnls(u, r)
         assert gain[k] == pytest.approx(2 * a @ scores[k] - a @ u.T @ u @ a, abs=1e-8)
         assert np.allclose(a, amplitude[k], atol=1e-8)
+
+
+def test_a_shape_counts_if_any_variant_that_has_it_is_on():
+    """Variants of an effect share a phase: that of the one that is off must not erase the other's."""
+    phase = Parameter("phase", "rad", 0.0, -7.0, 7.0, 0.3)
+    variants = [Candidate(f"gear.{n}", n, (Parameter(n, "m", 0.0, -1.0, 1.0, 0.1),), (phase,)) for n in ("mesh", "planet")]
+    predictions = Predictions(SimpleNamespace(nuisances=(), candidates=variants))
+    for first, second in (("mesh", "planet"), ("planet", "mesh")):
+        assert predictions.active({first: 0.2, second: 0.0, "phase": 1.0}) == {first: 0.2, "phase": 1.0}
+    assert predictions.active({"mesh": 0.0, "phase": 1.0}) == {}
+
+
+def test_simulated_scores_have_the_variance_of_their_columns_however_large_others_are():
+    gram = np.diag([1e-6, 1.0, 1e20]) + 0.0
+    gram[0, 1] = gram[1, 0] = 0.5e-3
+    space = SimpleNamespace(noise=SimpleNamespace(dof=lambda component: 1e6))
+    scores = simulate(space, {("te", "main"): gram}, 4000, np.random.default_rng(0), {("te", "main"): 1.0})
+    found = np.cov(scores.T)
+    assert np.allclose(np.diag(found), np.diag(gram), rtol=0.1)
+    assert found[0, 1] == pytest.approx(gram[0, 1], rel=0.15)
+
+
+def test_a_column_without_any_part_in_the_noise_has_no_score():
+    gram = np.diag([-1e-18, 1.0])
+    gram[0, 1] = gram[1, 0] = 1e-10
+    space = SimpleNamespace(noise=SimpleNamespace(dof=lambda component: 1e6))
+    scores = simulate(space, {("te", "main"): gram}, 100, np.random.default_rng(0), {})
+    assert np.all(np.isfinite(scores)) and not np.any(scores[:, 0])
+
+
+def test_autoregression_leaves_no_resonance():
+    """ARMA(2, 1) with its peak at 0.07 cycles a sample: what is left has an even spectrum."""
+    rng = np.random.default_rng(5)
+    series = []
+    for _ in range(4):
+        white = rng.standard_normal(500)
+        y = np.zeros(500)
+        for i in range(2, 500):
+            y[i] = 2 * 0.85 * np.cos(2 * np.pi * 0.07) * y[i - 1] - 0.85**2 * y[i - 2] + white[i] + 0.4 * white[i - 1]
+        series.append(y / y.std())
+    taps = autoregression_of(series)
+    left = []
+    for y in series:
+        e = y.copy()
+        for lag, tap in enumerate(taps[:-1], 1):
+            e[lag:] -= tap * y[:-lag]
+        left.append(np.abs(np.fft.rfft(e[20:] / taps[-1])) ** 2 / 480)
+    bands = np.mean(left, axis=0)[1:241].reshape(12, 20).mean(axis=1)
+    assert np.all(np.abs(bands - 1.0) < 0.4)
 
 
 def test_additive_splines_find_each_component():

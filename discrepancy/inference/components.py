@@ -4,9 +4,14 @@ In whitened space every part of the noise has unit variance; the bulk of a signa
 known from thousands of samples, its offset from run to run only from the few replicates.
 """
 
+from collections import defaultdict
+
 import numpy as np
 
-from discrepancy.inference.fit import Workspace
+from discrepancy.inference.fit import Fit, Workspace
+
+# Samples from which the mean square of a signal's misfit says something.
+LONG = 200
 
 
 def component_grams(space: Workspace, columns: np.ndarray) -> dict[tuple[str, str], np.ndarray]:
@@ -36,21 +41,42 @@ def effective_dof(space: Workspace, shares: dict[tuple[str, str], float]) -> flo
     return float(np.clip(1.0 / max(inverse, 1e-7), 1.0, 1e6))
 
 
-def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: int, rng: np.random.Generator) -> np.ndarray:
-    """Scores (draws, m) of pure noise whose parts have variances estimated with their degrees of freedom."""
+def excess(space: Workspace, fit: Fit) -> dict[tuple[str, str], float]:
+    """By which factor the misfit of each long signal is larger than its noise from replicates, at least 1.
+
+    What a fit leaves all over a signal (heavy tails, a base that is a little wrong) is no evidence for one effect.
+    """
+    squares, counts = defaultdict(float), defaultdict(int)
+    for i, rows in space.rows.items():
+        key = (space.noise.whiteners[i].quantity, "main")
+        squares[key] += float(np.sum(fit.residual[rows] ** 2))
+        counts[key] += rows.stop - rows.start
+    return {key: max(1.0, squares[key] / count) for key, count in counts.items() if count >= LONG}
+
+
+def mean_excess(factors: dict[tuple[str, str], float], shares: dict[tuple[str, str], float]) -> float:
+    """The factor for a test whose noise has these shares."""
+    total = sum(max(s, 0.0) for s in shares.values())
+    return sum(max(s, 0.0) * factors.get(c, 1.0) for c, s in shares.items()) / total if total > 0.0 else 1.0
+
+
+def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: int, rng: np.random.Generator,
+             factors: dict[tuple[str, str], float]) -> np.ndarray:
+    """Scores (draws, m) of pure noise whose parts have variances estimated with their degrees of freedom, times ``factors``."""
     width = next(iter(grams.values())).shape[0]
     scores = np.zeros((draws, width))
     for component, gram in grams.items():
         # In units of each column: sizes differ by many powers of ten, and rounding goes with the largest.
         size = np.sqrt(np.maximum(np.diag(gram), 0.0))
-        scaled = gram / np.maximum(np.outer(size, size), 1e-300)
-        values, vectors = np.linalg.eigh(scaled)
+        inverse = np.divide(1.0, size, out=np.zeros(width), where=size > 0.0)
+        values, vectors = np.linalg.eigh(gram * np.outer(inverse, inverse))
         keep = values > 1e-12 * max(values.max(), 1e-300)
         if not keep.any():
             continue
         root = size[:, None] * vectors[:, keep] * np.sqrt(values[keep])
         dof = space.noise.dof(component)
         inflation = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
+        inflation *= np.sqrt(factors.get(component, 1.0))
         scores += inflation[:, None] * (rng.standard_normal((draws, keep.sum())) @ root.T)
     return scores
 

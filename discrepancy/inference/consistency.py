@@ -8,7 +8,7 @@ what a fit leaves over.
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import component_grams, effective_dof, project_out
+from discrepancy.inference.components import component_grams, effective_dof, excess, mean_excess, project_out
 from discrepancy.inference.features import modulations
 from discrepancy.inference.fit import Workspace
 from discrepancy.inference.refit import Refit
@@ -51,6 +51,7 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
             halves[1][space.rows[i]] = (x**2 - 1 / 3) * result.response[space.rows[i]]
     blocks["axis"] = halves
     outcome = {}
+    factors = excess(space, result.fit)
     settled = result.fit.settled
     for name, columns in blocks.items():
         stacked = np.column_stack(columns)
@@ -65,5 +66,6 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
         statistic = float(np.sum((root.T @ (stacked[:, alive].T @ settled)) ** 2))
         width = root.shape[1]
         shares = {c: float(np.trace(g)) for c, g in component_grams(space, projected[:, alive] @ root).items()}
+        statistic /= mean_excess(factors, shares)
         outcome[name] = (statistic, width, float(fisher.sf(statistic / width, width, effective_dof(space, shares))))
     return {k: (s, w, min(1.0, p * len(outcome))) for k, (s, w, p) in outcome.items()}

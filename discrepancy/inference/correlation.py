@@ -58,8 +58,11 @@ def correlation_of(deviations, values):
     return float(best[1]), float(best[2])
 
 
-def autoregression_of(series, most=6):
-    """Remaining correlation of the innovations: taps of the order with the best BIC, last entry the gain."""
+def autoregression_of(series, most=10):
+    """Remaining correlation of the innovations: taps of the order with the best AIC, last entry the gain.
+
+    One tap too many costs little; a resonance that is left makes effects out of noise.
+    """
     total = sum(e.size for e in series)
     if total < 200:
         return np.zeros(0)
@@ -73,7 +76,7 @@ def autoregression_of(series, most=6):
         variance = 1 - taps @ c[1: order + 1]
         if variance <= 0:
             continue
-        score = 0.5 * total * np.log(variance) + order * np.log(total)
-        if score < best[0] - 4:
+        score = 0.5 * total * np.log(variance) + order
+        if score < best[0] - 1:
             best = (score, np.append(taps, np.sqrt(variance)))
     return best[1]

@@ -204,13 +204,13 @@ class Workspace:
         def columns_of(v):
             return np.column_stack([self.whiten(self.column({**theta, **v}, p, which)) for p in own])
 
-        values, converged = self._descend(own, values, cost_of, columns_of, inverse, frozen, theta, iterations)
+        values, converged, columns = self._descend(own, values, cost_of, columns_of, inverse, frozen, theta, iterations)
         # nuisances that go with it, then full predictions
         r = self.base.residual - difference(values)
         shift = inverse @ (frozen.T @ r - self._prior_gradient(theta))
         full = {**{p.name: float(np.clip(theta[p.name] + s, p.lower, p.upper)) for p, s in zip(nuisances, shift)}, **values}
         parameters = tuple(nuisances) + own
-        columns = np.column_stack([frozen, columns_of(values)])
+        columns = np.column_stack([frozen, columns])
         return self._polish(parameters, full, columns, tuple(c.name for c in candidates), converged, cost_of(values)[0])
 
     def _prior_gradient(self, theta):
@@ -235,8 +235,8 @@ class Workspace:
 
         cost, r = total(x)
         damping, converged = 1e-3, False
+        c, fresh = columns_of(named(x)), True
         for _ in range(iterations):
-            c = columns_of(named(x))
             cross = frozen.T @ c
             normal = c.T @ c - cross.T @ inverse @ cross + np.diag(precision)
             gradient = c.T @ r - cross.T @ inverse @ (frozen.T @ r - self._prior_gradient(theta)) - precision * (x - off)
@@ -251,17 +251,24 @@ class Workspace:
                     better = True
                     break
                 damping = max(damping * 8, 1e-3)
-                if np.max(np.abs(step) / scale) < 1e-4:
+                if not fresh or np.max(np.abs(step) / scale) < 1e-4:
                     break
-            if not better:
-                converged = True
-                break
-            gain, x, cost, r = cost - new, trial, new, new_r
-            damping = max(damping / 5, 1e-6)
+            gain = cost - new if better else 0.0
+            if better:
+                move = trial - x
+                promised = 2.0 * gradient @ move - move @ normal @ move
+                x, cost, r = trial, new, new_r
+                damping = max(damping / 5, 1e-6)
             if gain < 0.02:
-                converged = True
-                break
-        return named(x), converged
+                if fresh:
+                    converged = True
+                    break
+            elif 0.8 * promised < gain < 1.25 * promised:
+                # Sensitivities are dear; these still foretell what a step gains.
+                fresh = False
+                continue
+            c, fresh = columns_of(named(x)), True
+        return named(x), converged, c
 
     def renew(self, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
         """The same fit with sensitivities at its own values: for what is reported."""

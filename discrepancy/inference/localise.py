@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import effective_dof
+from discrepancy.inference.components import effective_dof, excess, mean_excess
 from discrepancy.inference.features import ORDERS, features, modulations
 from discrepancy.inference.fit import Fit, Workspace
 from discrepancy.inference.series import stream_of
@@ -88,6 +88,7 @@ class Localiser:
         space = self.space
         inverse = np.linalg.pinv(fit.normal, hermitian=True) if fit.normal.size else np.zeros((0, 0))
         gradient = fit.gradient
+        self.factors = excess(space, fit)
         crosses = {i: block.T @ fit.jacobian[space.rows[i]] for i, (block, *_) in self.cells.items()}
         scores = {i: block.T @ fit.residual[space.rows[i]] for i, (block, *_) in self.cells.items()}
         along_jacobian = {i: space.noise.whiteners[i].directions.T @ fit.jacobian[space.rows[i]] for i in self.cells}
@@ -151,6 +152,7 @@ class Localiser:
                     shares[component] += float(amount)
             shares[(whitener.quantity, "main")] += main
         dof = effective_dof(self.space, shares)
+        statistic /= mean_excess(self.factors, shares)
         return Group(stream, feature, dependence, statistic, rank, dof, float(fisher.sf(statistic / rank, rank, dof)), 1.0, 0.0, tuple(indices))
 
     def _conditions(self, scores):

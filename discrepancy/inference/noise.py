@@ -23,6 +23,8 @@ SHORT = 8
 """Records with fewer samples are single numbers: no correlation is looked for."""
 UNREPLICATED_INFLATION = 1.5
 UNREPLICATED_DOF = 8.0
+SPECTRUM_DOF = 100.0
+"""Of a signal's noise, however long: its spectrum is a fitted form, known at single orders to a seventh."""
 KNOWN = 1e6
 
 
@@ -176,7 +178,7 @@ def _signals(records, residuals, predictions, masks, indices):
         scales[condition] = np.sqrt((dof * variance + 20 * common**2) / (dof + 20))
     scale = float(np.sqrt(np.mean(np.square(list(scales.values())))))
     source = "replicates"
-    known = sum(d.share * d.values.size for d in deviations)
+    known = min(sum(d.share * d.values.size for d in deviations), SPECTRUM_DOF)
     if not replicated:
         stated = [records[i].stated_noise for i in indices if records[i].stated_noise]
         if stated:

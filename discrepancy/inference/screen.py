@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import component_grams, effective_dof, project_out, simulate
+from discrepancy.inference.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.fit import Fit, Workspace
 from discrepancy.problem import Candidate
 
@@ -196,7 +196,7 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     prior = gram - sum(grams.values())
     if np.trace(prior) > 1e-6 * np.trace(gram):
         grams[("prior", "prior")] = prior
-    draws_of = simulate(space, grams, draws, rng)
+    draws_of = simulate(space, grams, draws, rng, excess(space, fit))
     everything = np.vstack([score, draws_of])
     results = {}
     for index, block in enumerate(columns.blocks):
