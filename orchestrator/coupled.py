@@ -6,6 +6,8 @@ thousands of runs.
 """
 
 from fmu_src.kernel import kernel
+from rv_plant.equilibrium import newton_direction
+from rv_plant.plant import NO_EQUILIBRIUM, advance_effects, assemble_at_input, publish, turn_input
 from rv_plant.plant import step as step_plant
 from wear_fmu.accumulator import step as step_wear
 
@@ -94,6 +96,29 @@ COLUMNS = (
     "output_angle", "transmission_error", "drive_torque", "housing_force_x", "housing_force_y", "power_loss",
     "reducer_temperature", "cage_speed",
 )  # fmt: skip
+
+
+@kernel
+def sweep_beside(plants, durations, errors, similar):
+    """Transmission error [rad] after each of the ``durations`` [s], to first order beside a similar run.
+
+    One Newton step from each equilibrium of that run (rows of ``similar``): a third of the cost of a new
+    equilibrium.  Contact forces stay those of the similar run.
+    """
+    p = plants[0]
+    for i in range(durations.shape[0]):
+        output_speed = turn_input(p, durations[i])
+        for k in range(similar.shape[1]):
+            p.z[k] = similar[i, k]
+        assemble_at_input(p)
+        if not newton_direction(p):
+            return NO_EQUILIBRIUM
+        for a in range(p.free_count):
+            p.z[p.free[a]] += p.direction[a]
+        publish(p, output_speed)
+        advance_effects(p, durations[i])
+        errors[i] = p.transmission_error
+    return 0
 
 
 @kernel

@@ -11,6 +11,7 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 
+from rv_plant.assembly import assemble
 from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
@@ -222,16 +223,43 @@ def extrapolate(r, advance):
 
 
 @kernel
-def solve(r):
-    """Equilibrium at the present input angle.
-
-    Everything repeats with the output's turn, so the angle is taken within one turn:
-    rounding of a large angle would move parts against each other.
-    """
-    prepare_position(r)
+def angles_within_turn(r):
+    """Ideal output and cages within one turn: everything repeats, and rounding of a large angle would move parts against each other."""
     turn = 2.0 * math.pi
-    angle = r.ideal_output - turn * math.floor(r.ideal_output / turn + 0.5)
-    return equilibrium(r, angle, r.cage - turn * math.floor(r.cage / turn), r.load_torque)
+    return r.ideal_output - turn * math.floor(r.ideal_output / turn + 0.5), r.cage - turn * math.floor(r.cage / turn)
+
+
+@kernel
+def solve(r):
+    """Equilibrium at the present input angle."""
+    prepare_position(r)
+    output, cage = angles_within_turn(r)
+    return equilibrium(r, output, cage, r.load_torque)
+
+
+@kernel
+def assemble_at_input(r):
+    """Out-of-balance forces and tangent at the present input angle, where the bodies stand."""
+    prepare_position(r)
+    output, cage = angles_within_turn(r)
+    assemble(r, output, cage, r.load_torque)
+
+
+@kernel
+def speeds(r):
+    """Ideal speeds of output and cages [rad/s]."""
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
+    output = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
+    return output, r.cage_share * cage_rate(-lobes * output, output, r.inner_race_radius, r.outer_race_radius)
+
+
+@kernel
+def turn_input(r, duration):
+    """Turn the input by input_speed times duration [s]; returns the output's ideal speed [rad/s]."""
+    output_speed, cage_speed = speeds(r)
+    r.ideal_output += output_speed * duration
+    r.cage += cage_speed * duration
+    return output_speed
 
 
 @kernel
@@ -289,8 +317,7 @@ def step_through_equilibria(r, duration):
     The contact forces' means over the step are trapezoidal: second order in the angle.
     """
     pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
-    output_speed = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
-    cage_speed = r.cage_share * cage_rate(-lobes * output_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
+    output_speed, cage_speed = speeds(r)
     crank_advance = abs(lobes * output_speed * duration)
     if not crank_advance < MOST_SUBSTEPS * r.largest_crank_step:
         return LONG_STEP

@@ -102,8 +102,9 @@ class Workspace:
         step = STEP * parameter.scale if step is None else step
         if not parameter.lower <= at + step <= parameter.upper:
             step = -step
-        high = self.predictions({**values, parameter.name: at + step}, which)
-        low = self.predictions({**values, parameter.name: at}, which)
+        here = {**values, parameter.name: at}
+        high = self.predictions.beside({**values, parameter.name: at + step}, here, which)
+        low = self.predictions.beside(here, here, which)
         return {i: (a - b) / step for i, a, b in zip(which, high, low)}
 
     # fits ---------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ class Predictions:
         for c in model.candidates:
             self.off.update({p.name: p.off for p in c.amplitudes})
         self.store: dict[tuple, dict[int, np.ndarray]] = {}
+        self.beside_store: dict[tuple, dict[int, np.ndarray]] = {}
         self.calls = 0
 
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -55,6 +56,15 @@ class Predictions:
                 known[i] = np.asarray(y, dtype=float)
         return [known[i] for i in which]
 
-    def forget(self, values: Mapping[str, float]) -> None:
-        active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
-        self.store.pop(tuple(sorted(active.items())), None)
+    def beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+        """Predictions for values next to ``base``, to first order if the model has them (``predict_beside``)."""
+        if not hasattr(self.model, "predict_beside"):
+            return self(values, which)
+        values, base = self.active(values), self.active(base)
+        known = self.beside_store.setdefault((tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
+        missing = [i for i in which if i not in known]
+        if missing:
+            self.calls += 1
+            for i, y in zip(missing, self.model.predict_beside(values, base, missing)):
+                known[i] = np.asarray(y, dtype=float)
+        return [known[i] for i in which]

@@ -206,6 +206,21 @@ class Bench:
 
         return self.kept(key, run)
 
+    def error_beside(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray,
+                     base: Mapping[str, float], base_angles: np.ndarray) -> np.ndarray:
+        """Transmission error [rad] of a new reducer with ``values``, to first order beside the run with ``base``."""
+        key = ("beside", condition, self.relevant(values, False), self.relevant(base, False), angles.tobytes(), base_angles.tobytes())
+
+        def run():
+            similar = self.running_places(condition, base, base_angles)[1]
+            plants = self.new_plant(condition, values, angles[0])
+            durations = np.abs(np.diff(angles, prepend=angles[0])) / (condition.speed / abs(self.ratio))
+            errors = np.zeros(len(angles))
+            self.check((coupled.sweep_beside(plants, durations, errors, similar), 0), plants, self.templates[1])
+            return errors
+
+        return self.kept(key, run)
+
     def averages(self, condition: Condition, values: Mapping[str, float]) -> dict[str, float]:
         """Means over one turn of the cranks."""
         turn = 2.0 * math.pi / self.reducer.topology.lobes

@@ -52,16 +52,19 @@ def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
     return condition.direction * condition.speed / abs(bench.ratio) * (time - time[0]) + zero
 
 
+def as_turned(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+    """The record's angles in the order in which they are passed, and the place of each sample among them."""
+    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+    order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return angles[order], place
+
+
 def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> np.ndarray:
     """A column of the running bench at the record's angles (or times)."""
-    condition, zero = condition_of(bench, record), values.get(angle_zero(record), 0.0)
-    angles = angles_of(bench, record, zero)
-    order = np.argsort(angles, kind="stable")
-    back = np.empty_like(order)
-    back[order] = np.arange(len(order))
-    series = bench.running(condition, values, angles[order] if condition.direction > 0 else angles[order][::-1], cage)
-    column = series[:, COLUMNS.index(name)]
-    return (column if condition.direction > 0 else column[::-1])[back]
+    angles, place = as_turned(bench, record, values)
+    return bench.running(condition_of(bench, record), values, angles, cage)[place, COLUMNS.index(name)]
 
 
 def angle_zero(record: Record) -> str:
@@ -76,6 +79,16 @@ def level(record: Record) -> str:
 
 def transmission_error(bench, record, values):
     error = along(bench, record, values, "transmission_error")
+    return error - error.mean() + values.get(level(record), 0.0)
+
+
+def transmission_error_beside(bench, record, values, base):
+    """To first order beside the one with the values ``base``."""
+    condition = condition_of(bench, record)
+    if condition.hours > 0.0:
+        return transmission_error(bench, record, values)
+    angles, place = as_turned(bench, record, values)
+    error = bench.error_beside(condition, values, angles, base, as_turned(bench, record, base)[0])[place]
     return error - error.mean() + values.get(level(record), 0.0)
 
 

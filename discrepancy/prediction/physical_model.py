@@ -14,7 +14,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import OBSERVED, angle_zero, roller_ripple
+from discrepancy.prediction.observe import OBSERVED, angle_zero, roller_ripple, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
 from orchestrator.faults import InputFault, RunFault
 
@@ -149,10 +149,18 @@ class PhysicalModel:
         finally:
             _FORKED = None
 
-    def one(self, record: Record, values: Mapping[str, float]) -> np.ndarray:
+    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+        """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
+        standing = {**self.zeros, **{p.name: p.off for p in self.declared}}
+        return [self.one(self.records[i], standing | dict(values), standing | dict(base)) for i in which]
+
+    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> np.ndarray:
         own = self.for_record(record, values)
         try:
-            predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
+            if beside is not None and record.quantity == "transmission_error" and isinstance(self.bench, Bench):
+                predicted = transmission_error_beside(self.bench, record, own, self.for_record(record, beside))
+            else:
+                predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
         except RunFault:
             if not self.bench.relevant(values, True):
                 raise

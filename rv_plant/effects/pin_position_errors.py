@@ -30,7 +30,7 @@ EFFECT = Effect(
         shape("pin_ring_ovality_angle", "rad", "direction of its long axis", 0.0, -7.0, 7.0, "assumed",
               grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
         amplitude("pin_ring_trilobe", "m", "pin ring with three lobes, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="trilobe"),
-        shape("pin_ring_trilobe_angle", "rad", "direction of one", 0.0, -7.0, 7.0, "assumed", grid=(0.0, 1.0472), group="trilobe"),
+        shape("pin_ring_trilobe_angle", "rad", "direction of one", 0.0, -7.0, 7.0, "assumed", grid=(0.0, 0.5236, 1.0472, 1.5708), group="trilobe"),
         amplitude("proud_pin", "m", "radius of one pin above nominal", 3 * UM, -50 * UM, 50 * UM, group="proud"),
         choice("proud_pin_number", "which pin is proud"),
         amplitude("pin_scatter", "m", "scatter of the pins' radial places, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
