@@ -63,6 +63,15 @@ def run_pair(plants, wears, steps, duration):
 
 
 @kernel
+def start_beside(p, similar, i):
+    """Start equilibrium i where the similar run found it, as far beside as one step earlier."""
+    for k in range(similar.shape[1]):
+        beside = p.z[k] - similar[i - 1, k] if i > 0 else 0.0
+        p.z[k] = similar[i, k] + beside
+    p.advance_before = 0.0
+
+
+@kernel
 def sweep(plants, wears, durations, series, worn, places, similar, guessed):
     """Steps of the given ``durations`` [s]; row i of ``series`` gets what a bench sees after step i.
 
@@ -72,11 +81,7 @@ def sweep(plants, wears, durations, series, worn, places, similar, guessed):
     p = plants[0]
     for i in range(durations.shape[0]):
         if guessed:
-            # Where the similar run is, and as far beside it as one step earlier.
-            for k in range(places.shape[1]):
-                beside = p.z[k] - similar[i - 1, k] if i > 0 else 0.0
-                p.z[k] = similar[i, k] + beside
-            p.advance_before = 0.0
+            start_beside(p, similar, i)
         plant_status, wear_status = 0, 0
         if worn:
             plant_status, wear_status = step_pair(plants, wears, 0.0, durations[i])
@@ -122,13 +127,20 @@ def sweep_beside(plants, durations, errors, similar):
 
 
 @kernel
-def torque_sweep(plants, torques, turning):
-    """Output torque through ``torques`` [N m] with the input held; ``turning`` [rad] of the output in its sense."""
+def torque_sweep(plants, torques, turning, places, similar, guessed):
+    """Output torque through ``torques`` [N m] with the input held; ``turning`` [rad] of the output in its sense.
+
+    ``places``, ``similar`` and ``guessed`` as in ``sweep``.
+    """
     p = plants[0]
     for i in range(torques.shape[0]):
+        if guessed:
+            start_beside(p, similar, i)
         p.load_torque = torques[i]
         status = step_plant(plants, 0.0, 1.0)
         if status != 0:
             return status
         turning[i] = -p.transmission_error
+        for k in range(places.shape[1]):
+            places[i, k] = p.z[k]
     return 0

@@ -19,7 +19,6 @@ import numpy as np
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import (
     HELD_ANGLES,
-    POSITIONS,
     SHORT_CYCLE,
     TOLERANCE,
     Bench,
@@ -135,8 +134,7 @@ class FmuBench(Bench):
             with refusal_as_run_fault():
                 self.master.initialise()
             self.time = 0.0
-            step = self.turning_time(condition) / POSITIONS
-            steps = turns * POSITIONS
+            step, steps = self.wear_steps(condition, turns)
             self.wear.set("acceleration", 0.0)
             for _ in range(2):
                 self.step_pair(step)

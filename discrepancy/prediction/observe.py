@@ -21,6 +21,8 @@ TORQUE_STEPS = 12
 ELASTIC_STEPS = 20
 WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
+# Of the deepest place: what is worn less is not compared in proportion.
+LEAST_WORN = 0.1
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
@@ -234,11 +236,16 @@ def cage_speed(bench, record, values):
 
 
 def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Record, Values], np.ndarray]:
-    """The base model's wear from full meshing cycles, changed by what short cycles say of the values."""
+    """The base model's wear from full meshing cycles, changed as short cycles change with the values.
+
+    In proportion: what short cycles get wrong they get wrong alike for all values.
+    """
 
     def observed(bench: Bench, record: Record, values: Values) -> np.ndarray:
-        short = measure(bench, record, values, SHORT_CYCLE)
-        return measure(bench, record, {}, bench.reducer.topology.lobes) + short - measure(bench, record, {}, SHORT_CYCLE)
+        full, base = (measure(bench, record, {}, turns) for turns in (bench.reducer.topology.lobes, SHORT_CYCLE))
+        worn = np.abs(base) > LEAST_WORN * np.abs(base).max()
+        share = np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
+        return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
 
     observed.__name__ = measure.__name__
     return observed

@@ -55,8 +55,9 @@ def stiffness_figures(pair: Pair) -> dict[str, float]:
         pair.master.run(max(1, pair.positions // PLACES))
         lags.append(pair.plant.get("lag"))
         plant, turning = pair.plant.records.copy(), np.zeros(3)
+        places = np.zeros((len(way), plant["z"].shape[1]))
         plant["input_speed"], plant["fidelity"] = 0.0, 0
-        status = torque_sweep(plant, way, turning)
+        status = torque_sweep(plant, way, turning, places, places, False)
         if status != 0:
             raise RunFault(pair.plant.unit.fault_text(status, plant, 0.0))
         lost.append(abs(turning[1] - turning[2]))
