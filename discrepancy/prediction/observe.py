@@ -94,15 +94,9 @@ def transmission_error_beside(bench, record, values, base):
     return error - error.mean() + values.get(level(record), 0.0)
 
 
-def roller_ripple(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Transmission error with the cages at no place in particular, and its cosine and sine part in the cages' place.
-
-    Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error
-    repeats with the pitch of the rollers.
-    """
-    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    at = [along(bench, record, values, "transmission_error", share * pitch) for share in (0.0, 0.25, 0.5, 0.75)]
-    return sum(at) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> np.ndarray:
+    """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
+    return along(bench, record, values, "transmission_error", share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
 
 def hysteresis(bench, record, values):

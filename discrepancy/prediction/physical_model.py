@@ -14,7 +14,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import OBSERVED, angle_zero, roller_ripple, transmission_error_beside
+from discrepancy.prediction.observe import OBSERVED, angle_zero, error_with_cages, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
 from orchestrator.faults import InputFault, RunFault
 
@@ -117,19 +117,23 @@ class PhysicalModel:
     def place_cages(self) -> None:
         """Where the roller cages stood in each run, from the ripple that rollers leave in the transmission error.
 
-        Found once with the base model and kept as a correction: an effect hardly changes the ripple.
+        Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error
+        repeats with the pitch of the rollers.  Found once with the base model and kept as a correction: an effect hardly changes the ripple.
         """
         values = {**self.zeros, **{p.name: p.off for p in self.declared}}
         for record in self.records:
             if record.quantity != "transmission_error" or "angle" not in record.axes or len(record.values) < LONG:
                 continue
-            middle, cosine, sine = roller_ripple(self.bench, record, self.for_record(record, values))
+            own = self.for_record(record, values)
+            at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
+            middle, cosine, sine = sum(at) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
             basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
             misfit = record.values - record.values.mean() - (middle - middle.mean())
             parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
-            # The ripple's size is that of the rollers; more would be something else that looks alike.
-            parts /= max(1.0, float(np.hypot(*parts)))
-            self.ripples[record.name] = (parts[0] - 1.0) * cosine + parts[1] * sine
+            # The ripple's size is that of the rollers, with all its harmonics; where noise hides it, its mean is safer.
+            share = np.arctan2(parts[1], parts[0]) / (2.0 * np.pi)
+            seen = min(1.0, float(np.hypot(*parts)))
+            self.ripples[record.name] = seen * error_with_cages(self.bench, record, own, share) + (1.0 - seen) * middle - at[0]
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
         """See ``problem.Model``."""
