@@ -18,7 +18,7 @@ from discrepancy.problem import Model
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
-HOPELESS_EXCHANGE = 0.7
+HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 
@@ -198,7 +198,7 @@ class Diagnostician:
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         for s in more.scores[:4]:
-            if s.name == member.name or s.statistic < HOPELESS_EXCHANGE * needed:
+            if s.name == member.name or s.statistic < HOPELESS_STAND_IN * needed:
                 continue
             rival = self.fit([*rest, s.name], own, [s])
             if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2:
