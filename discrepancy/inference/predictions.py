@@ -30,22 +30,6 @@ class Predictions:
             active.pop(name, None)
         return active
 
-    def prefetch(self, requests: Sequence[tuple[Mapping[str, float], Sequence[int]]]) -> None:
-        """Compute what will be asked for, all at once if the model can (``predict_many``)."""
-        if not hasattr(self.model, "predict_many"):
-            return
-        wanted: dict[tuple, tuple[dict[str, float], list[int]]] = {}
-        for values, which in requests:
-            active = self.active(values)
-            key = tuple(sorted(active.items()))
-            missing = [i for i in which if i not in self.store.get(key, {})]
-            if missing and key not in wanted:
-                wanted[key] = active, missing
-        found = self.model.predict_many(list(wanted.values()))
-        self.calls += len(wanted)
-        for (key, (_, missing)), predicted in zip(wanted.items(), found):
-            self.store.setdefault(key, {}).update((i, np.asarray(y, float)) for i, y in zip(missing, predicted))
-
     def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
         active = self.active(values)
         known = self.store.setdefault(tuple(sorted(active.items())), {})

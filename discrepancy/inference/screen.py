@@ -69,7 +69,6 @@ class Screen:
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
     stacks, blocks, width = [], [], 0
-    space.predictions.prefetch(_requests(space, candidates, values))
     for k, candidate in enumerate(candidates):
         which = [i for i in space.touched(candidate) if i in space.rows]
         if not which:
@@ -109,17 +108,6 @@ def _reach(candidate, block):
         float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
         for p, column in zip(candidate.amplitudes, block.T)
     )
-
-
-def _requests(space, candidates, values):
-    """Most of the predictions that the columns will need."""
-    for candidate in candidates:
-        which = [i for i in space.touched(candidate) if i in space.rows]
-        for n, shape in enumerate(candidate.shape_grid or ({},)):
-            at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
-            for p in candidate.amplitudes:
-                for size in (TYPICAL, SMALL) if n == 0 else (TYPICAL,):
-                    yield {**at, p.name: p.off + _step(p, size)}, which
 
 
 def _step(p, size):

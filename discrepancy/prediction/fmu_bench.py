@@ -181,6 +181,10 @@ class FmuBench(Bench):
     def running_places(self, condition, values, angles, cage=0.0):
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
+    def error_beside(self, condition, values, angles, base, base_angles):
+        # There is no equilibrium to start from: the whole run.
+        return self.running(condition, values, angles)[:, COLUMNS.index("transmission_error")]
+
     def held(self, condition, values, torques):
         def run():
             worn = self.worn_state(condition, values)

@@ -1,5 +1,6 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
+import copy
 import difflib
 import multiprocessing
 from collections.abc import Mapping, Sequence
@@ -13,6 +14,7 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, angle_zero, error_with_cages, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
@@ -41,7 +43,11 @@ class PhysicalModel:
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
                  jobs: int = 1, fmus: Path | None = None):
-        self.file, self.campaign, self.jobs = model, campaign, jobs
+        # Units in other processes are FMUs of their own, and forks are not to be had everywhere.
+        forks = "fork" in multiprocessing.get_all_start_methods() and fmus is None
+        self.file, self.campaign, self.jobs = model, campaign, jobs if forks else 1
+        self.crew: Crew | None = None
+        self.complete = False
         self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
@@ -67,6 +73,7 @@ class PhysicalModel:
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins
         )
+        self.complete = True
 
     def angle_nuisances(self) -> list[Parameter]:
         width = 2.0 * np.pi / PHASE_ORDER
@@ -137,31 +144,28 @@ class PhysicalModel:
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
         """See ``problem.Model``."""
-        values = {**self.zeros, **{p.name: p.off for p in self.declared}, **values}
-        return [self.one(self.records[i], values) for i in (range(len(self.records)) if which is None else which)]
-
-    def predict_many(self, requests: Sequence[tuple[Mapping[str, float], Sequence[int]]]) -> list[list[np.ndarray]]:
-        """``predict`` for several sets of values, on ``jobs`` processes that share the base model's runs."""
-        if self.jobs <= 1 or len(requests) < 2 * self.jobs or "fork" not in multiprocessing.get_all_start_methods():
-            return [self.predict(values, which) for values, which in requests]
-        self.predict({})
-        global _FORKED
-        _FORKED = self
-        try:
-            with multiprocessing.get_context("fork").Pool(self.jobs) as pool:
-                return pool.starmap(_predict_forked, requests, chunksize=1)
-        finally:
-            _FORKED = None
+        return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None))
 
     def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
-        standing = {**self.zeros, **{p.name: p.off for p in self.declared}}
-        return [self.one(self.records[i], standing | dict(values), standing | dict(base)) for i in which]
+        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base)))
+
+    def standing(self) -> dict[str, float]:
+        """Nuisances where they start."""
+        return {**self.zeros, **{p.name: p.off for p in self.declared}}
+
+    def shared(self, which: Sequence[int], arguments: tuple) -> list[np.ndarray]:
+        """Predictions on all processes, if there are several and the model is complete."""
+        if self.jobs > 1 and self.crew is None and self.complete:
+            self.crew = Crew(self.records, _one_of(self), self.jobs)
+        if self.crew is not None:
+            return self.crew(which, arguments)
+        return [self.one(self.records[i], *arguments) for i in which]
 
     def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> np.ndarray:
         own = self.for_record(record, values)
         try:
-            if beside is not None and record.quantity == "transmission_error" and isinstance(self.bench, Bench):
+            if beside is not None and record.quantity == "transmission_error":
                 predicted = transmission_error_beside(self.bench, record, own, self.for_record(record, beside))
             else:
                 predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
@@ -197,12 +201,11 @@ class PhysicalModel:
         return own
 
 
-# The model that forked processes inherit; it is too large to be sent.
-_FORKED: PhysicalModel | None = None
-
-
-def _predict_forked(values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
-    return _FORKED.predict(values, which)
+def _one_of(model: PhysicalModel):
+    """``model.one`` by the record's number, without a hold on the model's crew."""
+    records, one = model.records, PhysicalModel.one
+    alone = copy.copy(model)
+    return lambda i, values, beside: one(alone, records[i], values, beside)
 
 
 def defined(record: Record, campaign: Campaign) -> Record:
