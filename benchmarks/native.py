@@ -48,13 +48,14 @@ for attempt in range(2):
 def start_times(fmu: Path, version: str) -> tuple[float, float]:
     """(first, second instance) from loading to the end of the first step [s], smallest of five processes."""
     unit = open_fmu("unit", fmu)
+    identity = unit.description.guid or unit.description.instantiationToken
     times = []
     with tempfile.TemporaryDirectory() as folder:
         with zipfile.ZipFile(fmu) as archive:
             archive.extractall(folder)
         for _ in range(5):
             done = subprocess.run(
-                [sys.executable, "-c", START, folder, fmu.stem, unit.identity, version], capture_output=True, text=True, check=True
+                [sys.executable, "-c", START, folder, fmu.stem, identity, version], capture_output=True, text=True, check=True
             )
             times.append(tuple(map(float, done.stdout.split())))
     unit.close()
@@ -81,7 +82,7 @@ def many_instances(fmu: Path) -> dict[str, float]:
     """Instances of one library one after the other, and at once; each initialised and stepped."""
 
     def one(unit):
-        unit.slave.instantiate(callbacks=unit.callbacks, loggingOn=False)
+        unit.calls.instantiate()
         unit.enter_initialisation(0.0)
         unit.exit_initialisation()
         unit.step(0.0, 1e-3)
