@@ -22,7 +22,7 @@ ENVIRONMENT = HERE / ".venv"
 SCRIPTS = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
 REQUIREMENTS = HERE / "requirements.txt"
 # What the measurements compare with, and what spreads ensembles.
-PEERS = ("scikit-sundae==1.2.0", "joblib==1.6.0", "SALib==1.6.0", "dask==2026.8.0", "distributed==2026.8.0")
+PEERS = ("scikit-sundae==1.2.0", "exudyn==1.13.6", "joblib==1.6.0", "SALib==1.6.0", "dask==2026.8.0", "distributed==2026.8.0")
 STAMP = ENVIRONMENT / "set-up-done"
 
 
@@ -52,7 +52,7 @@ def rvwear(*arguments: str) -> int:
 def bench(arguments: list[str]) -> int:
     """The measurements; what they compare with is installed if it can be, and left out if not."""
     python = str(SCRIPTS / "python")
-    peers = [python, "-c", "import sksundae, joblib, SALib, distributed"]
+    peers = [python, "-c", "import sksundae, exudyn, joblib, SALib, distributed"]
     if subprocess.run(peers, stderr=subprocess.DEVNULL).returncode != 0:
         pip = [python, "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
         if subprocess.run([*pip, *PEERS]).returncode != 0:

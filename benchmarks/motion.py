@@ -1,10 +1,12 @@
-"""Motion through a part of a crank turn at rated speed: the plant against SciPy and SUNDIALS.
+"""Motion through a part of a crank turn at rated speed: the plant against SciPy, SUNDIALS and Exudyn.
 
 All start from the same state with the same forces; the sun is a flywheel.  A peer's tolerances are
 laid on deflections of 1 um as the plant's are.  Each is run over a ladder of tolerances, and the
 cheapest run whose worst contact force is within 1 % (0.3 %) of the largest counts, so that a peer is
 judged at its best setting; reference is SciPy's Radau at a tolerance of 1e-5.  A SciPy peer goes through
-in one call and also from point to point; the cheaper counts.
+in one call and also from point to point; the cheaper counts.  Exudyn, the general multibody package, cannot
+express the contacts and gets the same forces (see ``exudyn_peer``); its steps are fixed, and it has a ladder of
+settings instead of tolerances.
 """
 
 import math
@@ -14,6 +16,7 @@ from time import process_time
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from benchmarks.exudyn_peer import LADDER, SLOW_LADDER, ExudynPlant
 from benchmarks.integrators import REFERENCE, Stretch, errors, jacobian, observe, rate_of_change, rated, with_alpha, with_scipy
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Figure, Measured, Ratio
@@ -27,6 +30,8 @@ SLOW_PEERS = (1e-1, 3e-2, 1e-2, 3e-3)
 CONTACTS = 2e4
 
 Point = tuple[float, float]
+# Name -> (states by rung, ladder of tolerances or settings, runs, target).
+Peers = dict[str, tuple[Callable, tuple, int, float | None]]
 
 
 class Problem:
@@ -35,6 +40,7 @@ class Problem:
     def __init__(self, stretch: Stretch):
         self.stretch, self.records = stretch, stretch.start.copy()
         self.records["load_torque"] = stretch.loads[0]
+        self.begun = self.records.copy()
         r = self.records[0]
         self.n = n = len(r["q"])
         self.start = np.concatenate([r["q"], r["v"], [r["cage"]]])
@@ -58,9 +64,14 @@ class Problem:
         self.calls += 1
         return self.model.rate_of_change(y)
 
+    def forget(self) -> None:
+        """The record remembers where contacts were last; a run that went astray must not leave that behind."""
+        self.records[:] = self.begun
+
     def seen(self, states) -> np.ndarray:
         """What the reference holds, at the states (points, coordinates)."""
         n, rows = self.n, []
+        self.forget()
         for y in states:
             self.records["q"], self.records["v"], self.records["cage"] = y[:n], y[n : 2 * n], y[2 * n]
             rows.append(observe(self.records))
@@ -141,6 +152,7 @@ def run(problem: Problem, reference, states: Callable, runs: int) -> tuple[Point
     """((error, least seconds), evaluations)."""
     best, found = math.inf, None
     for _ in range(runs):
+        problem.forget()
         problem.calls, begun = 0, process_time()
         found = states()
         best = min(best, process_time() - begun)
@@ -158,9 +170,21 @@ def ours(stretch: Stretch, reference, runs: int) -> list[Point]:
     return points
 
 
-def peers(problem: Problem, quick: bool) -> dict[str, tuple[Callable[[float], object], tuple[float, ...], int, float | None]]:
-    """Name -> (states by tolerance, ladder, runs, target)."""
-    found: dict = {}
+def exudyn_peers(problem: Problem, quick: bool) -> Peers:
+    try:
+        import exudyn  # noqa: F401
+    except ImportError:
+        return {}
+    return {
+        "Exudyn generalised-alpha, our right-hand side and Jacobian": (
+            ExudynPlant(problem, False).states, LADDER[:4] if quick else LADDER, 2 if quick else 3, None),
+        "Exudyn generalised-alpha, NumPy right-hand side": (
+            ExudynPlant(problem, True).states, SLOW_LADDER[:1] if quick else SLOW_LADDER, 1, None),
+    }
+
+
+def peers(problem: Problem, quick: bool) -> Peers:
+    found: Peers = exudyn_peers(problem, quick)
 
     def scipy(label, function, jac, method, through, ladder, runs, target):
         found[label] = (lambda t: scipy_states(problem, function, jac, method, t, through), ladder, runs, target)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks.equilibrium import FREE, compiled, start
-from benchmarks.integrators import rated
+from benchmarks.exudyn_peer import ExudynPlant
+from benchmarks.integrators import Stretch, errors, rated, with_alpha
 from benchmarks.motion import Problem, check_right_hand_sides, cheapest
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Figure, Measured, Ratio, cost_at, exponent, machine
@@ -44,3 +45,13 @@ def test_table_holds_rows_that_could_not_be_measured(tmp_path):
     write(found, machine(), True, tmp_path / "bench")
     assert '"ratio": null' in (tmp_path / "bench.json").read_text()
     assert "not met" in (tmp_path / "bench.html").read_text()
+
+
+@pytest.mark.parametrize("numpy", [False, True])
+def test_exudyn_moves_as_the_plant_does(rv20e, numpy):
+    pytest.importorskip("exudyn")
+    stretch = rated(rv20e.plant)
+    stretch = Stretch(stretch.start, stretch.loads[:2], stretch.step)
+    problem = Problem(stretch)
+    seen = problem.seen(ExudynPlant(problem, numpy).states((8, 1e-3, True, 0.8)))
+    assert errors(seen, with_alpha(stretch, 1e-3)[0])[0] < 3e-3
