@@ -48,7 +48,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     """Hold a model against a campaign; localises the misfit on the way.  ``fmus``: folder of FMUs to predict with."""
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
     diagnostician = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
-    localisation = diagnostician.prepare()
+    diagnostician.prepare()
     space = diagnostician.space
     every = list(range(len(space.records)))
     predictions = space.predictions(space.base.values, every)
