@@ -1,6 +1,6 @@
 """A model's predictions, each computed once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -33,12 +33,7 @@ class Predictions:
     def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
         active = self.active(values)
         known = self.store.setdefault(tuple(sorted(active.items())), {})
-        missing = [i for i in which if i not in known]
-        if missing:
-            self.calls += 1
-            for i, y in zip(missing, self.model.predict(active, missing)):
-                known[i] = np.asarray(y, dtype=float)
-        return [known[i] for i in which]
+        return self._kept(known, which, lambda missing: self.model.predict(active, missing))
 
     def beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
         """Predictions for values next to ``base``, to first order if the model has them (``predict_beside``)."""
@@ -46,9 +41,11 @@ class Predictions:
             return self(values, which)
         values, base = self.active(values), self.active(base)
         known = self.beside_store.setdefault((tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
+        return self._kept(known, which, lambda missing: self.model.predict_beside(values, base, missing))
+
+    def _kept(self, known: dict[int, np.ndarray], which: Sequence[int], predict: Callable) -> list[np.ndarray]:
         missing = [i for i in which if i not in known]
         if missing:
             self.calls += 1
-            for i, y in zip(missing, self.model.predict_beside(values, base, missing)):
-                known[i] = np.asarray(y, dtype=float)
+            known.update((i, np.asarray(y, dtype=float)) for i, y in zip(missing, predict(missing)))
         return [known[i] for i in which]

@@ -127,7 +127,7 @@ class PhysicalModel:
         Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error
         repeats with the pitch of the rollers.  Found once with the base model and kept as a correction: an effect hardly changes the ripple.
         """
-        values = {**self.zeros, **{p.name: p.off for p in self.declared}}
+        values = self.standing()
         for record in self.records:
             if record.quantity != "transmission_error" or "angle" not in record.axes or len(record.values) < LONG:
                 continue
