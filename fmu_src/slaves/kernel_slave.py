@@ -6,8 +6,10 @@ the FMU carries; where that is missing, is for another machine, or the sources b
 were edited, the kernels are compiled on the spot.
 """
 
+import _ctypes
 import ctypes
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +31,22 @@ def add_reference(held: object) -> None:
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(held))
 
 
+def let_go_of_wrapper_state(folder: Path, name: str) -> None:
+    """Has pythonfmu's wrapper give up its global state while that is still whole.
+
+    Under Linux the wrapper releases it twice when it is unloaded, the second time after it was freed, which damages
+    the heap of the importer.  The state only keeps an interpreter alive that the wrapper itself started: in
+    an importer that runs in Python nothing needs it.  ``folder``: the FMU's resources; ``name``: its model identifier.
+    """
+    started_by_wrapper = not sys.orig_argv
+    library = folder.parent / "binaries" / "linux64" / f"{name}.so"
+    if started_by_wrapper or not sys.platform.startswith("linux") or not library.is_file():
+        return
+    loaded = ctypes.CDLL(str(library))
+    loaded.finalizePythonInterpreter()
+    _ctypes.dlclose(loaded._handle)
+
+
 class KernelSlave(Fmi2Slave):
     """Base of the leaf classes; reads what it is from ``unit.json`` in the resources."""
 
@@ -42,6 +60,7 @@ class KernelSlave(Fmi2Slave):
         self.unit = make_unit(self.stamp["specification"])
         self.table = self.unit.table
         self.modelName = self.table.name
+        let_go_of_wrapper_state(folder, self.modelName)
         self.records = self.table.new_records()
         self.cells = self.table.cells(self.records)
         self.integers = self.cells.view("i8")
