@@ -59,7 +59,7 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
 def shortened(answer: dict) -> dict:
     keys = ("verdict", "effects", "confusable", "alternatives", "captured", "held_out", "p_screen", "p_localise", "warnings", "reason",
             "error", "times", "calls")
-    return {k: answer[k] for k in keys if k in answer}
+    return {k: answer[k] for k in keys if k in answer} | {"rejected": answer.get("rejected", [])[:4]}
 
 
 def finished(folder: Path) -> dict[int, dict]:

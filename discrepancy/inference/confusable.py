@@ -11,8 +11,8 @@ from discrepancy.inference.refit import Refit
 
 MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""
-PER_PARAMETER = 1.0
-"""Price of a further parameter, in chi-square."""
+PER_PARAMETER = 2.0
+"""Price of a further parameter, in chi-square (Akaike)."""
 
 
 def penalised(rival: Refit) -> float:

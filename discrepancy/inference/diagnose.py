@@ -169,6 +169,7 @@ class Diagnostician:
             members = confusable_set(rivals, inflation if over else 1.0, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)
+            members += self._adequate(rivals, members)
         else:
             members = [final]
             for c in final.candidates:
@@ -177,13 +178,20 @@ class Diagnostician:
                     alternatives[c.name] = stand_ins
         judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
         judged = judge.judge(final)
-        if judged is not None and judged.p_after < 0.0005 and judged.after > 1.5:
+        if judged is not None and (judged.p_after < 0.0005 and judged.after > 1.5 or judged.p_after < 0.05 and judged.after > judged.before):
+            # Runs that were not fitted are not explained, or are further off than before.
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after}
         verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, [judge], inflation if over else 1.0)
+
+    def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
+        """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
+        least = penalised(members[0])
+        near = [r for r in rivals if r not in members and penalised(r) - least <= self.settings.adequate_margin]
+        return [r for r in near if not self.leftover(r)[0]]
 
     def _dof(self, result):
         dofs = [e.dof for e in estimates(self.space, result)]

@@ -212,7 +212,16 @@ class Workspace:
         full = {**{p.name: float(np.clip(theta[p.name] + s, p.lower, p.upper)) for p, s in zip(nuisances, shift)}, **values}
         parameters = tuple(nuisances) + own
         columns = np.column_stack([frozen, columns])
+        if self._cost(parameters, full)[0] > self.base.chi2:
+            # Too far for frozen sensitivities: from the base fit's nuisances.
+            full = {**theta, **values}
         return self._polish(parameters, full, columns, tuple(c.name for c in candidates), converged, cost_of(values)[0])
+
+    def _cost(self, parameters, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+        """Chi-square with the priors, and the whitened residual."""
+        r = self.residual(values)
+        shift = np.array([values[p.name] - p.off for p in parameters])
+        return float(r @ r + np.sum(self.prior_rows(parameters) * shift**2)), r
 
     def _prior_gradient(self, theta):
         nuisances = self.model.nuisances
@@ -293,8 +302,7 @@ class Workspace:
         names = [p.name for p in parameters]
 
         def cost_of(z):
-            r = self.residual(dict(zip(names, (float(v) for v in z))))
-            return float(r @ r + np.sum(precision * (z - off) ** 2)), r
+            return self._cost(parameters, dict(zip(names, (float(v) for v in z))))
 
         cost, r = cost_of(x)
         for _ in range(rounds):

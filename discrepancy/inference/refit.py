@@ -125,6 +125,8 @@ def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
         rows[space.records[i].condition].append(s)
     size = np.array([p.scale for p in fit.parameters])
     gradient = fit.gradient
+    at = np.array([fit.values[p.name] for p in fit.parameters])
+    lower, upper = np.array([(p.lower, p.upper) for p in fit.parameters]).reshape(-1, 2).T
     result = {}
     for condition, slices in rows.items():
         jacobian = np.vstack([fit.jacobian[s] for s in slices])
@@ -134,6 +136,8 @@ def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
             continue
         normal = (fit.normal - jacobian.T @ jacobian) * np.outer(size, size)
         step = size * (np.linalg.pinv(normal, rcond=1e-10, hermitian=True) @ (size * (gradient - jacobian.T @ residual)))
+        # What the others hardly determine goes to its bounds, not beyond.
+        step = np.clip(at + step, lower, upper) - at
         error = residual - jacobian @ step
         result[condition] = float(error @ error)
     return result

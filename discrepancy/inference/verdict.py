@@ -22,6 +22,7 @@ class Settings:
     captured: float = 0.70
     second_gain: float = 0.10
     margin: float = 6.0
+    adequate_margin: float = 10.0
     shortlist: int = 7
     most_effects: int = 3
     draws: int = 2000

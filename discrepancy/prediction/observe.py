@@ -15,7 +15,7 @@ from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
 Values = Mapping[str, float]
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
-SPECTRUM_SAMPLES = 4096
+SPECTRUM_SAMPLES = 2048
 TORQUE_STEPS = 12
 # Torques of either sign at which a locked drive's springs are computed.
 ELASTIC_STEPS = 20

@@ -67,7 +67,8 @@ class PhysicalModel:
             self.place_cages()
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
-            self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 0.01, 1e4, 1.0, 1, None, "mass that vibrates"),)
+            # Assumed, and known to be of that size: else any force would do, with a mass to match.
+            self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 1.0, 1e3, 1.0, 0, 10.0, "mass that vibrates"),)
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(

@@ -35,7 +35,7 @@ EFFECT = Effect(
         amplitude("backlash", "m", "play between the flanks, along the normal", 20 * UM, 0.0, 1000 * UM, sign=1,
                   source="assumed: none, as in both sources", group="backlash"),
         # Beside 0 a quarter of a mesh of 12 teeth, of the sun and of a planet with i1 = 3.
-        shape("first_stage_phase", "rad", "the sun's phase at angle 0", 0.0, -7.0, 7.0, "assumed",
+        shape("first_stage_phase", "rad", "the sun's phase at angle 0", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.1309, 1.5708, 4.7124), group="mesh sun planet"),
     ),
     signals=("transmission_error", "vibration", "lost_motion", "hysteresis", "input_torque"),

@@ -27,10 +27,11 @@ def seal_of(truth: dict) -> tuple[str, str]:
     return text, hashlib.sha256(text.encode()).hexdigest()
 
 
-def write_campaign(folder: Path, name: str, design: Design, runs: list[dict], seal: str, description: str = "") -> None:
-    """``runs`` have id, series, replicate, axes, values (SI)."""
+def write_campaign(folder: Path, name: str, design: Design, runs: list[dict], seal: str, description: str = "",
+                   rig: str = "") -> None:
+    """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one."""
     folder.mkdir(parents=True, exist_ok=True)
-    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121"', f'seal = "sha256:{seal}"', ""]
+    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121"', f'seal = "sha256:{seal}"', "", rig]
     for key, s in design.conditions.items():
         lines += [f"[conditions.{key}]", f'input_speed = "{s.speed / RPM:.6g} rpm"', f'load_torque = "{s.load:.6g} N.m"',
                   f'temperature = "{s.temperature - 273.15:.6g} degC"', f'hours = "{s.hours / HOUR:.6g} h"',

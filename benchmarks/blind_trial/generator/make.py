@@ -43,17 +43,34 @@ class CannotMake(Exception):
     """The strength cannot be met within the physical range of law and noise."""
 
 
+@dataclass(frozen=True)
+class Drawn:
+    """A campaign before it is measured: hidden laws at their size, design, the true reducer; ``rng`` measures next."""
+
+    rng: np.random.Generator
+    truths: list[Truth]
+    design: Design
+    bench: Bench
+    parameters: dict[str, float]
+    sizes: list[float]
+
+
 def make(task: Task, folder: Path, sealed: Path) -> dict:
     """Writes ``folder``/NAME and ``sealed``/NAME.json; returns the truth with its seal."""
+    return written(task, drawn(task), folder, sealed)
+
+
+def drawn(task: Task) -> Drawn:
+    """The first draw that meets the strength; the same for the same task."""
     for attempt in range(ATTEMPTS):
         try:
-            return attempt_to_make(task, folder, sealed, np.random.default_rng([task.seed, attempt]))
+            return attempt_to_draw(task, np.random.default_rng([task.seed, attempt]))
         except CannotMake:
             continue
     raise CannotMake(f"{task}: d' not met in {ATTEMPTS} attempts")
 
 
-def attempt_to_make(task: Task, folder: Path, sealed: Path, rng: np.random.Generator) -> dict:
+def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
     truths = [LAWS[name](rng) for name in task.laws]
     design = make_design(rng, blocks_for(rng, task, truths), task.size)
     parameters = true_parameters(rng, task, design)
@@ -72,13 +89,18 @@ def attempt_to_make(task: Task, folder: Path, sealed: Path, rng: np.random.Gener
             if not 0.9 < factor < 1.1:
                 raise CannotMake(task.laws[k])
             sizes.append(factor * task.strength)
-    runs = measure(rng, design, bench, truths)
+    return Drawn(rng, truths, design, bench, parameters, sizes)
+
+
+def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict:
+    rng, truths, design = made.rng, made.truths, made.design
+    runs = measure(rng, design, made.bench, truths)
     done = faulty(rng, task.fault, str(rng.choice(sorted(design.quantities()))), runs) if task.fault else ""
     for run in runs:
         run["values"] = round_to(run["values"], run["series"].noise.quantum)
     truth = {
         "campaign": task.name, "kind": task.kind, "effects": [t.effect for t in truths], "laws": [t.facts() for t in truths],
-        "strength": task.strength, "d_prime": sizes, "fault": done, "base": parameters, "size": task.size,
+        "strength": task.strength, "d_prime": made.sizes, "fault": done, "base": made.parameters, "size": task.size,
         "acceptable": sorted({name for t in truths for name in t.acceptable}), "seed": task.seed,
         "noise": {s.quantity: vars(s.noise) for s in design.series}, "samples": int(sum(len(r["values"]) for r in runs)),
         "conditions": len(design.conditions), "held_out": sorted(design.held_out),
