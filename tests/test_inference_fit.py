@@ -1,0 +1,104 @@
+"""Refits: never worse than the base, degenerate or not; rivals a little behind; leaving out what only one condition determines."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from discrepancy.inference.diagnose import Diagnostician, diagnose
+from discrepancy.inference.refit import leave_condition_out
+from discrepancy.inference.verdict import Settings
+from discrepancy.problem import Candidate, Parameter, Record
+
+ORDERS = np.arange(20.0, 220.0)
+SPEEDS = (100.0, 150.0, 200.0, 250.0)
+
+
+def line(order):
+    return 1.0 * (ORDERS == order)
+
+
+REST = 1e-10 * np.cos(ORDERS)
+LINES = {"unbalance": line(39.0), "teeth": line(39.0) + 0.3 * line(78.0), "pit": np.exp(-ORDERS / 60.0)}
+
+
+@dataclass
+class Shaker:
+    """Accelerations of a housing of unknown mass that the base model leaves next to at rest: only force over mass can be seen."""
+
+    records: list
+    shapes: dict
+    mass: Parameter = Parameter("mass", "kg", 10.0, 1.0, 1e3, 1.0, 0, 10.0)
+
+    def __post_init__(self):
+        self.nuisances = (self.mass,)
+        self.candidates = tuple(Candidate(n, n, (Parameter(n, "N", 0.0, -1e3, 1e3, 1e-3),)) for n in self.shapes)
+
+    def predict(self, values, which=None):
+        def one(r):
+            force = sum(values.get(n, 0.0) * pattern for n, pattern in self.shapes.items()) * (r.factors["speed"] / 200.0) ** 2
+            return np.abs(force + REST) / values.get("mass", 10.0)
+
+        return [one(self.records[i]) for i in (range(len(self.records)) if which is None else which)]
+
+
+def shaken(force, shapes, seed=1, noise=0.05):
+    """Two runs at every speed, the last speed held out; ``force`` [N] (200,) at 200 rad/s."""
+    rng = np.random.default_rng(seed)
+    records = [
+        Record(f"{s:g} {k}", "vibration_order", "m/s^2", f"{s:g}", k,
+               np.abs(force) / 10.0 * (s / 200.0) ** 2 + noise * rng.standard_normal(ORDERS.size), {"order": ORDERS}, {"speed": s, "load": 1.0},
+               held_out=s == SPEEDS[-1])
+        for s in SPEEDS for k in range(2)
+    ]  # fmt: skip
+    return Shaker(records, shapes)
+
+
+@pytest.mark.parametrize("prior", [10.0, None])
+def test_a_nuisance_that_only_the_effect_shows_does_not_run_away(prior):
+    """Force and mass: any mass fits a housing at rest, and the force that goes with it."""
+    model = shaken(20.0 * LINES["unbalance"], LINES)
+    model.mass = Parameter("mass", "kg", 10.0, 0.01, 1e4, 1.0, 0, prior)
+    model.nuisances = (model.mass,)
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    doctor.screened()
+    found = doctor.fit(["unbalance"])
+    assert found.fit.values["unbalance"] / found.fit.values["mass"] == pytest.approx(2.0, rel=0.02)
+    # Speeds of 1/2, 3/4 and 1, two runs each, noise 0.05.
+    assert found.gain == pytest.approx(2.0 * (2.0 / 0.05) ** 2 * (0.25**2 + 0.5625**2 + 1.0), rel=0.1)
+    assert doctor.fit(["teeth"]).gain > doctor.fit(["pit"]).gain > 0.0
+
+
+def test_a_rival_a_little_behind_that_leaves_nothing_stays_in_the_set():
+    """The rival has a line that nobody measured: 8 of chi-square too much."""
+
+    model = shaken(6.0 * LINES["unbalance"], {"unbalance": LINES["unbalance"], "other": line(39.0) + 0.075 * line(117.0)})
+    strict, mild = (diagnose(model, Settings(margin=0.5, adequate_margin=m)) for m in (0.5, 12.0))
+    rivals = {r.name: r.fit.chi2 for r in strict.fits["rivals"]}
+    assert 6.0 < rivals["other"] - rivals["unbalance"] < 12.0
+    assert strict.verdict == "one effect" and strict.effects[0].name == "unbalance"
+    assert mild.verdict == "set" and mild.confusable == ["unbalance", "other"]
+
+
+def test_what_one_condition_alone_determines_stays_within_its_range_without_it():
+    """A pattern that hardly shows at the other speed: without this one its size is anything, but not beyond its bounds."""
+    model = shaken(20.0 * LINES["unbalance"], {"unbalance": LINES["unbalance"]})
+    records = [r for r in model.records if r.condition in ("100", "200")]
+    alone = Parameter("alone", "N", 0.0, 0.0, 30.0, 1.0, 1)
+
+    class Alone(Shaker):
+        def predict(self, values, which=None):
+            found = super().predict(values, which)
+            indices = range(len(self.records)) if which is None else which
+            return [y + values.get("alone", 0.0) / 10.0 * line(150.0) * (1.0 if self.records[i].condition == "200" else 1e-3) for i, y in zip(indices, found)]
+
+    model = Alone(records, {"unbalance": LINES["unbalance"]})
+    model.candidates += (Candidate("alone", "alone", (alone,)),)
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    doctor.screened()
+    errors = leave_condition_out(doctor.space, doctor.fit(["unbalance", "alone"]).fit)
+    # Both runs of 200 rad/s off by less than the whole range of the parameter.
+    largest = 2.0 * (30.0 / 10.0 / 0.05) ** 2
+    assert errors["200"] < 1.5 * (largest + 400.0)
