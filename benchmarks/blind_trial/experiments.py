@@ -2,8 +2,8 @@
 
     python -m benchmarks.blind_trial.experiments --folder /tmp/trial --cases 20 --jobs 2
 
-Takes the trial's campaigns of one effect that ended with a set.  Each is made again with a rig that can also measure what was
-not measured, `rvwear next` proposes, and the proposal and one of its own list drawn at random are carried
+Takes the trial's campaigns of one effect that ended with a set.  Each is made again with a rig that can also measure whatever
+the hidden law says something about, `rvwear next` proposes, and the proposal and one of its own list drawn at random are carried
 out with the hidden truth, added to the campaign and diagnosed.  Writes experiments.jsonl into the folder; resumes.
 """
 
@@ -31,7 +31,6 @@ input_speed = ["300 rpm", "2500 rpm"]
 load_torque = ["20 N.m", "250 N.m"]
 temperature = ["10 degC", "60 degC"]
 hours = ["100 h", "3000 h"]
-quantities = ["transmission_error", "hysteresis", "input_torque", "cage_speed"]
 cost_per_run = 1.0
 cost_per_hour = 0.01
 """
@@ -48,6 +47,12 @@ def chosen(folder: Path, cases: int) -> list[dict]:
         if case.kind == "effect" and case.verdict == SET and case.covered and len(case.set) > 1:
             found.append(result)
     return found[:cases]
+
+
+def rig_of(made: Drawn) -> str:
+    """What the bench measured, and whatever else the hidden laws say something about."""
+    known = {q for t in made.truths for q in t.quantities} | made.design.quantities()
+    return RIG + f"quantities = {sorted(known)}\n"
 
 
 def series_of(name: str, settings: dict[str, float], made: Drawn, rng: np.random.Generator) -> Series:
@@ -87,7 +92,7 @@ def one(result: dict, folder: Path) -> dict:
         every = [{**run, "values": round_to(run["values"], run["series"].noise.quantum)} for run in runs + more]
         conditions = design.conditions | {run["series"].condition: run["series"].setting for run in more}
         target = folder / "experiments" / task.name / name
-        write_campaign(target, task.name, replace(design, conditions=conditions), every, result["seal"], rig=RIG)
+        write_campaign(target, task.name, replace(design, conditions=conditions), every, result["seal"], rig=rig_of(made))
         return target
 
     found = {"number": task.number, "law": list(task.laws), "strength": task.strength}

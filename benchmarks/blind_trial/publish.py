@@ -66,14 +66,26 @@ def page(results: dict[int, dict], cases: list[Case], figures: dict, about: dict
         if f and f["median_ratio"] is not None:
             rows.append([f"held-out error after/before, median, d' {s:g}", f"at most {target}", number(f["median_ratio"]), "", f["campaigns"],
                          "met" if f["median_ratio"] <= target else "**missed**"])  # fmt: skip
+    worse = figures["held_out_worse"]
+    rows.append(["held-out error grows, d' from 10", "at most 2 %", percent(worse["share"]),
+                 f"{percent(worse['interval'][0], 0)} to {percent(worse['interval'][1], 0)}", worse["of"],
+                 "-" if worse["share"] is None else "met" if worse["share"] <= 0.02 else "**missed**"])  # fmt: skip
     c = figures["coverage"]
     if c["share"] is not None:
         rows.append(["95 % intervals hold the truth", "92 to 98 %", percent(c["share"]), f"{percent(c['interval'][0], 0)} to {percent(c['interval'][1], 0)}",
                      c["of"], "met" if 0.92 <= c["share"] <= 0.98 else "**missed**"])  # fmt: skip
+    e = about.get("experiments")
+    if e:
+        gain = e["proposed"]["share"] / e["random"]["share"] if e["random"]["share"] else None
+        rows.append(["a proposed experiment resolves, against a random one", "at least 3 times", number(gain) if gain else "random: none",
+                     f"{e['proposed']['count']} against {e['random']['count']}", e["random"]["of"],
+                     "met" if e["proposed"]["count"] >= 3 * max(e["random"]["count"], 1) else "**missed**"])  # fmt: skip
     lines += table(["", "target", "reached", "95 % interval", "of", ""], rows)
     lines += [f"Crashes: {len(figures['crashes'])}. One name given, whatever was hidden (null, outside, faults, pairs too): right in "
               f"{percent(figures['one_name_is_right_all_kinds']['share'])} of {figures['one_name_is_right_all_kinds']['of']}. "
               f"Any answer but none with a sensor's fault: {percent(figures['any_answer_with_faults']['share'])}. "
+              f"Right name first, d' from 10, where the answer is no set: {percent(figures['first_without_set']['share'])} of "
+              f"{figures['first_without_set']['of']}. "
               f"At least one of two effects named: {percent(figures['pairs_one']['share'])}. Wrong base, not misnamed plainly: "
               f"{percent(figures['wrong_base_not_misnamed']['share'])} of {figures['wrong_base_not_misnamed']['of']}. Poor designs (two levels, "
               f"nothing held out, part without replicates): set holds the truth {percent(figures['poor']['set'])}, plainly misnamed "

@@ -166,9 +166,13 @@ def main() -> int:
         tasks = [t for t in tasks if t.number in arguments.numbers]
     arguments.folder.mkdir(parents=True, exist_ok=True)
     if arguments.publish:
+        from benchmarks.blind_trial import experiments
         from benchmarks.blind_trial.publish import publish
 
-        publish(finished(arguments.folder), Path("docs/blind_trial.md"), json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8")))
+        about = json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8"))
+        if (arguments.folder / experiments.RESULTS).is_file():
+            about["experiments"] = experiments.counted(arguments.folder)
+        publish(finished(arguments.folder), Path("docs/blind_trial.md"), about)
         return 0
     (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "campaigns": arguments.campaigns}), encoding="utf-8")
     peers = {t.number for t in tasks if arguments.peers and t.number % arguments.peers == 0}

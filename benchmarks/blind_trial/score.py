@@ -48,6 +48,11 @@ class Case:
         return self.verdict in PLAIN
 
     @property
+    def names_something(self) -> bool:
+        """Something is named, whole or in part."""
+        return self.verdict in (ONE, SET, SEVERAL, INCOMPLETE)
+
+    @property
     def physical_alarm(self) -> bool:
         """A part of the reducer is blamed, plainly or as a set without any sensor."""
         return self.verdict in (ONE, SEVERAL, SET) and bool(self.set) and not any(n in CHAIN for n in self.set)
@@ -108,6 +113,8 @@ def score(results: dict[int, dict]) -> dict:
         "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
         "one_name_is_right_all_kinds": counted([c for c in cases if c.verdict == ONE], lambda c: c.names[0] in c.acceptable),
         "first_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.first),
+        "first_without_set": counted([c for c in single if c.strength >= 10 and c.verdict != SET], lambda c: c.first),
+        "held_out_worse": counted([c for c in single if c.strength >= 10 and c.held_out and c.names_something], lambda c: c.held_out[1] > c.held_out[0]),
         "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
         "set_holds_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.covered),
         "set_size": mean([len(c.set) for c in single if c.verdict in (ONE, SET) and c.strength >= 6]),
@@ -125,7 +132,7 @@ def score(results: dict[int, dict]) -> dict:
             "detected": share(here, lambda c: c.verdict != NONE), "size": mean([len(c.set) for c in here if c.verdict in (ONE, SET)]),
             "verdicts": dict(Counter(c.verdict for c in here)),
         }  # fmt: skip
-        errors = [c.held_out for c in here if c.verdict in (ONE, SET, SEVERAL, INCOMPLETE) and c.held_out]
+        errors = [c.held_out for c in here if c.names_something and c.held_out]
         figures["held_out"][s] = {"campaigns": len(errors), "median_ratio": mean([b / a for a, b in errors], np.median),
                                   "worse": mean([b > a for a, b in errors])}  # fmt: skip
     for s in sorted({c.strength for c in outside}):
