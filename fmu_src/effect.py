@@ -19,8 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-import numba
-
+from fmu_src.kernel import CACHE_FOLDER
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
@@ -128,7 +127,7 @@ def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:
             body += [f"    {call}" for call in calls] or ["    pass"]
     text = "\n".join(lines + body) + "\n"
     # A file, because the compiler keeps compiled code only for functions that have one.
-    folder = Path(numba.config.CACHE_DIR) / "composed"
+    folder = CACHE_FOLDER / "composed"
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{package.replace('.', '_')}.py"
     if not file.is_file() or file.read_text(encoding="utf-8") != text:

@@ -46,5 +46,7 @@ if not os.environ.get("NUMBA_CACHE_DIR"):
     use_cache_folder(cache_folder)
     numba.config.CACHE_DIR = str(cache_folder)
 
+CACHE_FOLDER = Path(numba.config.CACHE_DIR)
+
 # The "numpy" error model: a division by zero gives inf as in C, no exception.
 kernel = numba.njit(cache=True, error_model="numpy")

@@ -13,6 +13,7 @@ any symbol beyond libm and the memory functions of libc.
 """
 
 import ctypes
+import hashlib
 import json
 import os
 import subprocess
@@ -21,9 +22,13 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import llvmlite
 import llvmlite.binding as llvm
+import numba
 import numpy as np
 
+from fmu_src.kernel import CACHE_FOLDER
+from fmu_src.source_hash import source_hash
 from fmu_src.unit import Unit, make_unit
 
 ENTRY_POINTS = {"initialise": (), "step": ("double", "double")}
@@ -148,9 +153,36 @@ def object_code(specification: dict, triple: str | None = None) -> bytes:
 
 
 def object_codes(specification: dict, triples: tuple[str, ...]) -> dict[str, bytes]:
-    """Object code of a unit for several targets (LLVM triples).
+    """Object code of a unit for several targets (LLVM triples), kept per user like the kernels."""
+    places = {triple: kept_place(specification, triple) for triple in triples}
+    missing = tuple(triple for triple, place in places.items() if not place.is_file())
+    made = compiled_objects(specification, missing) if missing else {}
+    for triple, code in made.items():
+        keep(places[triple], code)
+    return {triple: made[triple] if triple in made else places[triple].read_bytes() for triple in triples}
 
-    Compiled in a process of its own: the processor's name is global to numba, and code
+
+def kept_place(specification: dict, triple: str) -> Path:
+    """Where the object code is kept: sources and array sizes decide it, start values do not."""
+    versions = (*sys.version_info[:2], numba.__version__, llvmlite.__version__, np.__version__)
+    decided_by = json.dumps([source_hash(), specification["unit"], specification["sizes"], versions], sort_keys=True)
+    name = hashlib.sha256(decided_by.encode()).hexdigest()[:32]
+    return CACHE_FOLDER / "objects" / f"{specification['unit']}-{name}-{triple}.o"
+
+
+def keep(place: Path, code: bytes) -> None:
+    """Writes at once or not at all; a folder that cannot be written ends no build."""
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        partial = place.with_suffix(f".{os.getpid()}")
+        partial.write_bytes(code)
+        partial.replace(place)
+    except OSError:
+        pass
+
+
+def compiled_objects(specification: dict, triples: tuple[str, ...]) -> dict[str, bytes]:
+    """Compiled in a process of its own: the processor's name is global to numba, and code
     that comes from a kernel cache has no LLVM text.
     """
     with tempfile.TemporaryDirectory() as folder:

@@ -78,4 +78,19 @@ def test_exception_in_a_kernel_becomes_a_status():
 @pytest.mark.campaign
 def test_object_code_is_the_same_twice(rv20e):
     specification = rv20e.specification("wear_fmu")
-    assert native.object_code(specification) == native.object_code(specification)
+    triples = (native.host_triple(),)
+    assert native.compiled_objects(specification, triples) == native.compiled_objects(specification, triples)
+
+
+def test_object_code_is_kept_and_serves_other_start_values(rv20e, codes, monkeypatch):
+    monkeypatch.setattr(native, "compiled_objects", lambda *_: pytest.fail("compiled again"))
+    specification = rv20e.specification("wear_fmu")
+    other = specification | {"starts": specification["starts"] | {"mesh_wear_coefficient": 7e-9}}
+    assert native.object_codes(other, tuple(codes["RvWear"])) == codes["RvWear"]
+    larger = specification | {"sizes": specification["sizes"] | {"resolution": {"flank": 91, "pin": 90, "raceway": 180}}}
+    assert native.kept_place(larger, "any") != native.kept_place(specification, "any")
+
+
+def test_a_folder_that_cannot_be_written_ends_no_build(tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    native.keep(tmp_path / "file" / "unit.o", b"code")

@@ -185,7 +185,9 @@ class Diagnostician:
         verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
-        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, [judge], inflation if over else 1.0)
+        # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
+        shown = judge if len(members) > 1 else HeldOutJudge(self.space, local, members, self.orders)
+        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, [shown], inflation if over else 1.0)
 
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
