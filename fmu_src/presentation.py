@@ -3,6 +3,7 @@
 import re
 import struct
 import zlib
+from functools import cache
 from html import escape
 
 import numpy as np
@@ -87,6 +88,7 @@ def diagram(table: Table) -> str:
     return "".join(parts) + "</svg>"
 
 
+@cache
 def picture(size: int) -> bytes:
     """A cycloid disc between pins on three cranks, as PNG."""
     fine = 4
