@@ -152,13 +152,13 @@ def clear_added(r):
     discs, cranks, rollers = r.roller_gap_added.shape
     for d in range(discs):
         for c in range(cranks):
-            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = 0.0
+            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = r.hole_radial_added[d, c] = 0.0
             for k in range(rollers):
                 r.roller_gap_added[d, c, k] = 0.0
         for lobe in range(r.lobe_gap_added.shape[1]):
             r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
     for c in range(cranks):
-        r.seat_tangential_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
+        r.seat_tangential_added[c] = r.seat_radial_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
         r.tooth_gap_rate[c] = r.crank_turn_rate[c] = 0.0
     for j in range(r.pin_x.shape[0]):
         r.pin_radius_added[j] = 0.0

@@ -21,7 +21,7 @@ def disc_offset(r, d):
 def hole(r, d, c, disc_turn):
     """Hole for crank c, from the centre of disc d (x, y) [m]."""
     angle = disc_turn + crank_position(r, c)
-    radial = r.crank_circle_radius + r.disc_hole_error_radial[d, c]
+    radial = r.crank_circle_radius + r.disc_hole_error_radial[d, c] + r.hole_radial_added[d, c]
     tangential = r.disc_hole_error_tangential[d, c] + r.hole_tangential_added[d, c]
     cs, sn = math.cos(angle), math.sin(angle)
     return radial * cs - tangential * sn, radial * sn + tangential * cs
@@ -31,7 +31,7 @@ def hole(r, d, c, disc_turn):
 def seat(r, c, carrier_turn):
     """Seat of crank c, from the centre of the carrier (x, y) [m]."""
     angle = carrier_turn + crank_position(r, c)
-    radial = r.crank_circle_radius + r.carrier_hole_error_radial[c]
+    radial = r.crank_circle_radius + r.carrier_hole_error_radial[c] + r.seat_radial_added[c]
     tangential = r.carrier_hole_error_tangential[c] + r.seat_tangential_added[c]
     cs, sn = math.cos(angle), math.sin(angle)
     return radial * cs - tangential * sn, radial * sn + tangential * cs

@@ -226,6 +226,8 @@ def plant_table(topology: Topology) -> Table:
         state("throw_added", "m", "added to a lobe's throw", bearing, bearing_axes),
         state("lobe_turn_added", "rad", "added to a lobe's direction", bearing, bearing_axes),
         state("hole_tangential_added", "m", "hole in the disc displaced along its circle", bearing, bearing_axes),
+        state("hole_radial_added", "m", "hole in the disc displaced outwards", bearing, bearing_axes),
+        state("seat_radial_added", "m", "crank's seat displaced outwards", (t.cranks,), ("crank",)),
         state("seat_tangential_added", "m", "crank's seat displaced along its circle", (t.cranks,), ("crank",)),
         state("tooth_gap", "m", "what sun and planet lack along the line of action", (t.cranks,), ("crank",)),
         state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", (t.cranks,), ("crank",)),

@@ -62,7 +62,9 @@ def test_single_parts_are_displaced(rv20e):
     alike(t, {"lobe_phase_error": 3e-3, "lobe_error_crank": 2}, with_one(t, "crank_phase_error", (0, 1), 3e-3))
     alike(t, {"disc_hole_shift": 4 * UM, "disc_hole_disc": 2, "disc_hole_crank": 2},
           with_one(t, "disc_hole_error_tangential", (1, 1), 4 * UM))
+    alike(t, {"disc_hole_radial": 4 * UM, "disc_hole_crank": 2}, with_one(t, "disc_hole_error_radial", (0, 1), 4 * UM))
     alike(t, {"carrier_seat_shift": 4 * UM, "carrier_seat_crank": 2}, with_one(t, "carrier_hole_error_tangential", 1, 4 * UM))
+    alike(t, {"carrier_seat_radial": 4 * UM}, with_one(t, "carrier_hole_error_radial", 0, 4 * UM))
 
 
 def test_teeth_of_the_discs_lack_what_the_law_says(rv20e):

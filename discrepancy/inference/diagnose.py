@@ -23,6 +23,18 @@ HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 SURELY = 3.0
 
 
+def few_of_each(scores: Sequence[Score]) -> list[Score]:
+    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects."""
+    counts: dict[str, int] = {}
+    kept = []
+    for s in scores:
+        effect = s.name.partition(".")[0]
+        counts[effect] = counts.get(effect, 0) + 1
+        if counts[effect] <= 2:
+            kept.append(s)
+    return kept
+
+
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
     """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
     return Diagnostician(model, settings, orders).run()
@@ -68,7 +80,7 @@ class Diagnostician:
         if not scores:
             return []
         top = scores[0].statistic
-        chosen = [s for s in scores if s.statistic >= 0.35 * top][: self.settings.shortlist]
+        chosen = few_of_each([s for s in scores if s.statistic >= 0.35 * top])[: self.settings.shortlist]
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
@@ -90,7 +102,7 @@ class Diagnostician:
         while len(current.candidates) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
-            promising = [s for s in more.scores if s.p_adjusted < settings.second_level][:4]
+            promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:4]
             promising = [s for s in promising if s.statistic >= HOPELESS * promising[0].statistic]
             if not promising:
                 break
@@ -100,7 +112,7 @@ class Diagnostician:
             challenger = min(trials, key=penalised)
             newest = challenger.candidates[-1].name
             if len(names) == 1:
-                for other in self.screening.scores[:5]:
+                for other in few_of_each(self.screening.scores)[:5]:
                     if other.name in (names[0], newest) or frozenset([other.name, newest]) in self.fitted:
                         continue
                     if joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * challenger.gain:
@@ -182,7 +194,8 @@ class Diagnostician:
             # Runs that were not fitted are not explained, or are further off than before.
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after}
-        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings)
+        one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
+        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
@@ -192,7 +205,8 @@ class Diagnostician:
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
-        near = [r for r in rivals if r not in members and penalised(r) - least <= self.settings.adequate_margin]
+        margin = max(self.settings.adequate_margin, self.settings.form_margin * members[0].gain)
+        near = [r for r in rivals if r not in members and penalised(r) - least <= margin]
         return [r for r in near if not self.leftover(r)[0]]
 
     def _dof(self, result):
@@ -207,7 +221,7 @@ class Diagnostician:
         more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
-        for s in more.scores[:4]:
+        for s in few_of_each(more.scores)[:4]:
             if s.name == member.name or s.statistic < HOPELESS_STAND_IN * needed:
                 continue
             rival = self.fit([*rest, s.name], own, [s])

@@ -189,7 +189,7 @@ class Workspace:
         theta = dict(self.base.values)
         values = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
         # A nuisance that the base model hardly shows stays where it is, rather than running to its bounds.
-        width = np.array([0.5 * (p.upper - p.lower) for p in nuisances])
+        width = np.array([50.0 * (p.upper - p.lower) for p in nuisances])
         inverse = np.linalg.pinv(self.base.normal + np.diag(width**-2.0), hermitian=True)
         frozen = self.base.jacobian
         base = dict(zip(self.training, self.predictions(theta, self.training)))

@@ -23,6 +23,7 @@ class Settings:
     second_gain: float = 0.10
     margin: float = 6.0
     adequate_margin: float = 10.0
+    form_margin: float = 0.05
     shortlist: int = 7
     most_effects: int = 3
     draws: int = 2000
@@ -85,8 +86,8 @@ class Diagnosis:
 
 
 def decide(significant_candidate: bool, significant_place: bool, named: int, members: int, captured: float, leftover: bool,
-           settings: Settings) -> tuple[str, str]:
-    """Verdict and the reason for it."""
+           settings: Settings, one_sensor: bool = False) -> tuple[str, str]:
+    """Verdict and the reason for it.  ``one_sensor``: what is named are several errors of one signal's sensor."""
     if not significant_candidate and not significant_place:
         return NONE, "no effect and no generic function is significant against the noise of the replicates"
     if not significant_candidate or named == 0:
@@ -95,6 +96,8 @@ def decide(significant_candidate: bool, significant_place: bool, named: int, mem
         return UNKNOWN, f"the best effect captures only {100 * captured:.0f} % of the misfit"
     if leftover:
         return INCOMPLETE, "what is named leaves a significant misfit"
+    if named > 1 and one_sensor:
+        return INCOMPLETE, "it takes several errors of one sensor: look at its calibration, or at a law that the catalogue lacks"
     if named > 1:
         return SEVERAL, "more than one effect is needed, each significant beside the others"
     if members > 1:

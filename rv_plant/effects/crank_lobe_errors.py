@@ -21,7 +21,7 @@ EFFECT = Effect(
         choice("lobe_error_disc", "disc whose lobe it is", 1, 1, 3),
         choice("lobe_error_crank", "crank whose lobe it is", 1, 1, 3),
     ),
-    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion"),
+    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )
 
 

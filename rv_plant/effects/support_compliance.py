@@ -12,8 +12,8 @@ from fmu_src.kernel import kernel
 from rv_plant.gear_stage import planet_radius
 
 
-def _spring(name, unit, text, scale, high):
-    return amplitude(name, unit, text, scale, 0.0, high, sign=1, source="assumed: rigid, as in both sources")
+def _spring(name, unit, text, scale, high, group):
+    return amplitude(name, unit, text, scale, 0.0, high, sign=1, source="assumed: rigid, as in both sources", group=group)
 
 
 EFFECT = Effect(
@@ -23,11 +23,11 @@ EFFECT = Effect(
     "linear in torque, without hysteresis and without change in time; lower stiffness and resonance; the contacts"
     " themselves stiffen with load and have a knee at the clearance",
     (
-        _spring("carrier_compliance", "rad/(N.m)", "twist between crank seats and output flange", 1e-7, 1e-2),
-        _spring("housing_compliance", "rad/(N.m)", "turning of the pin ring under its torque", 1e-7, 1e-2),
-        _spring("crank_support_compliance", "m/N", "bearings of one crank in the carrier", 1e-9, 1e-3),
-        _spring("main_bearing_compliance", "m/N", "bearings of the carrier in the housing", 1e-9, 1e-3),
-        _spring("first_stage_compliance", "m/N", "one tooth contact of sun and planet, along its normal", 1e-8, 1e-3),
+        _spring("carrier_compliance", "rad/(N.m)", "twist between crank seats and output flange", 1e-7, 1e-2, "carrier"),
+        _spring("housing_compliance", "rad/(N.m)", "turning of the pin ring under its torque", 1e-7, 1e-2, "housing"),
+        _spring("crank_support_compliance", "m/N", "bearings of one crank in the carrier", 1e-9, 1e-3, "crank supports"),
+        _spring("main_bearing_compliance", "m/N", "bearings of the carrier in the housing", 1e-9, 1e-3, "main bearings"),
+        _spring("first_stage_compliance", "m/N", "one tooth contact of sun and planet, along its normal", 1e-8, 1e-3, "first stage"),
     ),
     signals=("hysteresis", "lost_motion", "torsional_stiffness", "transmission_error", "vibration"),
 )
