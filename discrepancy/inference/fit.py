@@ -177,7 +177,7 @@ class Workspace:
         normal = jacobian.T @ jacobian + np.diag(precision)
         shift = np.array([values[p.name] - p.off for p in parameters])
         chi2 = float(residual @ residual + np.sum(precision * shift**2))
-        at_bounds = tuple(p.name for p in parameters if values[p.name] - p.lower < 1e-3 * p.scale * (p.lower != p.off) + 1e-12 * p.scale
+        at_bounds = tuple(p.name for p in parameters if p.lower != p.off and values[p.name] - p.lower < 1e-3 * p.scale
                           or p.upper - values[p.name] < 1e-3 * p.scale)
         return Fit(tuple(parameters), dict(values), residual, jacobian, chi2, candidates, at_bounds, converged, normal)
 
