@@ -28,8 +28,8 @@ MEAN_POSITIONS = 18
 # Longest and first stretch of hours that one wear cycle stands for.
 LONGEST_JUMP, FIRST_JUMP = 1000.0 * HOUR, 50.0 * HOUR
 # Turns of the cranks in a wear cycle.  The base model's wear is run through full meshing cycles, once;
-# how it changes in proportion through shorter ones of fewer positions, which err by 1 to 4 % of the change.
-SHORT_CYCLE, SHORT_POSITIONS = 7, 18
+# how it changes in proportion through shorter ones of fewer positions, which err by 1 to 6 % of the change by a law of wear.
+SHORT_CYCLE, SHORT_POSITIONS = 5, 18
 # Out-of-balance force over load: errors of 1e-5 arcsec.
 TOLERANCE = 1e-7
 # Held test: turning is averaged over positions of the cranks.
