@@ -14,7 +14,7 @@ UNKNOWN = "unknown"
 class Settings:
     """Thresholds.  Levels are for all tests of one kind together."""
 
-    screen_level: float = 0.0001
+    screen_level: float = 0.002
     localise_level: float = 0.0008
     naming_level: float = 0.02
     leftover_level: float = 0.0015
