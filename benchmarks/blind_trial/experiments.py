@@ -17,13 +17,13 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.designs import Series
+from benchmarks.blind_trial.generator.designs import Series, there_and_back
 from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
 from benchmarks.blind_trial.generator.noise import noise_for, round_to
 from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.run import finished
-from benchmarks.blind_trial.score import ONE, SET, Case, wilson
+from benchmarks.blind_trial.score import ONE, SET, Case, counted
 
 RESULTS = "experiments.jsonl"
 RIG = """[rig]
@@ -67,8 +67,7 @@ def series_of(name: str, settings: dict[str, float], made: Drawn, rng: np.random
     if quantity == "transmission_error":
         axes = {"angle": np.linspace(0.0, 2.0 * np.pi, 450, endpoint=False)}
     elif quantity == "hysteresis":
-        up = (np.arange(10) + 0.5) / 9.5 * 167.0
-        axes, tags = {"torque": np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])}, {"locked": "input"}
+        axes, tags = {"torque": there_and_back(167.0, 10)}, {"locked": "input"}
     elif quantity in ("vibration_order", "wear_profile"):
         axes = known.axes
     else:
@@ -113,12 +112,11 @@ def one(result: dict, folder: Path) -> dict:
     return found | {"verdict": proposed.verdict, "rivals": proposed.rivals, "choices": len(proposals)}
 
 
-def counted(folder: Path) -> dict[str, dict]:
+def resolved(folder: Path) -> dict[str, dict]:
     """Shares of campaigns that were resolved, with 95 % intervals."""
     lines = [json.loads(line) for line in (folder / RESULTS).read_text(encoding="utf-8").splitlines()]
     both = [line for line in lines if "proposed" in line]
-    counts = {kind: sum(line[kind]["resolved"] for line in both) for kind in ("proposed", "random")}
-    return {kind: {"count": k, "of": len(both), "share": k / max(len(both), 1), "interval": wilson(k, len(both))} for kind, k in counts.items()}
+    return {kind: counted(both, lambda line, kind=kind: line[kind]["resolved"]) for kind in ("proposed", "random")}
 
 
 def main() -> int:
@@ -141,7 +139,7 @@ def main() -> int:
             lines.flush()
             print(found["number"], *found["law"], {k: (found[k]["experiment"], found[k]["verdict"], *found[k]["names"])
                                                    for k in ("proposed", "random") if k in found} or found["verdict"], flush=True)  # fmt: skip
-    print(json.dumps(counted(arguments.folder), indent=1))
+    print(json.dumps(resolved(arguments.folder), indent=1))
     return 0
 
 

@@ -171,7 +171,7 @@ def main() -> int:
 
         about = json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8"))
         if (arguments.folder / experiments.RESULTS).is_file():
-            about["experiments"] = experiments.counted(arguments.folder)
+            about["experiments"] = experiments.resolved(arguments.folder)
         publish(finished(arguments.folder), Path("docs/blind_trial.md"), about)
         return 0
     (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "campaigns": arguments.campaigns}), encoding="utf-8")

@@ -82,9 +82,7 @@ def loops(design: Design, rng, size: str) -> None:
     held = 0 if size == "poor" else 1
     steps = {"tiny": 7, "small": 10, "poor": 12, "middle": 16, "rich": 24}[size]
     peak = 167.0 if size == "tiny" else float(rng.choice([167.0, 200.0, 250.0]))
-    # No point at no torque: there the output floats in its play, and nothing says where.
-    up = (np.arange(steps) + 0.5) / (steps - 0.5) * peak
-    way = np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
+    way = there_and_back(peak, steps)
     for k, temperature in enumerate(temperatures):
         name = f"loop{k + 1}"
         setting = Setting(200.0, 167.0, temperature + 0.15)
@@ -92,6 +90,12 @@ def loops(design: Design, rng, size: str) -> None:
         if k >= len(temperatures) - held:
             design.held_out.add(name)
         design.series.append(Series("hysteresis", name, setting, noise, {"torque": way}, tags={"locked": "input"}))
+
+
+def there_and_back(peak: float, steps: int) -> np.ndarray:
+    """Torques [N m] of a loop; none at no torque: there the output floats in its play, and nothing says where."""
+    up = (np.arange(steps) + 0.5) / (steps - 0.5) * peak
+    return np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
 
 
 def torque(design: Design, rng, size: str) -> None:
