@@ -103,7 +103,8 @@ class Diagnostician:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:4]
-            promising = [s for s in promising if s.statistic >= HOPELESS * promising[0].statistic]
+            least = max(settings.second_gain * first, 12.0)
+            promising = [s for s in promising if s.statistic >= HOPELESS * max(promising[0].statistic, least)]
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -45,6 +46,12 @@ def condition_of(bench: Bench, record: Record) -> Condition:
     return Condition(*first, int(record.factors.get("direction", 1)))
 
 
+def identity(record: Record) -> tuple:
+    """What a prediction depends on in a record: equal for runs that repeat each other."""
+    axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
+    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
+
+
 def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
     """Output angles [rad] of the samples."""
     condition = condition_of(bench, record)
@@ -74,14 +81,9 @@ def angle_zero(record: Record) -> str:
     return f"angle_zero[{record.mounting}]"
 
 
-def level(record: Record) -> str:
-    """Nuisance: where an encoder's difference is counted from."""
-    return f"level[{record.quantity},{record.mounting},{record.condition},{record.replicate}]"
-
-
 def transmission_error(bench, record, values):
     error = along(bench, record, values, "transmission_error")
-    return error - error.mean() + values.get(level(record), 0.0)
+    return error - error.mean()
 
 
 def transmission_error_beside(bench, record, values, base):
@@ -91,7 +93,7 @@ def transmission_error_beside(bench, record, values, base):
         return transmission_error(bench, record, values)
     angles, place = as_turned(bench, record, values)
     error = bench.error_beside(condition, values, angles, base, as_turned(bench, record, base)[0])[place]
-    return error - error.mean() + values.get(level(record), 0.0)
+    return error - error.mean()
 
 
 def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> np.ndarray:
@@ -108,7 +110,7 @@ def hysteresis(bench, record, values):
     first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
     lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
     turning = bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
-    return turning + values.get(level(record), 0.0)
+    return turning
 
 
 def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
@@ -121,12 +123,12 @@ def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
     turning = bench.held(held_condition(bench, record), elastic, table)
     friction, share, presliding = (values.get(n, float(bench.templates[0][n][0])) for n in DRIVE_FRICTION)
     if friction + share == 0.0:
-        return np.interp(applied, table, turning) + values.get(level(record), 0.0)
+        return np.interp(applied, table, turning)
     found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
     # The ramp before left the elements somewhere: it was the same ramp.
     for _ in range(2):
         locked_output_loop(turning, table, applied, friction, share, presliding, sliders, found)
-    return found + values.get(level(record), 0.0)
+    return found
 
 
 def held_condition(bench: Bench, record: Record) -> Condition:
@@ -236,10 +238,13 @@ def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Reco
     """
 
     def observed(bench: Bench, record: Record, values: Values) -> np.ndarray:
+        full, base, share = bench.kept(("in proportion", measure.__name__, *identity(record)), lambda: in_proportion(bench, record))
+        return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
+
+    def in_proportion(bench: Bench, record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         full, base = (measure(bench, record, {}, turns) for turns in (bench.reducer.topology.lobes, SHORT_CYCLE))
         worn = np.abs(base) > LEAST_WORN * np.abs(base).max()
-        share = np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
-        return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
+        return full, base, np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
 
     observed.__name__ = measure.__name__
     return observed
@@ -247,15 +252,14 @@ def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Reco
 
 def inspections(bench: Bench, record: Record, values: Values, turns: int) -> list[np.ndarray]:
     """The wear unit's record at every row's hours."""
-    rows = row_conditions(bench, record)
-    found: list[np.ndarray] = []
-    by_run: dict[tuple, list[float]] = {}
-    for c in rows:
-        by_run.setdefault((c.speed, c.load, c.temperature, c.direction), []).append(c.hours)
-    for c in rows:
-        hours = sorted(set(by_run[c.speed, c.load, c.temperature, c.direction]))
-        found.append(bench.wear_to(c, values, hours, turns)[c.hours])
-    return found
+    by_run: dict[Condition, dict[int, float]] = {}
+    for row, c in enumerate(row_conditions(bench, record)):
+        by_run.setdefault(replace(c, hours=0.0), {})[row] = c.hours
+    found: dict[int, np.ndarray] = {}
+    for condition, hours in by_run.items():
+        worn = bench.wear_to(condition, values, sorted(set(hours.values())), turns)
+        found.update((row, worn[h]) for row, h in hours.items())
+    return [found[row] for row in range(len(found))]
 
 
 def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:

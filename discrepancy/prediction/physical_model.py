@@ -16,7 +16,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import OBSERVED, angle_zero, error_with_cages, transmission_error_beside
+from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
 from orchestrator.faults import InputFault, RunFault
 
@@ -31,6 +31,8 @@ LONG = 40
 ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
 IMPOSSIBLE = 100.0
+# Kept predictions: those of one call, of all its runs that repeat each other.
+MOST_SHOWN = 200
 # Share of the rated torque below which a held output has no defined place.
 FLOATING = 0.01
 
@@ -62,6 +64,8 @@ class PhysicalModel:
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         self.ripples: dict[str, np.ndarray] = {}
+        self.identities = {id(record): identity(record) for record in self.records}
+        self.shown: dict[tuple, np.ndarray] = {}
         if zeros is None:
             self.align(always=len(nuisances) < len(campaign.nuisances))
             self.place_cages()
@@ -165,11 +169,9 @@ class PhysicalModel:
 
     def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> np.ndarray:
         own = self.for_record(record, values)
+        first_order = beside is not None and record.quantity == "transmission_error"
         try:
-            if beside is not None and record.quantity == "transmission_error":
-                predicted = transmission_error_beside(self.bench, record, own, self.for_record(record, beside))
-            else:
-                predicted = np.asarray(OBSERVED[record.quantity](self.bench, record, own), float)
+            predicted = self.observed(record, own, self.for_record(record, beside) if first_order else None)
         except RunFault:
             if not self.bench.relevant(values, True):
                 raise
@@ -191,6 +193,18 @@ class PhysicalModel:
         if record.quantity in ZEROED:
             predicted = predicted - predicted.mean() + record.values.mean()
         return predicted
+
+    def observed(self, record: Record, own: Values, beside: Values | None) -> np.ndarray:
+        """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
+        key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), beside and tuple(beside.items()))
+        if key not in self.shown:
+            if len(self.shown) > MOST_SHOWN:
+                self.shown.clear()
+            self.shown[key] = np.asarray(
+                OBSERVED[record.quantity](self.bench, record, own) if beside is None else
+                transmission_error_beside(self.bench, record, own, beside), float
+            )  # fmt: skip
+        return self.shown[key]
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """Values with those of this record's mounting, condition or run under the plain name."""
