@@ -16,6 +16,7 @@ SHOWN_BY = {
 }  # fmt: skip
 # Searched by hand only: which pin stands out is a search of its own.
 NOT_SEARCHED = {"proud"}
+MOST_CRANKS = 3
 
 
 def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
@@ -42,7 +43,7 @@ def shape_grid(shapes: Iterable[EffectParameter]) -> tuple[dict[str, float], ...
 
 
 def candidates(
-    records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0
+    records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0, cranks: int = 2
 ) -> tuple[Candidate, ...]:
     """Every effect that the records can show and that is not among the nuisances.
 
@@ -51,6 +52,8 @@ def candidates(
     """
     quantities = list(dict.fromkeys(r.quantity for r in records))
     there = {"": True, "output pins": output_pins > 0, "locked output": any(r.tags.get("locked") == "output" for r in records)}
+    # Groups of cranks and holes that this reducer does not have.
+    beyond = {f"{part} {k}" for part in ("crank", "hole") for k in range(cranks + 1, MOST_CRANKS + 1)}
     found = []
     for name, effect in every_effect().items():
         part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
@@ -62,7 +65,7 @@ def candidates(
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
-            if group in NOT_SEARCHED or names & excluded or names & present.keys():
+            if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys():
                 continue
             estimated = [p for p in shapes if p.grid and p.variable.name not in excluded]
             title = f"{effect.title}: {group}" if group else effect.title

@@ -76,7 +76,7 @@ class PhysicalModel:
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
-            self.records, present, excluded, mountings, model.reducer.topology.output_pins
+            self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
         )
         self.complete = True
 

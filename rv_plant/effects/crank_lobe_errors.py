@@ -1,6 +1,8 @@
-"""One lobe of one crank with another throw or turned against its twin.
+"""Lobes of the cranks, at one disc, with another throw or turned against their twins.
 
     lobe centre = (e + de) (cos, sin)(theta + offset + dphi)
+
+With two cranks an error at the other disc shows as that of the other crank's lobe at this disc.
 
 Source: geometry of ground cranks, +-3 um and +-3 arcmin.
 """
@@ -16,10 +18,15 @@ EFFECT = Effect(
     "an error of one lobe alone gives order 40 (3 um: 5 arcsec), load split between the cranks and pin force;"
     " errors common to a disc or a crank give no 40 but change the mean",
     (
-        amplitude("lobe_throw_error", "m", "throw of one lobe above nominal", 2 * UM, -30 * UM, 30 * UM),
-        amplitude("lobe_phase_error", "rad", "turning of one lobe", 5e-4, -1e-2, 1e-2),
-        choice("lobe_error_disc", "disc whose lobe it is", 1, 1, 3),
-        choice("lobe_error_crank", "crank whose lobe it is", 1, 1, 3),
+        *(
+            parameter
+            for k in (1, 2, 3)
+            for parameter in (
+                amplitude(f"lobe_throw_error_{k}", "m", f"throw of crank {k}'s lobe above nominal", 2 * UM, -30 * UM, 30 * UM, group=f"crank {k}"),
+                amplitude(f"lobe_phase_error_{k}", "rad", f"turning of crank {k}'s lobe", 5e-4, -1e-2, 1e-2, group=f"crank {k}"),
+            )
+        ),
+        choice("lobe_error_disc", "disc whose lobes they are", 1, 1, 3),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )
@@ -28,6 +35,10 @@ EFFECT = Effect(
 @kernel
 def prepare(r):
     discs, cranks = r.throw_added.shape
-    if r.lobe_error_disc <= discs and r.lobe_error_crank <= cranks:
-        r.throw_added[r.lobe_error_disc - 1, r.lobe_error_crank - 1] += r.lobe_throw_error
-        r.lobe_turn_added[r.lobe_error_disc - 1, r.lobe_error_crank - 1] += r.lobe_phase_error
+    if r.lobe_error_disc > discs:
+        return
+    throw = (r.lobe_throw_error_1, r.lobe_throw_error_2, r.lobe_throw_error_3)
+    turned = (r.lobe_phase_error_1, r.lobe_phase_error_2, r.lobe_phase_error_3)
+    for c in range(min(cranks, 3)):
+        r.throw_added[r.lobe_error_disc - 1, c] += throw[c]
+        r.lobe_turn_added[r.lobe_error_disc - 1, c] += turned[c]
