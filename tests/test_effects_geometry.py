@@ -50,7 +50,8 @@ def with_one(table, name, index, value):
     ({"pin_ring_runout": 5 * UM, "pin_ring_runout_angle": 0.7}, 5 * UM * np.cos(ETA - 0.7), -5 * UM * np.sin(ETA - 0.7)),
     ({"pin_ring_ovality": 5 * UM, "pin_ring_ovality_angle": 0.4}, 5 * UM * np.cos(2 * (ETA - 0.4)), 0.0 * ETA),
     ({"pin_ring_trilobe": 5 * UM, "pin_ring_trilobe_angle": 0.2}, 5 * UM * np.cos(3 * (ETA - 0.2)), 0.0 * ETA),
-], ids=["off centre", "oval", "three lobes"])
+    ({"pin_ring_cos_4": 2 * UM, "pin_ring_sin_6": 1 * UM}, 2 * UM * np.cos(4 * ETA) + 1 * UM * np.sin(6 * ETA), 0.0 * ETA),
+], ids=["off centre", "oval", "three lobes", "harmonics"])
 def test_pins_are_moved(rv20e, effect, radial, tangential):
     alike(rv20e.plant, effect, {"pin_position_error_radial": radial, "pin_position_error_tangential": tangential})
 

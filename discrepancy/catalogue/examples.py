@@ -45,6 +45,7 @@ CASES: dict[str, tuple[Case, ...]] = {
         Case("ring with three lobes of 5 um", {"pin_ring_trilobe": 5 * UM}),
         Case("one pin 5 um thicker", {"proud_pin": 5 * UM}),
         Case("random places, 2 um", {"pin_scatter": 2 * UM}),
+        Case("four and six lobes of 2 um", {"pin_ring_cos_4": 2 * UM, "pin_ring_sin_6": 2 * UM}),
     ),
     "disc_tooth_errors": (
         Case("both discs 4 um off centre, opposed", {"disc_runout": 4 * UM}),

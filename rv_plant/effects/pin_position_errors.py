@@ -1,6 +1,6 @@
 """Pins out of place: ring off centre, oval, tapered in threes, one proud pin, random places.
 
-    radial shift of pin j   a = A1 cos(eta - d1) + A2 cos 2(eta - d2) + A3 cos 3(eta - d3) + s w_j
+    radial shift of pin j   a = A1 cos(eta - d1) + A2 cos 2(eta - d2) + A3 cos 3(eta - d3) + sum_m (c_m cos m eta + s_m sin m eta) + s w_j
     pin radius              r + p for the proud pin
 
 with eta = 2 pi j/z_p.  A ring off centre shifts pins by (A1 cos, -A1 sin) along (radial,
@@ -16,6 +16,8 @@ from fmu_src.effect import Effect, amplitude, choice, shape
 from fmu_src.kernel import kernel
 
 UM = 1e-6
+# A worn or badly bored ring has them all; the first one moves the ring.
+HARMONICS = (2, 3, 4, 5, 6)
 EFFECT = Effect(
     7, "pin position errors",
     "a_j = A1 cos(eta_j - d1) + A2 cos 2(eta_j - d2) + A3 cos 3(eta_j - d3) + s w_j; proud pin: r + p",
@@ -31,6 +33,11 @@ EFFECT = Effect(
               grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
         amplitude("pin_ring_trilobe", "m", "pin ring with three lobes, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="trilobe"),
         shape("pin_ring_trilobe_angle", "rad", "direction of one", 0.0, -20.0, 20.0, "assumed", grid=(0.0, 0.5236, 1.0472, 1.5708), group="trilobe"),
+        *(
+            amplitude(f"pin_ring_{wave}_{m}", "m", f"radial places of the pins, {name} of harmonic {m}", 2 * UM, -50 * UM, 50 * UM,
+                      group="harmonics")
+            for m in HARMONICS for wave, name in (("cos", "cosine"), ("sin", "sine"))
+        ),
         amplitude("proud_pin", "m", "radius of one pin above nominal", 3 * UM, -50 * UM, 50 * UM, group="proud"),
         choice("proud_pin_number", "which pin is proud"),
         amplitude("pin_scatter", "m", "scatter of the pins' radial places, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
@@ -49,11 +56,15 @@ def scatter(j):
 @kernel
 def prepare(r):
     pins = r.pin_x.shape[0]
+    cosines = (r.pin_ring_cos_2, r.pin_ring_cos_3, r.pin_ring_cos_4, r.pin_ring_cos_5, r.pin_ring_cos_6)
+    sines = (r.pin_ring_sin_2, r.pin_ring_sin_3, r.pin_ring_sin_4, r.pin_ring_sin_5, r.pin_ring_sin_6)
     for j in range(pins):
         eta = r.pin_angle[j]
         radial = r.pin_ring_ovality * math.cos(2.0 * (eta - r.pin_ring_ovality_angle))
         radial += r.pin_ring_trilobe * math.cos(3.0 * (eta - r.pin_ring_trilobe_angle))
         radial += r.pin_scatter * scatter(j)
+        for k in range(len(cosines)):
+            radial += cosines[k] * math.cos(HARMONICS[k] * eta) + sines[k] * math.sin(HARMONICS[k] * eta)
         c, s = math.cos(eta), math.sin(eta)
         r.pin_x[j] += radial * c + r.pin_ring_runout * math.cos(r.pin_ring_runout_angle)
         r.pin_y[j] += radial * s + r.pin_ring_runout * math.sin(r.pin_ring_runout_angle)
