@@ -10,7 +10,7 @@ from benchmarks.blind_trial.generator.outside import OUTSIDE
 STRENGTHS = (4.0, 6.0, 8.0, 12.0, 20.0, 40.0)
 OUTSIDE_STRENGTHS = (6.0, 10.0, 20.0, 40.0)
 # Mostly small: a rich campaign costs as much as ten small ones and tells no more about the rates.
-SIZE_ODDS = {"small": 0.8, "middle": 0.17, "rich": 0.03}
+SIZE_ODDS = {"small": 0.94, "middle": 0.05, "rich": 0.01}
 # One round; a trial repeats rounds with other seeds.
 NULLS, PAIRS, WRONG_BASES, POOR_EFFECTS, POOR_NULLS = 90, 40, 24, 30, 12
 

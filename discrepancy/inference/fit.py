@@ -185,7 +185,8 @@ class Workspace:
         """Nuisances and the parameters of ``candidates``, from ``start``."""
         own = tuple(p for c in candidates for p in c.parameters)
         nuisances = self.model.nuisances
-        which = [i for i in self.training if any(i in self.touched(c) for c in candidates)]
+        shows = {p.name: [i for i in self.touched(c) if i in self.rows] for c in candidates for p in c.parameters}
+        which = sorted({i for indices in shows.values() for i in indices})
         theta = dict(self.base.values)
         values = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
         # A nuisance that the base model hardly shows stays where it is, rather than running to its bounds.
@@ -205,7 +206,7 @@ class Workspace:
             return float(r @ r - g @ inverse @ g), r
 
         def columns_of(v):
-            return np.column_stack([self.whiten(self.column({**theta, **v}, p, which)) for p in own])
+            return np.column_stack([self.whiten(self.column({**theta, **v}, p, shows[p.name])) for p in own])
 
         values, converged, columns = self._descend(own, values, cost_of, columns_of, inverse, frozen, theta, iterations)
         # nuisances that go with it, then full predictions

@@ -32,7 +32,6 @@ class Block:
     shape: dict[str, float]
     columns: slice
     signs: tuple[int, ...]
-    amplitude: float
 
 
 @dataclass(frozen=True)
@@ -77,7 +76,8 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
         seen: list[np.ndarray] = []
         for shape in candidate.shape_grid or ({},):
             at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
-            sizes = [TYPICAL] if linear else [TYPICAL, SMALL]
+            # The small one is cheap, and enough where the large one showed the same at the first shape.
+            sizes = [SMALL] if linear else [TYPICAL, SMALL]
             two_sided = any(p.sign == 0 for p in candidate.amplitudes)
             made = {}
             for size in sizes:
@@ -97,7 +97,7 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
                 # a difference over a large amplitude of a curved effect is only valid on its own side
                 signs = tuple((p.sign or (int(np.sign(size)) if not linear and abs(size) == TYPICAL and len(candidate.amplitudes) == 1 else 0))
                               for p in candidate.amplitudes)
-                blocks.append(Block(k, dict(shape), slice(width, width + block.shape[1]), signs, abs(size)))
+                blocks.append(Block(k, dict(shape), slice(width, width + block.shape[1]), signs))
                 width += block.shape[1]
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
 
@@ -121,8 +121,11 @@ def _block(space, candidate, at, which, size):
         if step == 0.0:
             columns.append(np.zeros(space.size))
             continue
-        high = space.predictions({**at, p.name: p.off + step}, which)
-        low = space.predictions(at, which)
+        moved = {**at, p.name: p.off + step}
+        if abs(size) == SMALL:
+            high, low = space.predictions.beside(moved, at, which), space.predictions.beside(at, at, which)
+        else:
+            high, low = space.predictions(moved, which), space.predictions(at, which)
         columns.append(space.whiten({i: (a - b) / step * p.scale for i, a, b in zip(which, high, low)}))
     return np.column_stack(columns)
 

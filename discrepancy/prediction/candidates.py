@@ -16,6 +16,8 @@ SHOWN_BY = {
 }  # fmt: skip
 # Searched by hand only: which pin stands out is a search of its own.
 NOT_SEARCHED = {"proud"}
+# So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
+PATTERNS = {"harmonics": ("transmission_error",)}
 MOST_CRANKS = 3
 
 
@@ -65,7 +67,8 @@ def candidates(
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
-            if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys():
+            seen = PATTERNS.get(group, signals)
+            if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys() or seen and not set(seen) & set(quantities):
                 continue
             estimated = [p for p in shapes if p.grid and p.variable.name not in excluded]
             title = f"{effect.title}: {group}" if group else effect.title
@@ -73,7 +76,7 @@ def candidates(
                 f"{name}.{group.replace(' ', '_')}" if group else name, title,
                 tuple(parameter_of(p, float(p.variable.start)) for p in amplitudes),
                 tuple(parameter_of(p, float(p.variable.start)) for p in estimated),
-                shape_grid(estimated), signals, part,
+                shape_grid(estimated), seen, part,
             ))  # fmt: skip
     return tuple(found)
 

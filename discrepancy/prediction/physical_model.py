@@ -196,7 +196,7 @@ class PhysicalModel:
 
     def observed(self, record: Record, own: Values, beside: Values | None) -> np.ndarray:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
-        key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), beside and tuple(beside.items()))
+        key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), None if beside is None else tuple(beside.items()))
         if key not in self.shown:
             if len(self.shown) > MOST_SHOWN:
                 self.shown.clear()
