@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from benchmarks.blind_trial.generator.make import LAWS
+
 NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
     "none", "one effect", "set", "several effects", "named but incomplete", "unknown", "crash")  # fmt: skip
 PLAIN = (ONE, SEVERAL)
@@ -14,6 +16,13 @@ CHAIN = ("sensor_gain", "sensor_offset", "sensor_drift", "clock_slip", "encoder_
 def effect_of(name: str) -> str:
     """The effect of a candidate's name: what stands before the dot."""
     return name.partition(".")[0]
+
+
+def meant(law: dict) -> dict[str, float]:
+    """Parameters of the catalogue that mean the same as numbers of a hidden law, which are sealed."""
+    truth = object.__new__(LAWS[law["law"]])
+    truth.__dict__.update({k: np.asarray(v) if isinstance(v, list) else v for k, v in law["numbers"].items()})
+    return truth.parameters()
 
 
 class Case:
@@ -69,7 +78,7 @@ class Case:
     def coverage(self) -> Iterable[tuple[str, bool, bool]]:
         """(parameter, whether its interval holds the truth, whether the answer was plain)."""
         for law in self.truth["laws"]:
-            for name, value in law["parameters"].items():
+            for name, value in meant(law).items():
                 for e in self.answer["effects"]:
                     entry = e["parameters"].get(name)
                     if entry and entry.get("interval"):

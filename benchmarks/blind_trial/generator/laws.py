@@ -460,6 +460,10 @@ class Encoder(Truth):
         error = np.arcsin(self.a * np.sin(angle + self.phase)) + self.second * self.a * np.sin(2.0 * angle + self.phase)
         return y + error - error.mean()
 
+    def parameters(self):
+        sine, cosine = self.a * math.sin(self.phase), self.a * math.cos(self.phase)
+        return {"encoder_cos1[1]": sine, "encoder_sin1[1]": cosine, "encoder_cos2[1]": self.second * sine, "encoder_sin2[1]": self.second * cosine}
+
 
 class GainFault(Truth):
     """A torque meter with a wrong slope, a little curved."""
@@ -472,6 +476,9 @@ class GainFault(Truth):
 
     def chain(self, series, y, rows, run):
         return y * (1.0 + self.sign * self.a) + 0.02 * self.a * y * np.abs(y)
+
+    def parameters(self):
+        return {"sensor_gain[input_torque]": self.sign * self.a}
 
 
 class OffsetFault(Truth):
