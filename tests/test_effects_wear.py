@@ -175,12 +175,18 @@ def test_edge_carries_what_a_tilted_contact_gives(rv20e, tilt):
 
     middle = brentq(total, -2.0 * mean, 2.0 * mean)
     expected = strip(0.5 * length, middle) / mean ** (10.0 / 9.0)
-    assert factor(edge_loading, rv20e.wear, line_load=load / length, misalignment=tilt) == pytest.approx(expected, rel=0.05)
+    assert factor(edge_loading, rv20e.wear, line_load=load / length, roller_misalignment=tilt) == pytest.approx(expected, rel=0.05)
 
 
 def test_edges_count_more_at_light_load(rv20e):
-    light, heavy = (factor(edge_loading, rv20e.wear, line_load=q / 8e-3, misalignment=6e-5) for q in (100.0, 650.0))
+    light, heavy = (factor(edge_loading, rv20e.wear, line_load=q / 8e-3, roller_misalignment=6e-5) for q in (100.0, 650.0))
     assert light == pytest.approx(1.6, abs=0.1) and heavy == pytest.approx(1.1, abs=0.05)
+
+
+def test_discs_and_rollers_tilt_on_their_own(rv20e):
+    flank, race = ({"surface": surface, "line_load": 1e4} for surface in (FLANK, INNER))
+    assert factor(edge_loading, rv20e.wear, **flank, misalignment=6e-5) > 1.0 == factor(edge_loading, rv20e.wear, **race, misalignment=6e-5)
+    assert factor(edge_loading, rv20e.wear, **race, roller_misalignment=6e-5) > 1.0
 
 
 def test_old_grease_starves_until_it_is_changed(rv20e):

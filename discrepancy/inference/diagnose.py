@@ -19,6 +19,8 @@ from discrepancy.problem import Model
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
+# Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
+FAR_SHORT = 0.2
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 
@@ -104,7 +106,7 @@ class Diagnostician:
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:4]
             least = max(settings.second_gain * first, 12.0)
-            promising = [s for s in promising if s.statistic >= HOPELESS * max(promising[0].statistic, least)]
+            promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}

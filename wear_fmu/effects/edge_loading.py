@@ -21,22 +21,25 @@ EFFECT = Effect(
     "q_max/q = 1 + 10/9 theta L/(2 d), d after Palmgren",
     "Palmgren 1959; 10 to 60 urad usual, felt at light load",
     "wear print one-sided along the axis; relatively more at low load; torque nearly unchanged",
-    (amplitude("misalignment", "rad", "theta: tilt of discs and rollers", 2e-5, 0.0, 1e-2, sign=1),),
+    (
+        amplitude("misalignment", "rad", "theta: tilt of the discs against the pins", 2e-5, 0.0, 1e-2, sign=1),
+        amplitude("roller_misalignment", "rad", "theta: tilt of the rollers against their races", 2e-5, 0.0, 1e-2, sign=1),
+    ),
     signals=WEAR,
 )
 
 
 @kernel
 def prepare(r):
-    if r.misalignment != 0.0:
+    if r.misalignment != 0.0 or r.roller_misalignment != 0.0:
         r.effects_on = 1
 
 
 @kernel
 def factor(r, surface, line_load, radius, speed, depth):
-    if r.misalignment == 0.0:
+    tilt, length = (r.misalignment, r.mesh_width) if surface == 0 else (r.roller_misalignment, r.roller_length)
+    if tilt == 0.0:
         return 1.0
-    length = r.mesh_width if surface == 0 else r.roller_length
     penetration = 1e-3 * 3.84e-5 * (line_load * length) ** 0.9 / (1e3 * length) ** 0.8
-    x = r.misalignment * length / (2.0 * penetration)
+    x = tilt * length / (2.0 * penetration)
     return 1.0 + 10.0 / 9.0 * x if x < 1.0 else (1.0 + 10.0 / 9.0) * math.sqrt(x)
