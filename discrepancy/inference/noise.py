@@ -23,6 +23,8 @@ SHORT = 8
 """Records with fewer samples are single numbers: no correlation is looked for."""
 UNREPLICATED_INFLATION = 1.5
 UNREPLICATED_DOF = 8.0
+UNSEEN = {"offset": 0.25, "drift": 0.1}
+"""By what runs differ where none is repeated (assumed: half and a third of the noise): a drifting zero of one run proves nothing."""
 SPECTRUM_DOF = 100.0
 """Of a signal's noise, however long: its spectrum is a fitted form, known at single orders to a seventh."""
 KNOWN = 1e6
@@ -121,7 +123,7 @@ def _numbers(records, residuals, predictions, masks, indices):
             scale, source, known = max(scale, float(np.median(stated))), "replicates and stated", max(dof, 4.0)
         scale = max(scale, tiny)
     elif stated:
-        scale, proportional, source, known = float(np.median(stated)), False, "stated", 30.0
+        scale, proportional, source, known = float(np.median(stated)), False, "stated", UNREPLICATED_DOF
         note = "no replicates, noise as stated"
     else:
         values = np.concatenate([residuals[i][masks[i]] for i in indices])
@@ -196,7 +198,7 @@ def _signals(records, residuals, predictions, masks, indices):
     if replicated:
         patterns, dof = pattern_variances(base, deviations, predictions)
     else:
-        patterns, dof = {"offset": 0.25}, {"offset": UNREPLICATED_DOF}
+        patterns, dof = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
     stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **dof}, source, tail)
     weights = _weights(stream, deviations if replicated else [], records, residuals, masks, indices)
     return stream, weights, note
