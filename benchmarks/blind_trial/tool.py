@@ -13,7 +13,7 @@ from discrepancy.verdict import diagnose
 MODEL = "RV20E-121"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
 SHARED: dict = {}
-MOST_SHARED = 20_000
+MOST_SHARED = 4_000
 
 
 def answer_of(folder: Path) -> dict:

@@ -12,6 +12,7 @@ from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.noise import round_to
 from benchmarks.blind_trial.generator.outside import OUTSIDE
+from benchmarks.blind_trial.generator.reducer import WHOLE
 from benchmarks.blind_trial.generator.strength import Ruler
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 
@@ -89,7 +90,7 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
             if not 0.9 < factor < 1.1:
                 raise CannotMake(task.laws[k])
             sizes.append(factor * task.strength)
-    return Drawn(rng, truths, design, bench, parameters, sizes)
+    return Drawn(rng, truths, design, Bench(parameters, WHOLE), parameters, sizes)
 
 
 def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict:

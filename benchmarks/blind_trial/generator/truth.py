@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
-from benchmarks.blind_trial.generator.reducer import COLUMNS, HOUR, Plain, Setting
+from benchmarks.blind_trial.generator.reducer import COLUMNS, HOUR, QUICK, Plain, Setting
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
 SPECTRUM = 4096
@@ -78,8 +78,8 @@ def both(first, second):
 class Bench:
     """Computes series of one true reducer with hidden laws."""
 
-    def __init__(self, parameters: dict[str, float]):
-        self.plain = Plain(parameters)
+    def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK):
+        self.plain = Plain(parameters, cycle)
 
     def rows_of(self, series: Series) -> list[Setting]:
         return series.rows or [series.setting] * series.size
