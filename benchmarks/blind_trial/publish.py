@@ -41,7 +41,7 @@ def page(results: dict[int, dict], cases: list[Case], figures: dict, about: dict
         "Made by `python -m benchmarks.blind_trial.run --publish`; do not edit.", "",
         f"{figures['campaigns']} campaigns, seed {about['seed']}, code {about['commit']}"
         + (f"; the trial was stopped before all {about['campaigns']}" if figures["campaigns"] + figures["not_made"] < about["campaigns"] else "")
-        + (f"; {figures['not_made']} could not be made at the strength that was asked for" if figures["not_made"] else "") + "." + about.get("note", ""), "",
+        + (f"; {figures['not_made']} could not be made at the strength that was asked for" if figures["not_made"] else "") + ". " + about.get("note", ""), "",
         "Every truth was sealed (SHA-256 in the campaign and in `seals.txt`) before the diagnosis saw the folder. The generator has the plain"
         " reducer's kernels in common with the tool, and no code of any effect: other functional forms, other discretisation, its own noise"
         " (AR2 and ARMA, Student's t with 3 to 6 degrees of freedom, drift, offsets from run to run, quantisation). d' is the size of the"
