@@ -110,7 +110,7 @@ def save_model(model: ModelFile, path: Path) -> None:
     document = tomlkit.document()
     document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
     if model.settings:
-        document["settings"] = dict(model.settings)
+        document["settings"] = {name: as_read(model.reducer, name, value) for name, value in model.settings.items()}
     if model.effects:
         document["effects"] = {name: {k: inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()}
     if model.steps:
@@ -121,6 +121,12 @@ def save_model(model: ModelFile, path: Path) -> None:
     partial = path.with_suffix(".part")
     partial.write_text(tomlkit.dumps(document), encoding="utf-8")
     partial.replace(path)
+
+
+def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | str:
+    """A setting as ``load_model`` takes it: a choice by its name, a number in the variable's unit."""
+    variable = next(t.by_name[name.partition("[")[0]] for t in (reducer.plant, reducer.wear) if name.partition("[")[0] in t.by_name)
+    return variable.choices[int(value)] if variable.choices else value
 
 
 def inline(entry: dict):

@@ -98,6 +98,13 @@ def test_gain_on_fitted_runs_alone_proves_nothing(file):
     assert extend(file, campaign, ["needle_clearance"]).verdict == NOT_PROVEN
 
 
+def test_saved_settings_are_read_again(tmp_path):
+    given, again = tmp_path / "given.toml", tmp_path / "again.toml"
+    given.write_text("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[settings]\nmesh_wear_law = 'constant'\nroughness = '0.3 um'\n")
+    save_model(load_model(given), again)
+    assert load_model(again).settings == load_model(given).settings == {"mesh_wear_law": 0, "roughness": pytest.approx(3e-7)}
+
+
 def test_unknown_effect_is_named_in_the_fault(file, wide):
     with pytest.raises(InputFault, match="phlogiston.*needle_clearance"):
         extend(file, wide, ["phlogiston"])
