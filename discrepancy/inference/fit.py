@@ -149,6 +149,10 @@ class Workspace:
                     jacobian[self.rows[i], k] = self.noise.whiteners[i](c)
         return jacobian
 
+    def _columns(self, parameters, values):
+        """Sensitivities of the training records at ``values``, whitened."""
+        return self._stack([self.column(values, p, self.training) for p in parameters], len(parameters))
+
     def _solve_nuisances(self, nuisances, values, raw):
         scale = np.array([p.scale for p in nuisances])
         precision = np.sqrt(self.prior_rows(nuisances))
@@ -245,15 +249,12 @@ class Workspace:
         def residual(x):
             return np.concatenate([self.residual(named(x)), (x - off) * precision])
 
-        def columns(x):
-            return self._stack([self.column(named(x), p, self.training) for p in parameters], len(parameters))
-
         solution = least_squares(
-            residual, np.clip([start[n] for n in names], lower + margin, upper - margin), lambda x: np.vstack([-columns(x), np.diag(precision)]),
+            residual, np.clip([start[n] for n in names], lower + margin, upper - margin), lambda x: np.vstack([-self._columns(parameters, named(x)), np.diag(precision)]),
             bounds=(lower, upper), x_scale=scale, xtol=1e-5, ftol=1e-5, max_nfev=JOINT_STEPS,
         )  # fmt: skip
         values = named(solution.x)
-        return self._finish(tuple(parameters), values, self.residual(values), columns(solution.x), candidates, bool(solution.success))
+        return self._finish(tuple(parameters), values, self.residual(values), self._columns(parameters, values), candidates, bool(solution.success))
 
     def _cost(self, parameters, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
         """Chi-square with the priors, and the whitened residual."""
@@ -320,7 +321,7 @@ class Workspace:
     def renew(self, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
         """The same fit with sensitivities at its own values: for what is reported."""
         for _ in range(3):
-            columns = self._stack([self.column(fit.values, p, self.training) for p in fit.parameters], len(fit.parameters))
+            columns = self._columns(fit.parameters, fit.values)
             renewed = self._polish(fit.parameters, fit.values, columns, tuple(c.name for c in candidates), fit.converged, fit.chi2, fresh=True)
             gain, fit = fit.chi2 - renewed.chi2, renewed
             if gain < 0.5:
@@ -360,7 +361,7 @@ class Workspace:
                 if fresh or cost < expected + 0.5 and cost < self.base.chi2:
                     break
                 at = dict(zip(names, (float(v) for v in x)))
-                columns = self._stack([self.column(at, p, self.training) for p in parameters], len(parameters))
+                columns = self._columns(parameters, at)
                 fresh = True
             else:
                 fresh = False

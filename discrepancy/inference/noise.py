@@ -194,7 +194,6 @@ def _signals(records, residuals, predictions, masks, indices):
     every = np.concatenate([e / scales[d.condition] for e, d in zip(inside, deviations)])
     tail = float(np.mean(np.abs(every) > CUT))
     base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail)
-    patterns, dof = ({}, {})
     if replicated:
         patterns, dof = pattern_variances(base, deviations, predictions)
     else:
