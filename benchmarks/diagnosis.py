@@ -24,7 +24,7 @@ from benchmarks.blind_trial.generator.truth import Bench
 from benchmarks.ratios import Curve, Figure, Measured, exponent
 from discrepancy.campaign import load_campaign
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.fit import Workspace
+from discrepancy.inference.workspace import Workspace
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from discrepancy.inference.effect_size import amplitude_for
-from discrepancy.inference.fit import Workspace
+from discrepancy.inference.workspace import Workspace
 from discrepancy.problem import Candidate, Parameter, Record
 
 LOADS = (60.0, 120.0, 240.0, 400.0)

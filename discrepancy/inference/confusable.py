@@ -6,8 +6,8 @@ import numpy as np
 from scipy.stats import norm, t as student
 
 from discrepancy.inference.components import project_out
-from discrepancy.inference.fit import Workspace
 from discrepancy.inference.refit import Refit
+from discrepancy.inference.workspace import Workspace
 
 MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""

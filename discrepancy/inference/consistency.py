@@ -10,9 +10,9 @@ from scipy.stats import f as fisher
 
 from discrepancy.inference.components import component_grams, effective_dof, excess, mean_excess, project_out
 from discrepancy.inference.features import modulations
-from discrepancy.inference.fit import Workspace
 from discrepancy.inference.refit import Refit
 from discrepancy.inference.series import stream_of
+from discrepancy.inference.workspace import Workspace
 
 
 def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, float]]:

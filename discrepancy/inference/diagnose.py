@@ -7,13 +7,14 @@ import numpy as np
 
 from discrepancy.inference.confusable import canonical_correlation, confusable_set, penalised
 from discrepancy.inference.consistency import lack_of_fit
+from discrepancy.inference.effect_fit import renew
 from discrepancy.inference.features import ORDERS
-from discrepancy.inference.fit import Workspace
 from discrepancy.inference.held_out import HeldOutJudge
 from discrepancy.inference.localise import Localisation, Localiser
 from discrepancy.inference.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
 from discrepancy.inference.screen import Score, candidate_columns, joint_gain, screen
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Settings, decide
+from discrepancy.inference.workspace import Workspace
 from discrepancy.problem import Model
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
@@ -93,7 +94,7 @@ class Diagnostician:
 
     def renewed(self, result: Refit) -> Refit:
         """The refit with its sensitivities taken anew, remembered in place of the first."""
-        better = finished(self.space, result.candidates, self.space.renew(result.fit, result.candidates))
+        better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
         self.fitted[frozenset(c.name for c in result.candidates)] = better
         return better
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from discrepancy.inference.components import project_out
-from discrepancy.inference.fit import Workspace
+from discrepancy.inference.workspace import Workspace
 
 
 def effect_size(space: Workspace, difference: Mapping[int, np.ndarray]) -> float:

@@ -14,10 +14,10 @@ from scipy.stats import f as fisher
 
 from discrepancy.inference.components import effective_dof
 from discrepancy.inference.features import ORDERS, features
-from discrepancy.inference.fit import Workspace
 from discrepancy.inference.localise import Localisation
 from discrepancy.inference.refit import Refit
 from discrepancy.inference.series import stream_of
+from discrepancy.inference.workspace import Workspace
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from scipy.stats import f as fisher
 
 from discrepancy.inference.components import effective_dof, excess, mean_excess
 from discrepancy.inference.features import ORDERS, features, modulations
-from discrepancy.inference.fit import Fit, Workspace
+from discrepancy.inference.fit import Fit
 from discrepancy.inference.series import stream_of
+from discrepancy.inference.workspace import Workspace
 
 LEVEL = 0.004
 """Significance of a finding over all groups together."""

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from discrepancy.inference.closed_forms import Form, propose
-from discrepancy.inference.fit import Fit, Workspace
+from discrepancy.inference.fit import Fit
 from discrepancy.inference.noise import SHORT
 from discrepancy.inference.series import order_axis, stream_of
 from discrepancy.inference.splines import Curve, additive
+from discrepancy.inference.workspace import Workspace
 
 BINS = 24
 

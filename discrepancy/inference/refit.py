@@ -8,8 +8,10 @@ import numpy as np
 from scipy.stats import t as student
 
 from discrepancy.inference.components import component_grams, effective_dof
-from discrepancy.inference.fit import Fit, Workspace
+from discrepancy.inference.effect_fit import fit_effects
+from discrepancy.inference.fit import Fit, fit_of
 from discrepancy.inference.screen import Score
+from discrepancy.inference.workspace import Workspace
 from discrepancy.problem import Candidate, Parameter
 
 
@@ -60,7 +62,7 @@ def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Sc
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    fits = [space.fit_effects(candidates, start) for start in starts[:2]]
+    fits = [fit_effects(space, candidates, start) for start in starts[:2]]
     return finished(space, candidates, min(fits, key=lambda f: f.chi2))
 
 
@@ -153,10 +155,10 @@ def literal_leave_out(space: Workspace, result: Refit, conditions: Sequence[str]
             inside = [i for i in training if space.records[i].condition != condition]
             outside = [i for i in training if space.records[i].condition == condition]
             space.training = inside
-            space._layout()
+            space.lay_out()
             keep = np.concatenate([np.arange(rows[i].start, rows[i].stop) for i in inside])
-            space.base = space._finish(base.parameters, base.values, base.residual[keep], base.jacobian[keep], ())
-            fit = space.fit_effects(result.candidates, result.fit.values)
+            space.base = fit_of(base.parameters, base.values, base.residual[keep], base.jacobian[keep])
+            fit = fit_effects(space, result.candidates, result.fit.values)
             ys = space.predictions(fit.values, outside)
             errors[condition] = float(sum(np.sum(space.noise.whiteners[i](space.records[i].values - y) ** 2) for i, y in zip(outside, ys)))
     finally:

@@ -14,7 +14,8 @@ import numpy as np
 from scipy.stats import f as fisher
 
 from discrepancy.inference.components import component_grams, effective_dof, excess, project_out, simulate
-from discrepancy.inference.fit import Fit, Workspace
+from discrepancy.inference.fit import Fit
+from discrepancy.inference.workspace import Workspace
 from discrepancy.problem import Candidate
 
 SMALL, TYPICAL = 0.05, 1.0
