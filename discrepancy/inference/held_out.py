@@ -17,7 +17,7 @@ from discrepancy.inference.features import ORDERS, features
 from discrepancy.inference.localise import Localisation
 from discrepancy.inference.refit import Refit
 from discrepancy.inference.series import stream_of
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.workspace import Workspace, rows_of
 
 
 @dataclass(frozen=True)
@@ -39,21 +39,16 @@ class HeldOutJudge:
         self.indices = space.held_out
         if not self.indices:
             return
-        self.rows, start = {}, 0
-        for i in self.indices:
-            size = space.noise.whiteners[i].size
-            self.rows[i] = slice(start, start + size)
-            start += size
-        self.size = start
+        self.rows, self.size = rows_of(space.noise, self.indices)
         self.base = self._raw(space.base.values)
         columns = []
         for finding in localisation.findings[:most]:
             columns.extend(self._finding(finding, orders))
         for rival in rivals:
             columns.append(self.response(rival))
-        directions = np.column_stack(columns) if columns else np.zeros((start, 0))
+        directions = np.column_stack(columns) if columns else np.zeros((self.size, 0))
         blind = np.column_stack([self._stack({i: c for i, c in space.raw_nuisance[k].items() if i in self.rows}) for k in space.blind]) \
-            if space.blind else np.zeros((start, 0))
+            if space.blind else np.zeros((self.size, 0))
         self.blind = _orthonormal(blind)
         directions = directions - self.blind @ (self.blind.T @ directions)
         self.directions = _orthonormal(directions)

@@ -15,6 +15,16 @@ STALE = 0.3
 """Move of a nuisance, in units of its scale, after which sensitivities are taken anew."""
 
 
+def rows_of(noise: Noise, indices: Sequence[int]) -> tuple[dict[int, slice], int]:
+    """Rows of each record in a stack of whitened records, and the height of the stack."""
+    rows, start = {}, 0
+    for i in indices:
+        size = noise.whiteners[i].size
+        rows[i] = slice(start, start + size)
+        start += size
+    return rows, start
+
+
 class Workspace:
     """Records, noise and whitening; columns of parameters are stacked over the training records."""
 
@@ -32,12 +42,7 @@ class Workspace:
     # rows ---------------------------------------------------------------------------------
     def lay_out(self) -> None:
         """Which rows of the stack belong to which training record."""
-        self.rows, start = {}, 0
-        for i in self.training:
-            size = self.noise.whiteners[i].size
-            self.rows[i] = slice(start, start + size)
-            start += size
-        self.size = start
+        self.rows, self.size = rows_of(self.noise, self.training)
 
     def whiten(self, arrays: Mapping[int, np.ndarray]) -> np.ndarray:
         """Whitened stack over the training records; records not given are zero."""
