@@ -24,11 +24,11 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], start: Mappin
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
     first = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
     values, converged, columns = _descend(frozen, first)
-    full = {**frozen.nuisances_with(values), **values}
-    if _chi2(space, parameters, full) > space.base.chi2:
+    promised, residual = frozen.cost(values)
+    full = {**frozen.nuisances_with(residual), **values}
+    if _cost(space, Box(parameters), full)[0] > space.base.chi2:
         # Too far for frozen sensitivities: from the base fit's nuisances.
         full = {**frozen.theta, **values}
-    promised = frozen.cost(values)[0]
     found = _polish(space, parameters, full, np.column_stack([frozen.jacobian, columns]), names, converged, promised)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
@@ -82,9 +82,9 @@ class _Frozen:
     def columns(self, values: Mapping[str, float]) -> np.ndarray:
         return np.column_stack([self.space.whiten(self.space.column({**self.theta, **values}, p, self.shows[p.name])) for p in self.own])
 
-    def nuisances_with(self, values: Mapping[str, float]) -> dict[str, float]:
-        """The nuisances that go with the effects."""
-        shift = self.inverse @ self.nuisance_gradient(self.residual(values))
+    def nuisances_with(self, residual: np.ndarray) -> dict[str, float]:
+        """The nuisances that go with what the effects leave."""
+        shift = self.inverse @ self.nuisance_gradient(residual)
         return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
 
 
@@ -135,10 +135,10 @@ def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12)
     return box.named(x), converged, c
 
 
-def _chi2(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float]) -> float:
-    """Chi-square with the priors."""
-    box, r = Box(parameters), space.residual(values)
-    return float(r @ r) + box.prior_cost(box.array(values))
+def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+    """Chi-square with the priors, and the whitened residual."""
+    r = space.residual(values)
+    return float(r @ r) + box.prior_cost(box.array(values)), r
 
 
 def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: np.ndarray, candidates: tuple[str, ...],
@@ -148,8 +148,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
     x = box.array(values)
 
     def cost_of(z):
-        r = space.residual(box.named(z))
-        return float(r @ r) + box.prior_cost(z), r
+        return _cost(space, box, box.named(z))
 
     cost, r = cost_of(x)
     for _ in range(rounds):
