@@ -11,15 +11,14 @@ An effect is a module in a unit's ``effects`` folder (or in a user's own folder,
 All effects of a unit are composed into one module, so that the compiler sees plain calls.
 """
 
-import importlib.util
-import os
+import importlib
+import linecache
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-from fmu_src.kernel import CACHE_FOLDER
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
@@ -126,15 +125,10 @@ def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:
         else:
             body += [f"    {call}" for call in calls] or ["    pass"]
     text = "\n".join(lines + body) + "\n"
-    # A file, because the compiler keeps compiled code only for functions that have one.
-    folder = CACHE_FOLDER / "composed"
-    folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{package.replace('.', '_')}.py"
-    if not file.is_file() or file.read_text(encoding="utf-8") != text:
-        partial = file.with_suffix(f".{os.getpid()}")
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(file)
-    specification = importlib.util.spec_from_file_location(name, file)
-    module = sys.modules[name] = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
+    # Not on disk: the compiler, tracebacks and debuggers find its text in ``linecache``.
+    file = f"<{name}>"
+    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
+    module = sys.modules[name] = ModuleType(name)
+    module.__file__ = file
+    exec(compile(text, file, "exec"), module.__dict__)  # noqa: S102
     return module

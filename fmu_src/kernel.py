@@ -1,52 +1,80 @@
-"""The one decorator of every kernel.
+"""The decorator of every kernel, and how Python calls one.
 
-A kernel is a Python function in the subset that numba compiles to machine code
-without allocating: scalars, loops, record fields, array element access.  Set
-``NUMBA_DISABLE_JIT=1`` and the same functions run as plain Python.
+A kernel is a Python function in the subset that ``compiler`` turns into machine code:
+scalars, loops, record fields, array elements.  Called from Python it is compiled for the
+types of its arguments, once per user (``store``).  Set ``RVWEAR_PLAIN_PYTHON=1`` and the
+same functions run as plain Python.
 """
 
+import ast
+import inspect
 import os
-import shutil
-import time
-from pathlib import Path
+import textwrap
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
 
-import numba
-
-from fmu_src.source_hash import LOADED_HASH
-
-KEPT_DAYS = 30
+PLAIN = bool(os.environ.get("RVWEAR_PLAIN_PYTHON"))
 
 
-def use_cache_folder(folder: Path) -> None:
-    """Note that the folder is in use; when it is new, remove those beside it that were not used for a month.
+class Kernel:
+    """A function that compiles itself; ``is_entry`` gives it object code of its own, see ``entry_point``."""
 
-    Nothing here may end a run: a cache that cannot be written is for numba to tell, and another
-    process may be doing the same.
+    is_kernel = True
+
+    def __init__(self, function: Callable, is_entry: bool = False):
+        self.function = function
+        self.is_entry = is_entry
+        self.name = function.__name__
+        self.module = function.__module__
+        self.__doc__ = function.__doc__
+        self.__name__ = function.__name__
+        self.__module__ = function.__module__
+        self.__wrapped__ = function
+        self._callers: dict[tuple, Callable] = {}
+
+    def __repr__(self) -> str:
+        return f"<kernel {self.module}.{self.name}>"
+
+    @property
+    def file(self) -> str:
+        return self.function.__code__.co_filename
+
+    @cached_property
+    def tree(self) -> ast.FunctionDef:
+        """The syntax tree of the function, with the file's line numbers."""
+        lines, first = inspect.getsourcelines(self.function)
+        tree = ast.parse(textwrap.dedent("".join(lines)))
+        ast.increment_lineno(tree, first - 1)
+        (function,) = tree.body
+        assert isinstance(function, ast.FunctionDef)
+        return function
+
+    @property
+    def local_names(self) -> tuple[str, ...]:
+        return self.function.__code__.co_varnames
+
+    def outer(self, name: str) -> Any:
+        """What a name means outside of the function, or None."""
+        code = self.function.__code__
+        if name in code.co_freevars and self.function.__closure__:
+            return self.function.__closure__[code.co_freevars.index(name)].cell_contents
+        return self.function.__globals__.get(name)
+
+    def __call__(self, *arguments: Any) -> Any:
+        from fmu_src.compiler import calling
+
+        return calling.call(self, arguments)
+
+
+def kernel(function: Callable) -> Any:
+    """Make a kernel of a function."""
+    return function if PLAIN else Kernel(function)
+
+
+def entry_point(function: Callable) -> Any:
+    """A kernel with object code of its own: other kernels that run in this process call it and do not contain it.
+
+    The entry points of one module (``initialise`` and ``step`` of a unit) are compiled together.
     """
-    try:
-        is_new = not folder.is_dir()
-        folder.mkdir(parents=True, exist_ok=True)
-        os.utime(folder)
-        if not is_new:
-            return
-        for other in folder.parent.iterdir():
-            if time.time() - other.stat().st_mtime > KEPT_DAYS * 86400.0:
-                shutil.rmtree(other, ignore_errors=True)
-    except OSError:
-        pass
-
-
-# Compiled code is kept per user, so that a second process starts in a second.
-# numba looks only at the file of the outermost function to see whether its cache is
-# stale; a folder per state of all kernel sources makes that safe.  Set before any
-# kernel exists; an explicit choice of the user stands.
-if not os.environ.get("NUMBA_CACHE_DIR"):
-    cache_home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    cache_folder = Path(cache_home) / "rvwear" / LOADED_HASH[:16]
-    use_cache_folder(cache_folder)
-    numba.config.CACHE_DIR = str(cache_folder)
-
-CACHE_FOLDER = Path(numba.config.CACHE_DIR)
-
-# The "numpy" error model: a division by zero gives inf as in C, no exception.
-kernel = numba.njit(cache=True, error_model="numpy")
+    return function if PLAIN else Kernel(function, is_entry=True)

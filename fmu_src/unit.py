@@ -48,6 +48,14 @@ class Unit:
         """Number of leading cells that are put back after a fault."""
         return self.table.state_cells if self.fault_reach is None else self.fault_reach
 
+    def bound(self, records: np.ndarray) -> tuple[Callable[[], int], Callable[[float, float], int]]:
+        """``initialise()`` and ``step(time, duration)`` of one record, which must stay where it is; compiled now if need be."""
+        if not getattr(self.step, "is_kernel", False):
+            return lambda: self.initialise(records), lambda time, duration: self.step(records, time, duration)
+        from fmu_src.compiler.calling import bound_unit
+
+        return bound_unit(self.initialise, self.step, records)
+
     def fault_text(self, code: int, records: np.ndarray, time: float) -> str:
         """What a status code means for this record, in words."""
         scalars = {v.name: records[v.name][0] for v in self.table.variables if not v.shape}

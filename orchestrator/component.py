@@ -9,6 +9,7 @@ import difflib
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -188,6 +189,11 @@ class InProcess(Component):
         self.cells = self.table.cells(self.records)
         self.integers = self.cells.view("i8")
 
+    @cached_property
+    def entry_points(self) -> tuple[Callable[[], int], Callable[[float, float], int]]:
+        """Compiled when they are first needed: who only asks for values waits for nothing."""
+        return self.unit.bound(self.records)
+
     def reader(self, references, buffer):
         cells = self.integers if buffer.dtype == np.int64 else self.cells
         index = np.array(references)
@@ -213,12 +219,12 @@ class InProcess(Component):
         pass
 
     def exit_initialisation(self):
-        code = self.unit.initialise(self.records)
+        code = self.entry_points[0]()
         if code != 0:
             raise InputFault(f"{self.name}: {self.unit.fault_text(code, self.records, 0.0)}")
 
     def step(self, time, duration):
-        code = self.unit.step(self.records, time, duration)
+        code = self.entry_points[1](time, duration)
         if code != 0:
             raise RunFault(f"{self.name}: {self.unit.fault_text(code, self.records, time)}")
 

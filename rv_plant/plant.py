@@ -9,7 +9,7 @@ code, 0 or a key of ``FAULTS``.
 import math
 
 from fmu_src.effect import compose
-from fmu_src.kernel import kernel
+from fmu_src.kernel import entry_point, kernel
 
 from rv_plant.assembly import assemble
 from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
@@ -262,7 +262,7 @@ def turn_input(r, duration):
     return output_speed
 
 
-@kernel
+@entry_point
 def initialise(records):
     """Check the parameters, find the first equilibrium, publish the outputs."""
     r = records[0]
@@ -296,7 +296,7 @@ def copy_means(r, keep, weight):
                 r.roller_force[d, c, k] = keep * r.roller_force[d, c, k] + weight * r.roller_force_now[d, c, k]
 
 
-@kernel
+@entry_point
 def step(records, time, duration):
     """One communication step: through equilibria or, if fidelity is dynamic, in motion."""
     r = records[0]

@@ -5,7 +5,7 @@ the forces of the step just done, the next step the profile errors after it.  Th
 the master's Gauss-Seidel scheme.
 """
 
-from fmu_src.kernel import kernel
+from fmu_src.kernel import entry_point
 from rv_plant.plant import FAULTS as PLANT_FAULTS
 from rv_plant.plant import initialise as initialise_plant
 from rv_plant.plant import step as step_plant
@@ -20,7 +20,7 @@ OF_WEAR = 100
 FAULTS = PLANT_FAULTS | {OF_WEAR + code: text for code, text in WEAR_FAULTS.items()}
 
 
-@kernel
+@entry_point
 def initialise(records):
     """Check the parameters, find the first equilibrium; new surfaces."""
     fault = initialise_plant(records.plant)
@@ -33,7 +33,7 @@ def initialise(records):
     return 0
 
 
-@kernel
+@entry_point
 def step(records, time, duration):
     """One communication step of both."""
     before = records[0].crank_angle

@@ -233,4 +233,4 @@ def test_possible_values_near_those_limits_pass(rv20e, values):
 
 def test_ring_that_is_not_closed_gives_its_fault():
     records = records_of(plant_table(Topology(2, 2, 40, 38, 16)))
-    assert plant.geometry_fault.py_func(only(records)) == plant.RING_OPEN
+    assert plant.geometry_fault.function(only(records)) == plant.RING_OPEN

@@ -18,7 +18,7 @@ from fmpy.fmi3 import fmi3Float64, fmi3ValueReference
 from conftest import UNITS
 from fmu_src import audit
 from fmu_src.link import FMI_HEADERS
-from fmu_src.native import LIBM
+from fmu_src.compiler.loading import LIBM
 from fmu_src.package import build_native
 from orchestrator.component import InProcess
 from orchestrator.faults import InputFault, RunFault

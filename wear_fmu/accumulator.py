@@ -8,7 +8,7 @@ takes off material between them.  All entry points take a one-element record arr
 import math
 
 from fmu_src.effect import compose
-from fmu_src.kernel import kernel
+from fmu_src.kernel import entry_point, kernel
 
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
@@ -86,7 +86,7 @@ def geometry_fault(r):
     return 0
 
 
-@kernel
+@entry_point
 def initialise(records):
     """Check the parameters; new surfaces."""
     r = records[0]
@@ -292,7 +292,7 @@ def publish_profile_errors(r, lead_time):
                 ) + interpolate_closed(r.outer_race_wear[d, c], (outer + ahead) * bins / (2.0 * math.pi))
 
 
-@kernel
+@entry_point
 def step(records, time, duration):
     """Wear of one communication step: contacts moved to the present input angles."""
     r = records[0]

@@ -8,41 +8,51 @@ of low rank.  The ``directions`` of the patterns in whitened space are kept: the
 known from few replicates only, so tests must give them few degrees of freedom.
 """
 
+import math
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
+from fmu_src.kernel import kernel
 
-@numba.njit(cache=True)
-def gains(correlation, nugget):
-    """Kalman gain and innovation standard deviation of each sample (total variance 1)."""
-    count = correlation.size
-    gain = np.empty(count)
-    deviation = np.empty(count)
+
+@kernel
+def fill_gains(correlation, nugget, gain, deviation):
+    """Fill Kalman gain and innovation standard deviation of each sample (total variance 1)."""
     variance = 0.0
-    for i in range(count):
+    for i in range(correlation.shape[0]):
         rho = correlation[i]
         predicted = rho * rho * variance + (1.0 - rho * rho) * (1.0 - nugget)
         total = predicted + nugget + 1e-12
         gain[i] = predicted / total
-        deviation[i] = np.sqrt(total)
+        deviation[i] = math.sqrt(total)
         variance = predicted * (1.0 - gain[i])
+
+
+def gains(correlation: np.ndarray, nugget: float) -> tuple[np.ndarray, np.ndarray]:
+    """(Kalman gain, innovation standard deviation) of each sample (total variance 1)."""
+    gain, deviation = np.empty_like(correlation), np.empty_like(correlation)
+    fill_gains(correlation, float(nugget), gain, deviation)
     return gain, deviation
 
 
-@numba.njit(cache=True)
-def innovations(columns, correlation, gain, deviation):
-    """Normalised innovations of each column."""
+@kernel
+def fill_innovations(columns, correlation, gain, deviation, state, result):
+    """Fill ``result`` (samples, columns); ``state`` (columns) starts at zero."""
     count, width = columns.shape
-    result = np.empty((count, width))
-    state = np.zeros(width)
     for i in range(count):
         for j in range(width):
             predicted = correlation[i] * state[j]
             error = columns[i, j] - predicted
             result[i, j] = error / deviation[i]
             state[j] = predicted + gain[i] * error
+
+
+def innovations(columns: np.ndarray, correlation: np.ndarray, gain: np.ndarray, deviation: np.ndarray) -> np.ndarray:
+    """Normalised innovations of each column."""
+    columns = np.ascontiguousarray(columns, dtype=float)
+    result = np.empty_like(columns)
+    fill_innovations(columns, correlation, gain, deviation, np.zeros(columns.shape[1]), result)
     return result
 
 

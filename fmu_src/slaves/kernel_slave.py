@@ -87,10 +87,7 @@ class KernelSlave(Fmi2Slave):
         code = folder / OBJECT_CODE
         fits = code.exists() and self.stamp["triple"] == host_triple()
         if not fits or source_hash(root=folder) != self.stamp["source_hash"]:
-            return (
-                lambda: self.unit.initialise(self.records),
-                lambda time, duration: self.unit.step(self.records, time, duration),
-            )
+            return self.unit.bound(self.records)
         functions = load_object(code.read_bytes())
         pointer = ctypes.c_void_p(self.records.ctypes.data)
         return (

@@ -1,0 +1,15 @@
+"""Kernels to machine code: a small compiler from a subset of Python to LLVM.
+
+    types      what a value of a kernel can be: number, tuple, record, array
+    emitter    one function for given argument types: Python's syntax tree to LLVM code
+    arithmetic numbers: operators and functions of ``math`` with Python's meaning
+    module     an entry point with all it calls: one LLVM module, optimised, as object code
+    store      object code on disk, private to its owner, checked before it is used
+    loading    object code into this process
+
+A kernel is written in: numbers, tuples, ``if``, ``for ... in range``, ``while``, fields of
+records, elements and rows of arrays, ``math``, ``abs``, ``min``, ``max``, ``int``,
+``float``, ``len`` and calls of other kernels.  Nothing allocates and nothing raises, so
+what comes out needs the C library's ``libm`` and no more.  What the subset lacks is
+refused with file, line and remedy.
+"""

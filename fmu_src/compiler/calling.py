@@ -1,0 +1,157 @@
+"""Calls of kernels from Python: types of the arguments, and what goes to and fro."""
+
+import ctypes
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fmu_src.compiler import loading
+from fmu_src.compiler.types import ELEMENTS, FLOAT, INTEGER, TRUTH, Array, Group, Layout, Number, Record, Records, Type
+
+if TYPE_CHECKING:
+    from fmu_src.kernel import Kernel
+
+# Layouts of record types seen, by the identity of the dtype, which is kept so that it stays one.
+_layouts: dict[int, Layout] = {}
+
+
+def layout_of(dtype: np.dtype) -> Layout:
+    known = _layouts.get(id(dtype))
+    if known is None:
+        known = _layouts[id(dtype)] = Layout(dtype)
+    return known
+
+
+def call(kernel: "Kernel", arguments: tuple) -> Any:
+    """Call a kernel, compiled for the types of these arguments."""
+    try:
+        key = tuple([sort_of(argument) for argument in arguments])
+        caller = kernel._callers.get(key)
+    except TypeError as problem:
+        raise TypeError(f"{kernel.name}: {problem}") from None
+    if caller is None:
+        caller = kernel._callers[key] = make_caller(kernel, arguments)
+    return caller(*arguments)
+
+
+def sort_of(argument: Any) -> Any:
+    """What decides the type of an argument, cheaply."""
+    kind = type(argument)
+    if kind is float or kind is int or kind is bool:
+        return kind
+    if isinstance(argument, np.ndarray):
+        return (argument.ndim, id(argument.dtype) if argument.dtype.names else argument.dtype.str)
+    if isinstance(argument, np.void):
+        return id(argument.dtype)
+    if isinstance(argument, (float, np.floating)):
+        return float
+    if isinstance(argument, np.bool):
+        return bool
+    if isinstance(argument, (int, np.integer)):
+        return int
+    raise TypeError(f"{kind.__name__} is nothing that a kernel takes; give numbers, arrays of numbers or records")
+
+
+def type_of(argument: Any) -> Type:
+    sort = sort_of(argument)
+    if sort in (float, int, bool):
+        return {float: FLOAT, int: INTEGER, bool: TRUTH}[sort]
+    if isinstance(argument, np.void):
+        return Record(layout_of(argument.dtype))
+    if argument.dtype.names:
+        if argument.ndim != 1:
+            raise TypeError(f"an array of records with {argument.ndim} dimensions; kernels take one")
+        return Records(layout_of(argument.dtype))
+    if argument.dtype.str not in ("<f8", "<i8") or argument.ndim == 0:
+        raise TypeError(f"an array of {argument.dtype} with {argument.ndim} dimensions; kernels take f8 and i8 with one or more")
+    return Array(ELEMENTS[argument.dtype.str[1:]], argument.ndim)
+
+
+C_TYPES = {"double": ctypes.c_double, "i64": ctypes.c_int64, "i1": ctypes.c_int8, "ptr": ctypes.c_void_p}
+
+
+def number_of(argument: Any) -> tuple:
+    return (argument,)
+
+
+def address_of(record: np.void) -> tuple:
+    """A record's address, by way of a field that is an array: NumPy describes a whole record slowly."""
+    name, place = array_field(record.dtype)
+    if name is None:
+        return (record.__array_interface__["data"][0],)
+    return (record[name].ctypes.data - place,)
+
+
+def array_field(dtype: np.dtype) -> tuple[str | None, int]:
+    """(name, place) of a field that is an array."""
+    known = _array_fields.get(id(dtype))
+    if known is None:
+        arrays = [(name, dtype.fields[name][1]) for name in dtype.names if dtype.fields[name][0].shape]
+        known = _array_fields[id(dtype)] = arrays[0] if arrays else (None, 0)
+        # Kept, so that its identity stays its own.
+        layout_of(dtype)
+    return known
+
+
+_array_fields: dict[int, tuple[str | None, int]] = {}
+
+
+def row_of(argument: np.ndarray) -> tuple:
+    """Address and extents of an array."""
+    if not argument.flags.c_contiguous:
+        raise TypeError("an array with gaps; give numpy.ascontiguousarray(...) of it")
+    return (argument.ctypes.data, *argument.shape)
+
+
+def make_caller(kernel: "Kernel", arguments: tuple) -> Callable:
+    """A function of the same arguments that calls the compiled kernel."""
+    types = tuple(type_of(argument) for argument in arguments)
+    given = [number_of if isinstance(kind, Number) else address_of if isinstance(kind, Record) else row_of for kind in types]
+    if kernel.is_entry and types and isinstance(types[0], Records):
+        return unit_caller(kernel, types[0].layout)
+    address, code = loading.call_address(kernel, types)
+    result = loading.result_type(code)
+    c_arguments = [C_TYPES[part] for kind in types for part in kind.parts]
+    if isinstance(result, Group):
+        return tuple_caller(address, c_arguments, given, result)
+    function = loading.c_function(address, c_arguments, ctypes.c_double if result == FLOAT else ctypes.c_int64)
+
+    def call_for_number(*arguments: Any) -> Any:
+        return function(*[part for take, argument in zip(given, arguments) for part in take(argument)])
+
+    if result == TRUTH:
+        return lambda *arguments: bool(call_for_number(*arguments))
+    return call_for_number
+
+
+def tuple_caller(address: int, c_arguments: list, given: list, result: Group) -> Callable:
+    function = loading.c_function(address, [*c_arguments, ctypes.c_void_p], None)
+    kinds = [item.parts[0] for item in result.items]
+
+    def call_for_several(*arguments: Any) -> tuple | None:
+        cells = np.empty(max(1, len(kinds)))
+        function(*[part for take, argument in zip(given, arguments) for part in take(argument)], cells.__array_interface__["data"][0])
+        whole = cells.view("i8")
+        values = (float(cells[i]) if kind == "double" else bool(whole[i]) if kind == "i1" else int(whole[i]) for i, kind in enumerate(kinds))
+        return tuple(values) if kinds else None
+
+    return call_for_several
+
+
+def unit_caller(kernel: "Kernel", layout: Layout) -> Callable:
+    """An entry point's caller: ``f(records, ...)``."""
+    function = unit_function(kernel, layout)
+    return lambda records, *more: function(row_of(records)[0], *more)
+
+
+def unit_function(kernel: "Kernel", layout: Layout) -> Callable:
+    numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[kernel.name])
+    return loading.c_function(loading.unit_addresses(kernel, layout)[kernel.name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
+
+
+def bound_unit(initialise: "Kernel", step: "Kernel", records: np.ndarray) -> tuple[Callable, Callable]:
+    """Both entry points for one record, without a look at the arguments of each call."""
+    layout, cells = layout_of(records.dtype), ctypes.c_void_p(row_of(records)[0])
+    first, following = unit_function(initialise, layout), unit_function(step, layout)
+    return lambda: first(cells), lambda time, duration: following(cells, time, duration)

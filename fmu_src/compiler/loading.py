@@ -1,0 +1,189 @@
+"""Object code into this process: from the store if it is there and its sources are unchanged, else compiled now."""
+
+import ctypes
+import hashlib
+import linecache
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import llvmlite
+import llvmlite.binding as llvm
+
+from fmu_src.compiler import store
+from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
+from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Record, Records, Type
+
+if TYPE_CHECKING:
+    from fmu_src.kernel import Kernel
+
+# What object code may ask of the C library.
+LIBM = {
+    "acos", "asin", "atan", "atan2", "ceil", "cos", "exp", "expm1", "fabs", "floor", "fmod", "hypot", "ldexp",
+    "log", "log10", "log1p", "log2", "pow", "round", "sin", "sinh", "cosh", "sqrt", "tan", "tanh", "trunc",
+    "sincos", "memcpy", "memmove", "memset",
+}  # fmt: skip
+
+# Arguments of a unit's entry points after its records, all numbers.
+ENTRY_POINTS = {"initialise": (), "step": (FLOAT, FLOAT)}
+
+
+@dataclass
+class Code:
+    """Object code and what is known about it: ``results`` by symbol, ``needs`` as (symbol, module, kernel, layout's digest)."""
+
+    objects: dict[str, bytes]
+    results: dict[str, str]
+    needs: list[list[str]] = field(default_factory=list)
+
+
+# Called with a sentence before something is compiled; the command line shows it.
+announce: Callable[[str], None] = lambda text: None
+
+
+def entry_symbol(kernel: "Kernel", layout: Layout) -> str:
+    return f"{kernel.module}.{kernel.name}/{layout.digest}"
+
+
+def separate(kernel: "Kernel", arguments: tuple[Type, ...]) -> str | None:
+    """The symbol of an entry point that has object code of its own."""
+    if kernel.is_entry and arguments and isinstance(arguments[0], Records):
+        return entry_symbol(kernel, arguments[0].layout)
+    return None
+
+
+def unit_code(initialise: "Kernel", step: "Kernel", layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
+    """Object code of a unit's entry points for targets: C functions ``initialise(cells)`` and ``step(cells, time, duration)``."""
+    def fill(module: Module) -> dict[str, Type]:
+        records = Records(layout)
+        return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
+
+    what = f"{initialise.module.partition('.')[0]} ({layout.dtype.itemsize // 1024} kB a record)"
+    return compiled(what, ("unit", initialise.module, layout.digest), Module(), fill, triples).objects
+
+
+def call_code(kernel: "Kernel", arguments: tuple[Type, ...]) -> Code:
+    """Object code of one kernel for argument types, under the symbol ``call``."""
+    def fill(module: Module) -> dict[str, Type]:
+        return {"call": module.entry(kernel, arguments, "call")}
+
+    signature = "".join(kind.code for kind in arguments)
+    triples = (host_triple(),)
+    return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.module, kernel.name, signature), Module(separate), fill, triples)
+
+
+def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dict[str, Type]], triples: tuple[str, ...]) -> Code:
+    """From the store, or made now and stored."""
+    versions = (*sys.version_info[:2], llvmlite.__version__)
+    names = {triple: store.key(*key, *versions, triple) for triple in triples}
+    found = {triple: entry for triple, name in names.items() if (entry := store.read(name)) and is_current(entry[0])}
+    missing = [triple for triple in triples if triple not in found]
+    if missing:
+        announce(f"compiling {what}")
+        results = fill(module)
+        optimised_module = optimised(module.text(host_triple()), list(results))
+        foreign = external_symbols(optimised_module) - LIBM - set(module.needs)
+        if foreign:
+            raise KernelFault(f"{what}: the kernels need {', '.join(sorted(foreign))}, which the C library does not have")
+        header = {
+            "what": what, "results": {symbol: kind.code for symbol, kind in results.items()},
+            "needs": [[symbol, kernel.module, kernel.name, kinds[0].layout.digest] for symbol, (kernel, kinds) in sorted(module.needs.items())],
+            "sources": {name: source_digest(name) for name in sorted(module.modules())},
+            "constants": [[owner, name, repr(value)] for (owner, name), value in sorted(module.constants.items())],
+        }  # fmt: skip
+        for triple in missing:
+            found[triple] = (header, emit_object(optimised_module, triple))
+            store.write(names[triple], *found[triple])
+    header = found[triples[0]][0]
+    return Code({triple: code for triple, (_, code) in found.items()}, header["results"], header["needs"])
+
+
+def is_current(header: dict) -> bool:
+    """Whether what the code was made from is what this process would make it from."""
+    return all(source_digest(name) == digest for name, digest in header["sources"].items()) and all(
+        repr(outer_value(owner, name)) == value for owner, name, value in header["constants"]
+    )
+
+
+@cache
+def source_digest(module: str) -> str | None:
+    """Of the text of a module that is imported, or None."""
+    file = getattr(sys.modules.get(module), "__file__", None)
+    if file is None:
+        return None
+    linecache.checkcache(file)
+    return hashlib.sha256("".join(linecache.getlines(file)).encode()).hexdigest()
+
+
+def outer_value(module: str, name: str) -> Any:
+    """The number that a module knows by a name, ``math.pi`` for instance."""
+    value: Any = sys.modules.get(module)
+    for part in name.split("."):
+        value = getattr(value, part, None)
+    return value
+
+
+_engines: list[llvm.ExecutionEngine] = []
+
+
+def load_object(code: bytes, symbols: tuple[str, ...]) -> tuple[int, ...]:
+    """Addresses of symbols of an object; what is loaded stays as long as the process."""
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine(host_triple()))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    _engines.append(engine)
+    return tuple(engine.get_function_address(symbol) for symbol in symbols)
+
+
+_units: dict[tuple[str, str], dict[str, int]] = {}
+
+
+def unit_addresses(kernel: "Kernel", layout: Layout) -> dict[str, int]:
+    """Addresses of the entry points of a kernel's module for records of this layout."""
+    key = (kernel.module, layout.digest)
+    if key not in _units:
+        beside = kernel.function.__globals__
+        initialise, step = (beside[name] for name in ENTRY_POINTS)
+        triple = host_triple()
+        code = unit_code(initialise, step, layout, (triple,))[triple]
+        _units[key] = dict(zip(ENTRY_POINTS, load_object(code, tuple(ENTRY_POINTS))))
+    return _units[key]
+
+
+def call_address(kernel: "Kernel", arguments: tuple[Type, ...]) -> tuple[int, str]:
+    """(address, code of the result's type) of a kernel for argument types."""
+    code = call_code(kernel, arguments)
+    known = {layout.digest: layout for kind in arguments for layout in layouts_in(kind)}
+    for symbol, module, name, digest in code.needs:
+        needed = getattr(sys.modules[module], name)
+        llvm.add_symbol(symbol, unit_addresses(needed, known[digest])[name])
+    (address,) = load_object(code.objects[host_triple()], ("call",))
+    return address, code.results["call"]
+
+
+def layouts_in(kind: Type) -> list[Layout]:
+    """The layout of a record and those of the records in it."""
+    if not isinstance(kind, (Record, Records)):
+        return []
+    found = [kind.layout]
+    for name in kind.layout.dtype.names or ():
+        base = kind.layout.dtype.fields[name][0].base
+        if base.names:
+            found += layouts_in(Record(Layout(base)))
+    return found
+
+
+NUMBERS = {"f": FLOAT, "i": INTEGER, "b": TRUTH}
+
+
+def result_type(code: str) -> Type:
+    """The type of a result from its letters: a number or a tuple of numbers."""
+    if code in NUMBERS:
+        return NUMBERS[code]
+    return Group(tuple(NUMBERS[letter] for letter in code[1:-1]))
+
+
+def c_function(address: int, arguments: list, result: Any) -> Callable:
+    return ctypes.CFUNCTYPE(result, *arguments)(address)
