@@ -14,8 +14,8 @@ from discrepancy.inference.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from orchestrator import building
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
+from studies import building
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.

@@ -21,9 +21,10 @@ import tomlkit
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
-from orchestrator.faults import InputFault
-from orchestrator.reducer import Reducer, load_reducer
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from reducers.library import LIBRARY
+from reducers.reducer import Reducer, load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
 from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
 
@@ -137,7 +138,7 @@ def inline(entry: dict):
 
 def reducer_reference(model: ModelFile, path: Path) -> str:
     """Name of a library reducer, or the path of its file as seen from the model file."""
-    if model.reducer.path.parent.name == "reducers" and load_or_none(model.reducer.name):
+    if model.reducer.path.resolve().parent == LIBRARY.resolve() and load_or_none(model.reducer.name):
         return model.reducer.name
     try:
         return str(model.reducer.path.resolve().relative_to(path.resolve().parent))

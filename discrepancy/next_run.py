@@ -14,7 +14,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.verdict import Answer, diagnose
-from orchestrator.hysteresis import torque_way
+from studies.hysteresis import torque_way
 
 HOUR = 3600.0
 # Quantities whose condition has these factors; the others are taken with the input held.

@@ -10,12 +10,12 @@ from pathlib import Path
 import fmpy
 from fmpy.fmi1 import FMICallException
 
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.slaves.kernel_slave import STAMP
 from fmu_src.source_hash import source_hash
 from fmu_src.state import unpack
 from fmu_src.unit import make_unit
 from orchestrator.component import Component
-from orchestrator.faults import InputFault, RunFault
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described

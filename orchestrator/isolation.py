@@ -17,8 +17,8 @@ from threading import Timer
 
 import numpy as np
 
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault, RunFault
 
 LENGTH = struct.Struct("<Q")
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}

@@ -26,15 +26,15 @@ from typing import Literal
 
 from pydantic import Field, ValidationError
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, InProcess
-from orchestrator.faults import InputFault
 from orchestrator.fmu import open_fmu
 from orchestrator.master import Connection, LoopSettings, Master, StepControl
 from orchestrator.master.power import THRESHOLD
-from orchestrator.reducer import NAME, Strict, load_reducer
 from orchestrator.settings import parse_value
 from orchestrator.system import System
+from reducers.reducer import NAME, Strict, load_reducer
 
 
 class Quantity(Strict):

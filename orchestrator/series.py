@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from orchestrator import results
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
+from studies import results
 
 SUFFIXES = (".csv", ".nc")
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
 from orchestrator.fmu import open_fmu
 from orchestrator.master import SCHEMES, Connection, Master
 from orchestrator.master.connections import resolve

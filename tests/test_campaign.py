@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.campaign import load_campaign
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 HEAD = """
 [campaign]

@@ -6,11 +6,11 @@ import json
 import numpy as np
 import pytest
 
+from cli.commands.campaign import add_campaign
 from discrepancy.campaign import check_campaign, load_campaign, write_template
-from discrepancy.campaign.commands import add_campaign
 from discrepancy.campaign.pairs import PAIRS
 from discrepancy.campaign.quantities import QUANTITIES
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 
 def campaign(folder, conditions: dict[str, str], runs: list[str], reducer="RV20E-121"):

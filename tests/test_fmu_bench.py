@@ -8,8 +8,8 @@ from discrepancy.prediction.bench import HOUR, Bench, Condition
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
-from orchestrator.coupled import COLUMNS
-from orchestrator.faults import InputFault, RunFault
+from studies.coupled import COLUMNS
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from test_loop import CLEARANCE, campaign_of
 

@@ -8,14 +8,14 @@ import numpy as np
 import plotly.graph_objects as go
 import pytest
 
-from orchestrator import results
-from orchestrator.faults import InputFault
-from orchestrator.life import Life, LifeSettings, live
-from orchestrator.pair import make_pair
-from orchestrator.report import circles, findings, inputs, phase, shapes, spectrum, write_report
-from orchestrator.report.page import page_of
-from orchestrator.report.result import Result, number
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from studies import results
+from studies.life import Life, LifeSettings, live
+from studies.pair import make_pair
+from studies.report import circles, findings, inputs, phase, shapes, spectrum, write_report
+from studies.report.page import page_of
+from studies.report.result import Result, number
 from wear_fmu.kinematics import flank_arc_per_phase, sliding_per_crank_angle
 
 SECTIONS = ("parts", "turn", "growth", "orders-section", "inputs")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 from orchestrator.scenario import load_scenario
 
 PAIR = """

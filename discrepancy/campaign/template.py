@@ -6,7 +6,7 @@ import pandas as pd
 
 from discrepancy.campaign.file_format import FILE
 from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, VALUE, Quantity, roles_of
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 USUAL = ("transmission_error", "hysteresis", "input_torque")
 FORMATS = ("csv", "parquet")

@@ -6,9 +6,9 @@ from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.content import Section, Table
 from discrepancy.verdict import Answer
-from orchestrator.report import look
-from orchestrator.report.look import Figure
-from orchestrator.report.result import number
+from pages import look
+from pages.look import Figure
+from studies.report.result import number
 
 MOST_RIVALS = 12
 

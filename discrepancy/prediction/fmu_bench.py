@@ -26,11 +26,11 @@ from discrepancy.prediction.bench import (
     stretches,
     within_turn,
 )
-from orchestrator.coupled import COLUMNS
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
-from orchestrator.pair import CONNECTIONS, require_built_from
+from studies.coupled import COLUMNS
+from studies.pair import CONNECTIONS, require_built_from
 
 # The wear unit takes no more than half a turn of cranks, carrier or cages in a step [rad].
 LONGEST_WEAR_STEP = 3.0

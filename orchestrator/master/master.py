@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
 from orchestrator.master.connections import (
     Connection,
     Link,

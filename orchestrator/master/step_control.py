@@ -25,8 +25,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component, Signal
-from orchestrator.faults import InputFault, RunFault
 from orchestrator.master.connections import Link, resolve
 from orchestrator.master.extrapolation import History
 
