@@ -22,7 +22,7 @@ from benchmarks.blind_trial.generator.laws import Drag
 from benchmarks.blind_trial.generator.make import measure as measured_runs
 from benchmarks.blind_trial.generator.truth import Bench
 from benchmarks.ratios import Curve, Figure, Measured, exponent
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.workspace import Workspace
 from discrepancy.model_file import load_model

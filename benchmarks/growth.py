@@ -14,11 +14,11 @@ from pathlib import Path
 from benchmarks.lives import in_process, timed
 from benchmarks.many import TEXT
 from benchmarks.ratios import Curve, Figure, Measured, cost, exponent
-from cli.commands.ensemble import tasks_of
 from reducers.reducer import Reducer, load_reducer
 from studies.coupled import run_pair
 from studies.ensemble.ensemble_file import load_ensemble
 from studies.ensemble.member import run
+from studies.ensemble.sampling import tasks_of
 from studies.ensemble.store import Store
 from studies.life import Life, LifeSettings, live
 from studies.pair import Pair, make_pair

@@ -16,10 +16,10 @@ from pathlib import Path
 from time import process_time
 
 from benchmarks.ratios import Figure, Measured
-from cli.commands.ensemble import tasks_of
 from studies.ensemble.backends import through_dask, through_joblib
 from studies.ensemble.ensemble_file import load_ensemble
 from studies.ensemble.member import Task, run
+from studies.ensemble.sampling import tasks_of
 from studies.ensemble.store import Store
 
 TEXT = """

@@ -19,7 +19,7 @@ from time import perf_counter
 
 from fmu_src.native import host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
-from orchestrator.fmu import open_fmu
+from orchestrator.opening import open_fmu
 from reducers.reducer import load_reducer
 from studies.pair import make_pair
 

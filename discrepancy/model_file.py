@@ -130,6 +130,14 @@ def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | st
     return variable.choices[int(value)] if variable.choices else value
 
 
+def extended_reducer(file: ModelFile) -> Reducer:
+    """The reducer with settings and effects as start values, for FMUs that carry them."""
+    known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
+    values = {name: value for name, value in file.values().items() if name in known}
+    sources = {name: f"model {file.name}" for name in values}
+    return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
+
+
 def inline(entry: dict):
     table = tomlkit.inline_table()
     table.update(entry)

@@ -23,15 +23,6 @@ from orchestrator.model_description import Described
 VERSIONS = {"2.0": Fmi2, "3.0": Fmi3}
 
 
-def open_fmu(name: str, path: str | Path, isolate: bool = False) -> Component:
-    """One instance of an FMU, in a process of its own if so asked."""
-    if isolate:
-        from orchestrator.isolation import Isolated
-
-        return Isolated(name, path)
-    return Fmu(name, path)
-
-
 class Fmu(Component):
     """One instance of an FMU."""
 

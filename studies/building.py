@@ -5,6 +5,7 @@ import zipfile
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 
 import fmpy
@@ -16,7 +17,6 @@ from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, vali
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from reducers.reducer import Reducer
-from studies import results
 from studies.pair import POSITIONS_PER_TURN, crank_turn_time, export_pair
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
@@ -38,7 +38,7 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy:
     """
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
-    tool = f"rvwear {results.version('rvwear')}"
+    tool = f"rvwear {version('rvwear')}"
     native = native_versions(wanted)
     built = []
     for name, unit in UNITS.items():

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from fmu_src.faults import InputFault
 from orchestrator.component import Component, InProcess
-from orchestrator.fmu import Fmu, open_fmu
+from orchestrator.fmu import Fmu
 from orchestrator.master import Master
+from orchestrator.opening import open_fmu
 from orchestrator.settings import Setting, apply
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer

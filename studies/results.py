@@ -1,33 +1,16 @@
-"""Results as NetCDF: every array with its unit, every file with its inputs."""
+"""What a life leaves behind: figures, turns, surfaces and orders as one dataset."""
 
-import json
 import math
-import sys
-from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from fmu_src.source_hash import source_hash
 from orchestrator.component import Component
+from orchestrator.netcdf import provenance
+from studies.figure_units import figure_unit
 from studies.life import Life, as_arrays
 from studies.pair import Pair
 from studies.solve import SERIES, Turn
-
-LIBRARIES = ("numba", "llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu")
-
-# Unit and meaning of the figures' name endings.
-FIGURE_UNITS = {
-    "_N": "N", "_Nm": "N.m", "_MPa": "MPa", "_arcsec": "arcsec", "_um": "um", "_deg": "deg", "_mm_s": "mm/s",
-    "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_Nm_arcmin": "N.m.arcmin",
-}  # fmt: skip
-
-
-def figure_unit(name: str) -> str:
-    """Unit of a figure, from the ending of its name; "1" if it has none."""
-    endings = [ending for ending in FIGURE_UNITS if name.endswith(ending)]
-    return FIGURE_UNITS[max(endings, key=len)] if endings else "1"
 
 
 def parameters_of(component: Component) -> dict:
@@ -40,17 +23,6 @@ def parameters_of(component: Component) -> dict:
             if signal.choices and not signal.shape:
                 values[name] = signal.choices[value]
     return values
-
-
-def provenance(inputs: dict) -> dict[str, str]:
-    """Attributes that say how a result came about."""
-    return {
-        "inputs": json.dumps(inputs, sort_keys=True),
-        "source_hash": source_hash(),
-        "software": json.dumps(
-            {"rvwear": version("rvwear"), "python": sys.version.split()[0]} | {n: version(n) for n in LIBRARIES}
-        ),
-    }
 
 
 def turn_variables(turns: list[Turn], pair: Pair, leading: str) -> dict[str, xr.Variable]:
@@ -108,16 +80,6 @@ def figure_arrays(dataset: xr.Dataset) -> dict[str, list[float]]:
     return {"hours": dataset["hour"].values.tolist()} | {n: dataset[n].values.tolist() for n in names}
 
 
-def series_dataset(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict) -> xr.Dataset:
-    """Series of a run over ``time``; names ``component.signal``."""
-    variables = {}
-    for name, values in series.items():
-        if name != "time":
-            axes = tuple(f"{name}_{i}" for i in range(1, values.ndim))
-            variables[name] = xr.Variable(("time", *axes), values, {"units": units[name]})
-    return xr.Dataset(variables, {"time": ("time", series["time"], {"units": "s"})}, provenance(inputs))
-
-
 def bin_middles(count: int, low: float, high: float) -> np.ndarray:
     return low + (np.arange(count) + 0.5) * (high - low) / count
 
@@ -165,19 +127,3 @@ def order_spectrum(pair: Pair, hours: float, positions: int = 120) -> xr.Dataset
             "order": ("order", np.arange(1, amplitude.shape[0]), {"units": "1/rev", "long_name": "per output turn"}),
         },
     )
-
-
-def write(dataset: xr.Dataset, path: Path) -> Path:
-    """Write compressed; beside the target first, so that an interruption leaves no half file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".part")
-    encoding = {n: {"zlib": True, "complevel": 4} for n, v in dataset.data_vars.items() if v.ndim}
-    dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
-    partial.replace(path)
-    return path
-
-
-def read(path: Path) -> xr.Dataset:
-    """A result file in memory."""
-    with xr.open_dataset(path, engine="netcdf4", decode_timedelta=False) as dataset:
-        return dataset.load()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from fmu_src.faults import InputFault
 
 HEAD = """

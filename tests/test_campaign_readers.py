@@ -10,7 +10,7 @@ import scipy.io
 from asammdf import MDF, Signal
 from nptdms import ChannelObject, TdmsWriter
 
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from fmu_src.faults import InputFault
 
 ANGLE = np.array([0.0, 90.0, 180.0, 270.0, 360.0])

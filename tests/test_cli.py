@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cli.main import main
-from studies.results import read
+from orchestrator.netcdf import read
 
 SOLVE_KEYS = {
     "peak_pin_force_N", "mean_loaded_teeth", "peak_contact_pressure_MPa", "peak_roller_force_N", "mean_lag_arcsec",

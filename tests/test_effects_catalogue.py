@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from cli.commands.effects import add_effects
+from cli.commands import effects
 from discrepancy.catalogue.catalogue import entries, entry
 from discrepancy.catalogue.documentation import COMPUTED, PAGE, static_part
 from discrepancy.catalogue.examples import AUDITED, CASES, picture
@@ -16,7 +16,7 @@ from fmu_src.faults import InputFault
 
 def run(*arguments):
     top = argparse.ArgumentParser()
-    add_effects(top.add_subparsers())
+    effects.add_commands(top.add_subparsers())
     options = top.parse_args(["effects", *map(str, arguments)])
     return options.run(options)
 

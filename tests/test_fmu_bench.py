@@ -81,7 +81,7 @@ def test_units_of_another_reducer_are_refused(fmus):
 
 
 def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
-    from discrepancy.extend import extended_reducer
+    from discrepancy.model_file import extended_reducer
 
     better = ModelFile("better", model.reducer, {}, {"needle_clearance": {CLEARANCE: {"value": 0.6e-6, "unit": "m"}}})
     built_from = {"plant": "rv_plant", "wear": "wear_fmu"}

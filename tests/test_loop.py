@@ -8,8 +8,8 @@ import pytest
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import compare
 from discrepancy.draft import text_of
-from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend, extended_reducer
-from discrepancy.model_file import load_model, save_model
+from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
+from discrepancy.model_file import extended_reducer, load_model, save_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose

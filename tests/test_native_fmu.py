@@ -22,7 +22,7 @@ from fmu_src.native import LIBM
 from fmu_src.package import build_native
 from orchestrator.component import InProcess
 from fmu_src.faults import InputFault, RunFault
-from orchestrator.fmu import open_fmu
+from orchestrator.opening import open_fmu
 from studies.pair import make_pair
 
 VERSIONS = ["fmi2", "fmi3"]

@@ -9,7 +9,7 @@ from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
 from orchestrator.component import InProcess
-from orchestrator.fmu import open_fmu
+from orchestrator.opening import open_fmu
 from orchestrator.settings import Setting
 from rv_reducer.exchange import WEAR_TO_PLANT
 from rv_reducer.reducer import OF_WEAR

@@ -10,6 +10,7 @@ import pytest
 
 from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from orchestrator.netcdf import series_dataset
 from studies import results
 from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
@@ -226,6 +227,6 @@ def test_standing_pins_wear_where_they_are_touched(rv20e):
 
 
 def test_a_result_without_a_life_is_refused(tmp_path):
-    series = results.series_dataset({"time": np.arange(3.0), "plant.lag": np.zeros((3, 1))}, {"plant.lag": "rad"}, {})
+    series = series_dataset({"time": np.arange(3.0), "plant.lag": np.zeros((3, 1))}, {"plant.lag": "rad"}, {})
     with pytest.raises(InputFault, match="rvwear life"):
         write_report(series, tmp_path / "none.html")

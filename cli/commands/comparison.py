@@ -1,26 +1,21 @@
-"""``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``."""
+"""``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``: the loop of model against measurement."""
 
 import argparse
-import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from cli.screen import busy, json_text
-from cli.show import comparison as screen
-from discrepancy.campaign.load import load_campaign
-from discrepancy.compare import compare
-from discrepancy.draft import draft_effect
-from discrepancy.extend import DID_NOT_HELP, build_units, extend
-from discrepancy.inference.verdict import ONE, SEVERAL
-from discrepancy.model_file import load_model, save_model
-from discrepancy.next_run import next_run
-from discrepancy.verdict import diagnose
+from cli.completion import completed_by, reducer_completions
+from cli.options import add_json, all_cores, folder
 from fmu_src.faults import InputFault
+
+if TYPE_CHECKING:
+    from discrepancy.campaign.model import Campaign
+    from discrepancy.model_file import ModelFile
 
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
 
-def add_loop(sub: argparse._SubParsersAction) -> None:
-    """The commands with their options, on the parser of ``rvwear``."""
+def add_commands(sub: argparse._SubParsersAction) -> None:
     for name, run, text in (
         ("compare", run_compare, "hold a model against a campaign: error against noise, per signal and condition"),
         ("localise", run_localise, "where a model fails: signals, orders, loads, speeds, temperatures, hours, places"),
@@ -43,21 +38,28 @@ def add_loop(sub: argparse._SubParsersAction) -> None:
     add.add_argument("--anyway", action="store_true", help="keep an effect that did not help")
     add.set_defaults(run=run_extend)
     ladder = sub.add_parser("ladder", help="how the error fell, step by step")
-    ladder.add_argument("model", help=MODEL_HELP)
-    ladder.add_argument("--json", action="store_true", help="print the steps as JSON, nothing else")
+    add_model(ladder)
+    add_json(ladder, "print the steps as JSON, nothing else")
     ladder.add_argument("--html", metavar="FILE", help="write a page with the ladder as a picture")
     ladder.set_defaults(run=run_ladder)
 
 
+def add_model(command: argparse.ArgumentParser) -> None:
+    completed_by(command.add_argument("model", help=MODEL_HELP), reducer_completions)
+
+
 def add_common(command: argparse.ArgumentParser) -> None:
-    command.add_argument("model", help=MODEL_HELP)
+    add_model(command)
     command.add_argument("campaign", help="folder with campaign.toml")
     command.add_argument("--data", metavar="FOLDER", help="where the data files are (default: as campaign.toml says)")
-    command.add_argument("--json", action="store_true", help="print the result as JSON, nothing else")
+    add_json(command, "print the result as JSON, nothing else")
     command.add_argument("--html", metavar="FILE", help="write a page with pictures")
 
 
-def inputs(options: argparse.Namespace):
+def inputs(options: argparse.Namespace) -> "tuple[ModelFile, Campaign]":
+    from discrepancy.campaign.load import load_campaign
+    from discrepancy.model_file import load_model
+
     file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
     if not campaign.records:
         raise InputFault(f"{options.campaign}: no run has any rows yet; fill in the files (rvwear campaign check lists them)")
@@ -66,16 +68,7 @@ def inputs(options: argparse.Namespace):
     return file, campaign
 
 
-def fmu_folder(options: argparse.Namespace) -> Path | None:
-    return Path(options.fmus) if options.fmus else None
-
-
-def all_cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def write_html(options: argparse.Namespace, result) -> None:
+def write_html(options: argparse.Namespace, result: object) -> None:
     if options.html:
         from discrepancy.page import write_page
 
@@ -83,31 +76,44 @@ def write_html(options: argparse.Namespace, result) -> None:
 
 
 def run_compare(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_comparison
+    from discrepancy.compare import compare
+
     with busy("comparing"):
-        comparison = compare(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
+        comparison = compare(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
         json_text(comparison.as_json())
     else:
-        screen.show_comparison(comparison)
+        show_comparison(comparison)
     return 0
 
 
 def run_localise(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import console, show_localisation, show_warnings
+    from discrepancy.compare import compare
+
     with busy("localising"):
-        comparison = compare(*inputs(options), fmus=fmu_folder(options))
+        comparison = compare(*inputs(options), fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
         json_text(comparison.as_json()["localisation"])
     else:
-        screen.show_localisation(comparison.diagnostician.localisation)
-        screen.show_warnings(screen.console(), comparison.warnings)
+        show_localisation(comparison.diagnostician.localisation)
+        show_warnings(console(), comparison.warnings)
     return 0
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_answer
+    from discrepancy.draft import draft_effect
+    from discrepancy.verdict import diagnose
+
     with busy("diagnosing"):
-        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=fmu_folder(options))
+        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, answer)
     draft = None
     if options.draft:
@@ -115,7 +121,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
     if options.json:
         json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
-        screen.show_answer(answer)
+        show_answer(answer)
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law could be recovered")
     return 0
@@ -123,6 +129,13 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 def run_extend(options: argparse.Namespace) -> int:
     """Exit code 1 where the effect did not help on unused runs."""
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_extension
+    from discrepancy.extend import DID_NOT_HELP, build_units, extend
+    from discrepancy.inference.verdict import ONE, SEVERAL
+    from discrepancy.model_file import save_model
+    from discrepancy.verdict import diagnose
+
     file, campaign = inputs(options)
     names = options.effect
     if not names:
@@ -146,7 +159,7 @@ def run_extend(options: argparse.Namespace) -> int:
     if options.json:
         json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
     else:
-        screen.show_extension(extension)
+        show_extension(extension)
         print(f"model  {target}")
         for path in fmus:
             print(f"FMU    {path}")
@@ -154,21 +167,29 @@ def run_extend(options: argparse.Namespace) -> int:
 
 
 def run_ladder(options: argparse.Namespace) -> int:
+    from cli.screen import json_text
+    from cli.show.comparison import show_ladder
+    from discrepancy.model_file import load_model
+
     file = load_model(options.model)
     write_html(options, file)
     if options.json:
         json_text({"model": file.name, "steps": list(file.steps)})
     else:
-        screen.show_ladder(file)
+        show_ladder(file)
     return 0
 
 
 def run_next(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_next
+    from discrepancy.next_run import next_run
+
     with busy("looking for an experiment"):
         run = next_run(*inputs(options), jobs=all_cores())
     write_html(options, run)
     if options.json:
         json_text(run.as_json())
     else:
-        screen.show_next(run)
+        show_next(run)
     return 0

@@ -2,25 +2,30 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from cli.screen import Progress, busy, json_text
-from cli.show import effects as screen
-from discrepancy.catalogue.catalogue import Entry, entries, entry
-from discrepancy.catalogue.signature import Signature, new_bench, signature
+from cli.options import add_json, add_reducer
+
+if TYPE_CHECKING:
+    from discrepancy.catalogue.catalogue import Entry
+    from discrepancy.catalogue.signature import Signature
 
 
-def add_effects(sub: argparse._SubParsersAction) -> None:
-    """The command with its options, on the parser of ``rvwear``."""
+def add_commands(sub: argparse._SubParsersAction) -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
     effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number (default: list all)")
-    effects.add_argument("--reducer", default="RV20E-121", help="reducer on the bench (default RV20E-121)")
-    effects.add_argument("--json", action="store_true", help="print as JSON, nothing else")
+    add_reducer(effects, "reducer on the bench (default RV20E-121)")
+    add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
     effects.set_defaults(run=run_effects)
 
 
 def run_effects(options: argparse.Namespace) -> int:
     """List, or explain one; with ``--html`` the page of what was asked for."""
+    from cli.screen import json_text
+    from cli.show.effects import show_list, show_one
+    from discrepancy.catalogue.catalogue import entries, entry
+
     chosen = [entry(options.name)] if options.name else entries()
     computed = compute(chosen, options.reducer) if options.name and not options.html else {}
     if options.html:
@@ -29,24 +34,29 @@ def run_effects(options: argparse.Namespace) -> int:
         found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
         json_text(found[0] if options.name else {"effects": found})
     elif options.name:
-        screen.show_one(chosen[0], computed[chosen[0].name])
+        show_one(chosen[0], computed[chosen[0].name])
     elif not options.html:
-        screen.show_list(chosen)
+        show_list(chosen)
     if options.html and not options.json:
         print(options.html)
     return 0
 
 
-def compute(chosen: list[Entry], reducer: str) -> dict[str, list[Signature]]:
+def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":
+    from cli.screen import busy
+    from discrepancy.catalogue.signature import new_bench, signature
+
     with busy("computing the signature"):
         bench = new_bench(reducer)
         return {e.name: [signature(bench, e.name, case) for case in e.cases] for e in chosen}
 
 
-def write_page(chosen: list[Entry], reducer: str, path: Path) -> dict[str, list[Signature]]:
+def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, list[Signature]]":
     """Compute all signatures and pictures and write them."""
+    from cli.screen import Progress
     from discrepancy.catalogue.page import page_of
     from discrepancy.catalogue.plots import figure
+    from discrepancy.catalogue.signature import new_bench, signature
 
     bench, shown = new_bench(reducer), []
     with Progress(len(chosen), "effects") as progress:
@@ -58,7 +68,7 @@ def write_page(chosen: list[Entry], reducer: str, path: Path) -> dict[str, list[
     return {e.name: found for e, found, _ in shown}
 
 
-def as_json(found: Signature) -> dict:
+def as_json(found: "Signature") -> dict:
     """A signature with all its figures, visible or not."""
     rows = [
         {"figure": r.figure, "condition": r.condition, "unit": r.unit, "without": float(r.without), "with": float(r.present)}

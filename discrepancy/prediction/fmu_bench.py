@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from discrepancy.model_file import ModelFile
+from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.bench import (
     HELD_ANGLES,
     SHORT_CYCLE,
@@ -221,9 +221,6 @@ def refusal_as_run_fault():
 
 def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
     """An FMU is that of the model's reducer, or of the extended model; the rest is set at each run."""
-    # Not above: extending a model needs the bench.
-    from discrepancy.extend import extended_reducer
-
     extended = extended_reducer(model)
     built_extended = unit.specification() == extended.specification(name)
     require_built_from(extended if built_extended else model.reducer, unit, name)

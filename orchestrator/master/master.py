@@ -28,8 +28,7 @@ from orchestrator.master.extrapolation import HIGHEST_ORDER, ExtrapolatedTransfe
 from orchestrator.master.loops import LoopSettings, Settling, has_feedthrough
 from orchestrator.master.power import THRESHOLD, PowerBond, find_pairs, make_bond, pair_of
 from orchestrator.master.step_control import Controller, StepControl
-
-SCHEMES = ("gauss-seidel", "jacobi")
+from orchestrator.schemes import SCHEMES
 
 
 class Master:

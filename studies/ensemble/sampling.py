@@ -12,6 +12,7 @@ from SALib.sample import sobol
 from scipy import stats
 
 from studies.ensemble.ensemble_file import Ensemble, Scatter
+from studies.ensemble.member import Task
 
 
 def problem(ensemble: Ensemble) -> dict:
@@ -39,6 +40,14 @@ def values_of(ensemble: Ensemble, row: np.ndarray) -> dict[str, float | list]:
         found[scatter.name] = cells.tolist()
         place += size
     return found
+
+
+def tasks_of(ensemble: Ensemble) -> list[Task]:
+    """The lives of an ensemble, one for each point."""
+    return [
+        Task(number, ensemble.reducer, ensemble.settings, ensemble.duty, ensemble.hours, ensemble.tolerance, values_of(ensemble, row))
+        for number, row in enumerate(points(ensemble))
+    ]
 
 
 def quantile(scatter: Scatter, share: np.ndarray) -> np.ndarray:
