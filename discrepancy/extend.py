@@ -9,8 +9,8 @@ from pathlib import Path
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, compare
-from discrepancy.inference.held_out import HeldOutJudge
-from discrepancy.inference.refit import Refit, estimates
+from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.physical_model import PhysicalModel

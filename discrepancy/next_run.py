@@ -8,7 +8,7 @@ import numpy as np
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, next_experiment, rival_of
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel

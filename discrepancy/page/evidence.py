@@ -1,6 +1,6 @@
 """The parts of a diagnosis's page: effects, unused conditions, what cannot be separated, rivals, laws."""
 
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words

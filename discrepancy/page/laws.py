@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from discrepancy.inference.closed_forms import Form, _forms
-from discrepancy.inference.recover import Recovered
+from discrepancy.inference.law.closed_forms import Form, _forms
+from discrepancy.inference.law.recover import Recovered
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Table
 from discrepancy.page.runs import slug

@@ -11,11 +11,11 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import effective_dof, excess, mean_excess
-from discrepancy.inference.features import ORDERS, features, modulations
-from discrepancy.inference.fit import Fit
-from discrepancy.inference.series import stream_of
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import effective_dof, excess, mean_excess
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.misfit.features import ORDERS, features, modulations
+from discrepancy.inference.noise.series import stream_of
 
 LEVEL = 0.004
 """Significance of a finding over all groups together."""

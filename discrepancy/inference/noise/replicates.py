@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.series import position_of, stream_of
+from discrepancy.inference.noise.series import position_of, stream_of
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.inference.fit import Box, Fit, fit_of
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.problem import Candidate, Parameter
 
 MISLED = 0.2

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from discrepancy.inference.whiten import correlations, gains, innovations
+from discrepancy.inference.noise.whiten import correlations, gains, innovations
 
 
 def detrended_values(position, values):

@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.stats import chi2
 
-from discrepancy.inference.outliers import CUT, huber_weights
-from discrepancy.inference.whiten import autoregress, correlations, gains, innovations
+from discrepancy.inference.noise.outliers import CUT, huber_weights
+from discrepancy.inference.noise.whiten import autoregress, correlations, gains, innovations
 
 
 def pattern_columns(record_position, prediction, names):

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.inference.components import project_out
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.workspace import Workspace
 
 
 def effect_size(space: Workspace, difference: Mapping[int, np.ndarray]) -> float:

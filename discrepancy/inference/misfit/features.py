@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.noise import SHORT
-from discrepancy.inference.series import order_axis
+from discrepancy.inference.noise.noise import SHORT
+from discrepancy.inference.noise.series import order_axis
 from discrepancy.problem import Record
 
 ORDERS: dict[str, tuple[float, ...]] = {

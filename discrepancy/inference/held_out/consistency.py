@@ -8,11 +8,11 @@ what a fit leaves over.
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import component_grams, effective_dof, excess, mean_excess, project_out
-from discrepancy.inference.features import modulations
-from discrepancy.inference.refit import Refit
-from discrepancy.inference.series import stream_of
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, mean_excess, project_out
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.misfit.features import modulations
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.refit import Refit
 
 
 def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, float]]:

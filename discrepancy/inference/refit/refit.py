@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import t as student
 
-from discrepancy.inference.components import component_grams, effective_dof
-from discrepancy.inference.effect_fit import fit_effects
-from discrepancy.inference.fit import Fit, fit_of
-from discrepancy.inference.screen import Score
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import component_grams, effective_dof
+from discrepancy.inference.base_fit.fit import Fit, fit_of
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.effect_fit import fit_effects
+from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Parameter
-
 
 UNDETERMINED = 1e-6
 """Information (in units of the parameter's scale) below which a parameter is not estimated."""

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.inference.fit import Box, Fit, fit_of
-from discrepancy.inference.noise import Noise, estimate
-from discrepancy.inference.predictions import Predictions
+from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
+from discrepancy.inference.base_fit.predictions import Predictions
+from discrepancy.inference.noise.noise import Noise, estimate
 from discrepancy.problem import Candidate, Model, Parameter
 
 STEP = 0.01

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.closed_forms import Form, propose
-from discrepancy.inference.fit import Fit
-from discrepancy.inference.noise import SHORT
-from discrepancy.inference.series import order_axis, stream_of
-from discrepancy.inference.splines import Curve, additive
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.law.closed_forms import Form, propose
+from discrepancy.inference.law.splines import Curve, additive
+from discrepancy.inference.noise.noise import SHORT
+from discrepancy.inference.noise.series import order_axis, stream_of
 
 BINS = 24
 

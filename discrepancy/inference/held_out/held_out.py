@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import effective_dof
-from discrepancy.inference.features import ORDERS, features
-from discrepancy.inference.localise import Localisation
-from discrepancy.inference.refit import Refit
-from discrepancy.inference.series import stream_of
-from discrepancy.inference.workspace import Workspace, rows_of
+from discrepancy.inference.base_fit.components import effective_dof
+from discrepancy.inference.base_fit.workspace import Workspace, rows_of
+from discrepancy.inference.misfit.features import ORDERS, features
+from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.refit import Refit
 
 
 @dataclass(frozen=True)

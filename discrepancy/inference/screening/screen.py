@@ -13,9 +13,9 @@ from itertools import combinations
 import numpy as np
 from scipy.stats import f as fisher
 
-from discrepancy.inference.components import component_grams, effective_dof, excess, project_out, simulate
-from discrepancy.inference.fit import Fit
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.problem import Candidate
 
 SMALL, TYPICAL = 0.05, 1.0

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.correlation import autoregression_of, correlation_of, detrended_values
-from discrepancy.inference.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
-from discrepancy.inference.replicates import Deviation, deviations_of
-from discrepancy.inference.run_patterns import pattern_columns, pattern_variances
-from discrepancy.inference.series import position_of, stream_of
-from discrepancy.inference.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
+from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values
+from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
+from discrepancy.inference.noise.replicates import Deviation, deviations_of
+from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
+from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
 from discrepancy.problem import Record
 
 SHORT = 8

@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import norm, t as student
+from scipy.stats import norm
+from scipy.stats import t as student
 
-from discrepancy.inference.components import project_out
-from discrepancy.inference.refit import Refit
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.refit import Refit
 
 MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""

@@ -8,8 +8,8 @@ from collections import defaultdict
 
 import numpy as np
 
-from discrepancy.inference.fit import Fit
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
 
 # Samples from which the mean square of a signal's misfit says something.
 LONG = 200
