@@ -13,9 +13,9 @@ from pathlib import Path
 from time import perf_counter
 
 from fmu_src.package import build_fmu
-from orchestrator.life import Life, LifeSettings, live
-from orchestrator.pair import Pair, make_pair
-from orchestrator.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, load_reducer
+from studies.life import Life, LifeSettings, live
+from studies.pair import Pair, make_pair
 
 
 def smallest(function, runs: int) -> float:

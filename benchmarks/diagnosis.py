@@ -22,9 +22,9 @@ from benchmarks.blind_trial.generator.laws import Drag
 from benchmarks.blind_trial.generator.make import measure as measured_runs
 from benchmarks.blind_trial.generator.truth import Bench
 from benchmarks.ratios import Curve, Figure, Measured, exponent
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.workspace import Workspace
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose

@@ -17,8 +17,7 @@ from time import thread_time
 import numba
 import numpy as np
 
-from orchestrator.pair import POSITIONS_PER_TURN
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble, bearing_contacts
 from rv_plant.dynamics import assemble_motion, bearing_in_motion
@@ -26,6 +25,7 @@ from rv_plant.equilibrium import newton_direction
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import mesh_contacts
 from rv_plant.poses import disc_offset
+from studies.pair import POSITIONS_PER_TURN
 
 REDUCERS = ("RV20E-121", "BX-40E")
 # Counts that the plant keeps of each communication step in motion.

@@ -14,7 +14,7 @@ from scipy.optimize import root
 
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Measured, Ratio, cost, cost_at
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble
 

@@ -16,7 +16,7 @@ from fmu_src.link import FMI_HEADERS, SHELL
 from fmu_src.native import object_code
 from fmu_src.unit import make_unit
 from fmu_src.unit_table import c_source
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 
 DRIVER = Path(__file__).with_name("fuzz_shell.c")
 

@@ -14,14 +14,14 @@ from pathlib import Path
 from benchmarks.lives import in_process, timed
 from benchmarks.many import TEXT
 from benchmarks.ratios import Curve, Figure, Measured, cost, exponent
-from orchestrator.coupled import run_pair
-from orchestrator.ensemble.command import tasks_of
-from orchestrator.ensemble.ensemble_file import load_ensemble
-from orchestrator.ensemble.member import run
-from orchestrator.ensemble.store import Store
-from orchestrator.life import Life, LifeSettings, live
-from orchestrator.pair import Pair, make_pair
-from orchestrator.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, load_reducer
+from studies.coupled import run_pair
+from studies.ensemble.ensemble_file import load_ensemble
+from studies.ensemble.member import run
+from studies.ensemble.sampling import tasks_of
+from studies.ensemble.store import Store
+from studies.life import Life, LifeSettings, live
+from studies.pair import Pair, make_pair
 from wear_fmu.variables import Resolution
 
 # The fit's margin; caches of the processor overflow with size.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from benchmarks.limit import count
 from fmu_src.native import object_code
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 
 KEPT = Path(__file__).with_suffix(".json")
 REDUCERS = ("RV20E-121",)

@@ -22,7 +22,7 @@ import numba
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion
 from rv_plant.linear import cholesky_apply, cholesky_factor, cholesky_solve

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from benchmarks.ratios import Figure, Measured, cost
 from fmu_src.native import load_object, object_code
-from orchestrator.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, load_reducer
 from rv_plant import plant
 
 DRIVER = Path(__file__).with_name("count.c")

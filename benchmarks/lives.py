@@ -14,10 +14,10 @@ import numpy as np
 
 from benchmarks.ratios import Curve, Figure, Measured, Ratio, cost_at
 from fmu_src.package import build_native
-from orchestrator.coupled_master import CoupledMaster
-from orchestrator.life import HOUR, Life, LifeSettings, depths, live, run_cycle
-from orchestrator.pair import Pair, make_pair
-from orchestrator.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, load_reducer
+from studies.coupled_master import CoupledMaster
+from studies.life import HOUR, Life, LifeSettings, depths, live, run_cycle
+from studies.pair import Pair, make_pair
 
 TOLERANCE = 0.01
 TOLERANCES = (0.1, 0.03, TOLERANCE, 0.003)

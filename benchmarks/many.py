@@ -16,11 +16,11 @@ from pathlib import Path
 from time import process_time
 
 from benchmarks.ratios import Figure, Measured
-from orchestrator.ensemble.backends import through_dask, through_joblib
-from orchestrator.ensemble.command import tasks_of
-from orchestrator.ensemble.ensemble_file import load_ensemble
-from orchestrator.ensemble.member import Task, run
-from orchestrator.ensemble.store import Store
+from studies.ensemble.backends import through_dask, through_joblib
+from studies.ensemble.ensemble_file import load_ensemble
+from studies.ensemble.member import Task, run
+from studies.ensemble.sampling import tasks_of
+from studies.ensemble.store import Store
 
 TEXT = """
 reducer = "RV20E-121"

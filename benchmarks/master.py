@@ -23,10 +23,10 @@ from fmpy.ssp.simulation import simulate_ssp
 
 from fmu_src.package import build_native
 from orchestrator.component import InProcess
-from orchestrator.pair import CONNECTIONS, crank_turn_time
-from orchestrator.reducer import Reducer, load_reducer
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from orchestrator.system import load
+from reducers.reducer import Reducer, load_reducer
+from studies.pair import CONNECTIONS, crank_turn_time
 
 STRANGERS = Path(__file__).resolve().parents[1] / "tests" / "strangers"
 # Steps of a burst.

@@ -23,7 +23,7 @@ from benchmarks.exudyn_peer import LADDER, SLOW_LADDER, ExudynPlant
 from benchmarks.integrators import REFERENCE, Stretch, errors, jacobian, observe, rate_of_change, rated, with_alpha, with_scipy
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Figure, Measured, Ratio
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 
 LEVELS = (1e-2, 3e-3)
 OURS = (3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3)

@@ -19,9 +19,9 @@ from time import perf_counter
 
 from fmu_src.native import host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
-from orchestrator.fmu import open_fmu
-from orchestrator.pair import make_pair
-from orchestrator.reducer import load_reducer
+from orchestrator.opening import open_fmu
+from reducers.reducer import load_reducer
+from studies.pair import make_pair
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu"}
 

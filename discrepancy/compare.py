@@ -8,7 +8,7 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders

@@ -9,13 +9,13 @@ from pathlib import Path
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, compare
-from discrepancy.inference.held_out import HeldOutJudge
-from discrepancy.inference.refit import Refit, estimates
+from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
-from discrepancy.model_file import ModelFile
+from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.physical_model import PhysicalModel
-from orchestrator import building
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
+from studies import building
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
@@ -112,14 +112,6 @@ def verdict_of(judged, fit: Refit, before, after) -> tuple[str, str]:
         f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} times the noise although that on fitted"
         " runs fell: the effect fits noise or stands for another one; the model stays as it was"
     )
-
-
-def extended_reducer(file: ModelFile):
-    """The reducer with settings and effects as start values, for FMUs that carry them."""
-    known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
-    values = {name: value for name, value in file.values().items() if name in known}
-    sources = {name: f"model {file.name}" for name in values}
-    return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
 
 
 def build_units(file: ModelFile, folder: Path) -> list[Path]:

@@ -21,9 +21,10 @@ import tomlkit
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
-from orchestrator.faults import InputFault
-from orchestrator.reducer import Reducer, load_reducer
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from reducers.library import LIBRARY
+from reducers.reducer import Reducer, load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
 from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
 
@@ -129,6 +130,14 @@ def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | st
     return variable.choices[int(value)] if variable.choices else value
 
 
+def extended_reducer(file: ModelFile) -> Reducer:
+    """The reducer with settings and effects as start values, for FMUs that carry them."""
+    known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
+    values = {name: value for name, value in file.values().items() if name in known}
+    sources = {name: f"model {file.name}" for name in values}
+    return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
+
+
 def inline(entry: dict):
     table = tomlkit.inline_table()
     table.update(entry)
@@ -137,7 +146,7 @@ def inline(entry: dict):
 
 def reducer_reference(model: ModelFile, path: Path) -> str:
     """Name of a library reducer, or the path of its file as seen from the model file."""
-    if model.reducer.path.parent.name == "reducers" and load_or_none(model.reducer.name):
+    if model.reducer.path.resolve().parent == LIBRARY.resolve() and load_or_none(model.reducer.name):
         return model.reducer.name
     try:
         return str(model.reducer.path.resolve().relative_to(path.resolve().parent))

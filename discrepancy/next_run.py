@@ -8,13 +8,13 @@ import numpy as np
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, next_experiment, rival_of
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.verdict import Answer, diagnose
-from orchestrator.hysteresis import torque_way
+from studies.hysteresis import torque_way
 
 HOUR = 3600.0
 # Quantities whose condition has these factors; the others are taken with the input held.

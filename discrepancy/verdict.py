@@ -10,8 +10,8 @@ from pathlib import Path
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import warnings_of
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.recover import Recovered, recover
-from discrepancy.inference.verdict import ONE, SET, SEVERAL, UNKNOWN, INCOMPLETE, Diagnosis, Settings
+from discrepancy.inference.law.recover import Recovered, recover
+from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel

@@ -18,6 +18,7 @@ from fmpy.model_description import ValidationError
 
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
+from fmu_src.faults import RunFault
 from fmu_src.link import PLATFORMS, host_platform, shared_library, universal
 from fmu_src.native import host_triple, object_code, object_codes
 from fmu_src.presentation import files_for_people
@@ -33,7 +34,7 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 VERSIONS = {"2": "2.0", "3": "3.0"}
 
 
-class PackageFault(RuntimeError):
+class PackageFault(RunFault):
     """An FMU that does not validate."""
 
 

@@ -1,1 +1,1 @@
-"""The master and what is run with it."""
+"""The master algorithm and what it steps: units in this process or as FMUs, and systems of them."""

@@ -16,7 +16,7 @@ import numpy as np
 from fmu_src.unit import Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 
 
 # (dtype, reference): FMI 2 counts its references anew for each type.

@@ -10,26 +10,17 @@ from pathlib import Path
 import fmpy
 from fmpy.fmi1 import FMICallException
 
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.slaves.kernel_slave import STAMP
 from fmu_src.source_hash import source_hash
 from fmu_src.state import unpack
 from fmu_src.unit import make_unit
 from orchestrator.component import Component
-from orchestrator.faults import InputFault, RunFault
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
 
 VERSIONS = {"2.0": Fmi2, "3.0": Fmi3}
-
-
-def open_fmu(name: str, path: str | Path, isolate: bool = False) -> Component:
-    """One instance of an FMU, in a process of its own if so asked."""
-    if isolate:
-        from orchestrator.isolation import Isolated
-
-        return Isolated(name, path)
-    return Fmu(name, path)
 
 
 class Fmu(Component):

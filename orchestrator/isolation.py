@@ -17,8 +17,9 @@ from threading import Timer
 
 import numpy as np
 
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault, RunFault
+from orchestrator.fmu import Fmu
 
 LENGTH = struct.Struct("<Q")
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
@@ -232,8 +233,6 @@ def read(stream):
 
 def main(name: str, path: str) -> None:
     """Serve one unit until told to close or the master is gone."""
-    from orchestrator.fmu import Fmu
-
     requests = sys.stdin.buffer
     answers = os.fdopen(os.dup(1), "wb")
     # A unit may print: that must not get among the answers.

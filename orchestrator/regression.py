@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 USUAL_RELATIVE = 1e-6
 # Two times are the same if they differ by less than this part of the run.

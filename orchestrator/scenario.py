@@ -21,20 +21,20 @@ Paths are relative to the file.  Every error names file, key, value and remedy.
 """
 
 import tomllib
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, ValidationError
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, InProcess
-from orchestrator.faults import InputFault
-from orchestrator.fmu import open_fmu
-from orchestrator.master import Connection, LoopSettings, Master, StepControl
+from orchestrator.master import Connection, LoopSettings, StepControl
 from orchestrator.master.power import THRESHOLD
-from orchestrator.reducer import NAME, Strict, load_reducer
+from orchestrator.opening import open_fmu
 from orchestrator.settings import parse_value
-from orchestrator.system import System
+from reducers.reducer import NAME, Strict, load_reducer
 
 
 class Quantity(Strict):
@@ -96,8 +96,22 @@ class ScenarioFile(Strict):
     power_bonds: list[PowerBondEntry] = []
 
 
-def load_scenario(path: str | Path, step: float | None = None, isolate: bool = False, **master) -> System:
-    """Read a scenario file and make its components; step and options go before those of the file."""
+@dataclass(frozen=True)
+class Scenario:
+    """What a file says, its components made: ``step`` and ``duration`` [s], what is recorded, options of the master."""
+
+    name: str
+    components: dict[str, Component]
+    connections: list[Connection]
+    step: float
+    duration: float
+    recorded: list[tuple[str, str]]
+    options: dict[str, Any]
+    text: str
+
+
+def read_scenario(path: str | Path, step: float | None = None, isolate: bool = False) -> Scenario:
+    """Read a scenario file and make its components; ``step`` goes before that of the file."""
     path = Path(path)
     if not path.is_file():
         raise InputFault(f"no scenario file at {path}")
@@ -131,11 +145,10 @@ def load_scenario(path: str | Path, step: float | None = None, isolate: bool = F
         "power_bonds": [(bond.effort, bond.flow) for bond in content.power_bonds],
     }  # fmt: skip
     connections = [Connection(c.source, c.target, c.factor, c.offset) for c in content.connections]
-    made = Master(components, connections, step, **options | master)
     recorded = [(name, signal) for name, entry in content.components.items() for signal in entry.record]
     for name, signal in recorded:
         components[name].signal(signal)
-    return System(head.name, made, round(duration / step), recorded, text)
+    return Scenario(head.name, components, connections, step, duration, recorded, options, text)
 
 
 def seconds(quantity: Quantity, place: str) -> float:

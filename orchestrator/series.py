@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from orchestrator import results
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
+from orchestrator import netcdf
 
 SUFFIXES = (".csv", ".nc")
 
@@ -15,7 +15,7 @@ def write_series(series: dict[str, np.ndarray], units: dict[str, str], inputs: d
     """CSV or NetCDF by the file's ending; Booleans become 0 and 1."""
     plain = {name: values.astype("i4") if values.dtype == bool else values for name, values in series.items()}
     if path.suffix != ".csv":
-        return results.write(results.series_dataset(plain, units, inputs), path)
+        return netcdf.write(netcdf.series_dataset(plain, units, inputs), path)
     columns = flat(plain)
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_suffix(".part")
@@ -33,7 +33,7 @@ def read_series(path: Path) -> dict[str, np.ndarray]:
         raise InputFault(f"no file at {path}")
     if path.suffix == ".nc":
         try:
-            dataset = results.read(path)
+            dataset = netcdf.read(path)
         except (OSError, ValueError) as problem:
             raise InputFault(f"{path} is not a result of rvwear run: {problem}") from None
         columns = flat({name: values.values for name, values in dataset.variables.items()})

@@ -8,10 +8,10 @@ import difflib
 import re
 from dataclasses import dataclass
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
 
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
 

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
-from orchestrator.fmu import open_fmu
-from orchestrator.master import SCHEMES, Connection, Master
+from orchestrator.master import Connection, Master
 from orchestrator.master.connections import resolve
+from orchestrator.opening import open_fmu
+from orchestrator.scenario import read_scenario
+from orchestrator.schemes import SCHEMES
 from orchestrator.settings import parse_value
 from orchestrator.ssp.importer import read_ssp
 from orchestrator.ssp.parameters import apply
@@ -122,9 +124,9 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
     """
     path = Path(path)
     if path.suffix == ".toml":
-        from orchestrator.scenario import load_scenario
-
-        return load_scenario(path, step, isolate, **master)
+        read = read_scenario(path, step, isolate)
+        made = Master(read.components, read.connections, read.step, **read.options | master)
+        return System(read.name, made, round(read.duration / read.step), read.recorded, read.text)
     if path.suffix == ".fmu":
         return connect({path.stem: path}, (), step, isolate, **master)
     structure = read_ssp(path)

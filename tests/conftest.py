@@ -10,7 +10,7 @@ import pytest
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from shared import made_once
 from small_fmus import build_spring
 

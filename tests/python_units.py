@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 from scipy.linalg import expm
 
+from fmu_src.faults import RunFault
 from orchestrator.component import Component, Signal
-from orchestrator.faults import RunFault
 
 
 class PythonUnit(Component):

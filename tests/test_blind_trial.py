@@ -28,7 +28,8 @@ from benchmarks.blind_trial.generator.truth import Bench  # noqa: E402
 from benchmarks.blind_trial.plan import plan, reduced_plan  # noqa: E402
 from benchmarks.blind_trial.publish import publish  # noqa: E402
 from benchmarks.blind_trial.score import cases_of, misses, score  # noqa: E402
-from discrepancy.campaign import check_campaign, load_campaign  # noqa: E402
+from discrepancy.campaign.check import check_campaign  # noqa: E402
+from discrepancy.campaign.load import load_campaign  # noqa: E402
 from discrepancy.model_file import every_effect  # noqa: E402
 
 SEED = 7

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from discrepancy.campaign import load_campaign
-from orchestrator.faults import InputFault
+from discrepancy.campaign.load import load_campaign
+from fmu_src.faults import InputFault
 
 HEAD = """
 [campaign]

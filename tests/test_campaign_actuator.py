@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from test_campaign_documentation import write
 
-from discrepancy.campaign import check_campaign, load_campaign
+from discrepancy.campaign.check import check_campaign
+from discrepancy.campaign.load import load_campaign
 from fmu_src.source_hash import ROOT
 
 DATA = Path(os.environ.get("RVWEAR_DATA", ROOT.parent / "shared" / "data")) / "cycloidal_actuator"

@@ -6,11 +6,13 @@ import json
 import numpy as np
 import pytest
 
-from discrepancy.campaign import check_campaign, load_campaign, write_template
-from discrepancy.campaign.commands import add_campaign
+from cli.commands import campaign as campaign_commands
+from discrepancy.campaign.check import check_campaign
+from discrepancy.campaign.load import load_campaign
+from discrepancy.campaign.template import write_template
 from discrepancy.campaign.pairs import PAIRS
 from discrepancy.campaign.quantities import QUANTITIES
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 
 def campaign(folder, conditions: dict[str, str], runs: list[str], reducer="RV20E-121"):
@@ -163,7 +165,7 @@ def test_template_filled_in(tmp_path):
 
 def command(*arguments: str) -> int:
     parser = argparse.ArgumentParser()
-    add_campaign(parser.add_subparsers(dest="command", required=True))
+    campaign_commands.add_commands(parser.add_subparsers(dest="command", required=True))
     options = parser.parse_args(["campaign", *arguments])
     return options.run(options)
 

@@ -2,7 +2,8 @@
 
 import re
 
-from discrepancy.campaign import check_campaign, load_campaign
+from discrepancy.campaign.check import check_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.documentation import PAGE, page
 
 BLOCK = re.compile(r"```(?:toml|csv)\n# (\S+)\n(.*?)```", re.DOTALL)

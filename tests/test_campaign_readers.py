@@ -10,8 +10,8 @@ import scipy.io
 from asammdf import MDF, Signal
 from nptdms import ChannelObject, TdmsWriter
 
-from discrepancy.campaign import load_campaign
-from orchestrator.faults import InputFault
+from discrepancy.campaign.load import load_campaign
+from fmu_src.faults import InputFault
 
 ANGLE = np.array([0.0, 90.0, 180.0, 270.0, 360.0])
 ERROR = np.array([1.0, 2.5, -0.5, 0.0, 1.5])

@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from orchestrator.cli import main
-from orchestrator.faults import InputFault
+from cli.main import main
+from fmu_src.faults import InputFault
 from orchestrator.regression import compare, parse_tolerance
 from orchestrator.series import read_series, write_series
 from orchestrator.ssp.exporter import Experiment, export_ssp

@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from orchestrator.cli import main
-from orchestrator.results import read
+from cli.main import main
+from orchestrator.netcdf import read
 
 SOLVE_KEYS = {
     "peak_pin_force_N", "mean_loaded_teeth", "peak_contact_pressure_MPa", "peak_roller_force_N", "mean_lag_arcsec",

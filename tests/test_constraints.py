@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from orchestrator.pair import make_pair
 from orchestrator.settings import parse_setting
-from orchestrator.solve import record_turn
+from studies.pair import make_pair
+from studies.solve import record_turn
 
 
 def turn(reducer, *texts, positions=72):

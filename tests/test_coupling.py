@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.master import Connection, LoopSettings, Master, StepControl
 from python_units import Fragile, Gain, Motor, Oscillator, Shaft, modes
 

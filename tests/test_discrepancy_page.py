@@ -13,9 +13,9 @@ import pytest
 from discrepancy.compare import Comparison, by_signal, warnings_of
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, Extension
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.localise import Localisation
+from discrepancy.inference.law.recover import recover
+from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.recover import recover
 from discrepancy.inference.verdict import NONE, ONE, SET, UNKNOWN
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun

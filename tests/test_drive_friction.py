@@ -7,7 +7,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.observe import hysteresis
 from discrepancy.problem import Record
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
 
 COMPLIANCE = 3e-3

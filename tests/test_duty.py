@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from orchestrator.duty import Segment, load_duty
-from orchestrator.faults import InputFault
-from orchestrator.life import run_cycle
-from orchestrator.pair import make_pair
+from fmu_src.faults import InputFault
+from studies.duty import Segment, load_duty
+from studies.life import run_cycle
+from studies.pair import make_pair
 
 FILE = """
 [[segment]]

@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from orchestrator.dynamics_wear import Comparison, as_json, compare, compare_point
-from orchestrator.faults import InputFault
-from orchestrator.report.dynamics import write_dynamics_page
+from fmu_src.faults import InputFault
+from studies.dynamics_wear import Comparison, as_json, compare, compare_point
+from studies.report.dynamics import write_dynamics_page
 
 
 @pytest.fixture(scope="module")

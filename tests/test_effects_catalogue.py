@@ -5,18 +5,18 @@ import json
 
 import pytest
 
+from cli.commands import effects
 from discrepancy.catalogue.catalogue import entries, entry
-from discrepancy.catalogue.commands import add_effects
 from discrepancy.catalogue.documentation import COMPUTED, PAGE, static_part
 from discrepancy.catalogue.examples import AUDITED, CASES, picture
 from discrepancy.catalogue.plots import PICTURE, figure
 from discrepancy.catalogue.signature import new_bench, signature, words
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 
 def run(*arguments):
     top = argparse.ArgumentParser()
-    add_effects(top.add_subparsers())
+    effects.add_commands(top.add_subparsers())
     options = top.parse_args(["effects", *map(str, arguments)])
     return options.run(options)
 

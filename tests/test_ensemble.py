@@ -12,18 +12,17 @@ import pytest
 
 pytest.importorskip("SALib")
 
-from orchestrator.cli import main
-from orchestrator.coupled_master import CoupledMaster
-from orchestrator.duty import Segment
-from orchestrator.ensemble.command import tasks_of
-from orchestrator.ensemble.ensemble_file import load_ensemble
-from orchestrator.ensemble.member import run
-from orchestrator.ensemble.sampling import independent_rows, points, values_of
-from orchestrator.ensemble.store import Store
-from orchestrator.ensemble.summary import censored, life_hours, sensitivity, share_beyond
-from orchestrator.faults import InputFault
-from orchestrator.life import count_cycle
-from orchestrator.pair import make_pair
+from cli.main import main
+from fmu_src.faults import InputFault
+from studies.coupled_master import CoupledMaster
+from studies.duty import Segment
+from studies.ensemble.ensemble_file import load_ensemble
+from studies.ensemble.member import run
+from studies.ensemble.sampling import independent_rows, points, tasks_of, values_of
+from studies.ensemble.store import Store
+from studies.ensemble.summary import censored, life_hours, sensitivity, share_beyond
+from studies.life import count_cycle
+from studies.pair import make_pair
 
 TEXT = """
 reducer = "RV20E-121"
@@ -140,7 +139,7 @@ def test_sensitivities_are_those_of_a_known_function(file):
 def test_command_goes_on_where_it_was_interrupted(file, tmp_path, capsys):
     """Ctrl-C after the first lives; the same command does the rest, and the result is that of one go."""
     output = tmp_path / "found.json"
-    command = [sys.executable, "-m", "orchestrator.cli", "ensemble", str(file), "--jobs", "1"]
+    command = [sys.executable, "-m", "cli", "ensemble", str(file), "--jobs", "1"]
     started = subprocess.Popen([*command, "--output", str(output)], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     lives = output.with_suffix(".lives")
     while started.poll() is None and (not lives.exists() or lives.read_text().count("\n") < 3):

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from orchestrator.faults import RunFault
+from fmu_src.faults import RunFault
 from orchestrator.fmu import Fmu
-from orchestrator.pair import make_pair
+from studies.pair import make_pair
 
 
 @pytest.fixture

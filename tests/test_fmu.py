@@ -17,9 +17,9 @@ from fmu_src.native import host_triple
 from fmu_src.package import build_fmu
 from fmu_src.source_hash import source_hash
 from fmu_src.units import fmi_base_unit
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
-from orchestrator.pair import make_pair
+from studies.pair import make_pair
 from rv_plant.effects import EFFECTS as PLANT
 from wear_fmu.effects import EFFECTS as WEAR
 

@@ -8,8 +8,8 @@ from discrepancy.prediction.bench import HOUR, Bench, Condition
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
-from orchestrator.coupled import COLUMNS
-from orchestrator.faults import InputFault, RunFault
+from studies.coupled import COLUMNS
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from test_loop import CLEARANCE, campaign_of
 
@@ -81,7 +81,7 @@ def test_units_of_another_reducer_are_refused(fmus):
 
 
 def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
-    from discrepancy.extend import extended_reducer
+    from discrepancy.model_file import extended_reducer
 
     better = ModelFile("better", model.reducer, {}, {"needle_clearance": {CLEARANCE: {"value": 0.6e-6, "unit": "m"}}})
     built_from = {"plant": "rv_plant", "wear": "wear_fmu"}

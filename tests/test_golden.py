@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from orchestrator.life import Life, LifeSettings, live, wear_figures
-from orchestrator.pair import make_pair
-from orchestrator.reducer import load_reducer
-from orchestrator.solve import measure
+from reducers.reducer import load_reducer
+from studies.life import Life, LifeSettings, live, wear_figures
+from studies.pair import make_pair
+from studies.solve import measure
 
 GOLDEN = Path(__file__).parent / "golden"
 REDUCERS = ("RV20E-121", "BX-40E")

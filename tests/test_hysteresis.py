@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from orchestrator.hysteresis import hysteresis, torque_way
 from orchestrator.settings import parse_setting
+from studies.hysteresis import hysteresis, torque_way
 
 
 def run(reducer, *texts):

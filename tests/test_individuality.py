@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from orchestrator.reproduce import run
-from orchestrator.reproduce.context import Context
-from orchestrator.reproduce.individuality_claims import marks_of, others, spread
+from reproduce import run
+from reproduce.context import Context
+from reproduce.individuality_claims import marks_of, others, spread
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ import pytest
 from test_inference_toy import CANDIDATES, LOADS, TURN, Noise, Toy, campaign, law, measure
 
 from discrepancy.inference.diagnose import Diagnostician, diagnose
-from discrepancy.inference.recover import recover
-from discrepancy.inference.refit import leave_condition_out, literal_leave_out
+from discrepancy.inference.law.recover import recover
+from discrepancy.inference.refit.refit import leave_condition_out, literal_leave_out
 from discrepancy.problem import Parameter, Record
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.inference.diagnose import Diagnostician, diagnose
-from discrepancy.inference.refit import leave_condition_out
+from discrepancy.inference.refit.refit import leave_condition_out
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import Candidate, Parameter, Record
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from discrepancy.inference.noise import estimate
-from discrepancy.inference.outliers import usable
-from discrepancy.inference.whiten import whitener
+from discrepancy.inference.noise.noise import estimate
+from discrepancy.inference.noise.outliers import usable
+from discrepancy.inference.noise.whiten import whitener
 from discrepancy.problem import Record
 
 

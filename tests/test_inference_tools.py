@@ -5,13 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from discrepancy.inference.closed_forms import propose
-from discrepancy.inference.components import simulate
-from discrepancy.inference.correlation import autoregression_of
+from discrepancy.inference.base_fit.components import simulate
+from discrepancy.inference.base_fit.predictions import Predictions
+from discrepancy.inference.law.closed_forms import propose
+from discrepancy.inference.law.splines import additive
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
-from discrepancy.inference.predictions import Predictions
-from discrepancy.inference.screen import cone_statistic
-from discrepancy.inference.splines import additive
+from discrepancy.inference.noise.correlation import autoregression_of
+from discrepancy.inference.screening.screen import cone_statistic
 from discrepancy.problem import Candidate, Parameter
 
 

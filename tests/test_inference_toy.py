@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from discrepancy.inference.effect_size import amplitude_for
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.screening.effect_size import amplitude_for
 from discrepancy.problem import Candidate, Parameter, Record
 
 LOADS = (60.0, 120.0, 240.0, 400.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.isolation import Isolated
 from orchestrator.master import StepControl

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from orchestrator.checkpoint import load_checkpoint, save_checkpoint
-from orchestrator.coupled_master import CoupledMaster
-from orchestrator.duty import Segment
-from orchestrator.faults import InputFault, RunFault
-from orchestrator.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
-from orchestrator.pair import make_pair
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.settings import Setting
+from studies.checkpoint import load_checkpoint, save_checkpoint
+from studies.coupled_master import CoupledMaster
+from studies.duty import Segment
+from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
+from studies.pair import make_pair
 
 # A quarter of the usual positions per turn: the jumps, not the angles, are under test.
 COARSE = 24

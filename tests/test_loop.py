@@ -8,12 +8,12 @@ import pytest
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import compare
 from discrepancy.draft import text_of
-from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend, extended_reducer
-from discrepancy.model_file import load_model, save_model
+from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
+from discrepancy.model_file import extended_reducer, load_model, save_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 NOISE = {"transmission_error": 2e-6, "input_torque": 0.01, "lost_motion": 5e-6}
 CLEARANCE = "needle_clearance_added"
@@ -158,7 +158,7 @@ def test_draft_of_a_recovered_law_builds_and_acts(tmp_path):
     (tmp_path / "rv_plant").mkdir()
     (tmp_path / "rv_plant" / "mystery.py").write_text(text_of("mystery", law, "rv_plant", "abs(r.input_speed)"))
     program = (
-        "import numpy as np; from orchestrator.reducer import load_reducer; from rv_plant import plant; torque = []\n"
+        "import numpy as np; from reducers.reducer import load_reducer; from rv_plant import plant; torque = []\n"
         "for size in (0.0, 0.5):\n"
         "    records = load_reducer('RV20E-121').plant.new_records().view(np.recarray)\n"
         "    records['mystery_size'] = size; assert plant.initialise(records) == 0; torque.append(records.drive_torque[0])\n"

@@ -7,7 +7,7 @@ import pytest
 
 import lag_unit
 from orchestrator.component import InProcess
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.master import Master
 
 

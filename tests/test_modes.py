@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from orchestrator.modes import modes
 from orchestrator.settings import parse_setting
-from orchestrator.solve import ARCMIN
+from studies.modes import modes
+from studies.solve import ARCMIN
 
 
 def run(reducer, *texts):

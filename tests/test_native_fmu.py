@@ -21,9 +21,9 @@ from fmu_src.link import FMI_HEADERS
 from fmu_src.compiler.loading import LIBM
 from fmu_src.package import build_native
 from orchestrator.component import InProcess
-from orchestrator.faults import InputFault, RunFault
-from orchestrator.fmu import open_fmu
-from orchestrator.pair import make_pair
+from fmu_src.faults import InputFault, RunFault
+from orchestrator.opening import open_fmu
+from studies.pair import make_pair
 
 VERSIONS = ["fmi2", "fmi3"]
 ROOT = Path(__file__).resolve().parents[1]

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault
-from orchestrator.reducer import load_reducer
+from fmu_src.faults import InputFault
+from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble
 from rv_plant.equilibrium import equilibrium

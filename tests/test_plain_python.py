@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 from rv_plant import plant
 from stand import BACK, SHARED, crank_period, exchange, records_of
 from wear_fmu import accumulator

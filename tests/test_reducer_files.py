@@ -2,8 +2,9 @@
 
 import pytest
 
-from orchestrator.faults import InputFault
-from orchestrator.reducer import available, load_reducer
+from fmu_src.faults import InputFault
+from reducers.library import available
+from reducers.reducer import load_reducer
 
 
 def test_the_reducers_come_with_the_software():

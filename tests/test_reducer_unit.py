@@ -4,18 +4,18 @@ import fmpy.validation
 import numpy as np
 import pytest
 
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
 from orchestrator.component import InProcess
-from orchestrator.faults import InputFault, RunFault
-from orchestrator.fmu import open_fmu
-from orchestrator.hysteresis import hysteresis
-from orchestrator.pair import crank_turn_time, make_pair
+from orchestrator.opening import open_fmu
 from orchestrator.settings import Setting
 from rv_reducer.exchange import WEAR_TO_PLANT
 from rv_reducer.reducer import OF_WEAR
 from rv_reducer.variables import LIMITS
+from studies.hysteresis import hysteresis
+from studies.pair import crank_turn_time, make_pair
 
 ARCMIN = np.degrees(1.0) * 60.0
 HOUR = 3600.0

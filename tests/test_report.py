@@ -8,14 +8,15 @@ import numpy as np
 import plotly.graph_objects as go
 import pytest
 
-from orchestrator import results
-from orchestrator.faults import InputFault
-from orchestrator.life import Life, LifeSettings, live
-from orchestrator.pair import make_pair
-from orchestrator.report import circles, findings, inputs, phase, shapes, spectrum, write_report
-from orchestrator.report.page import page_of
-from orchestrator.report.result import Result, number
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from orchestrator.netcdf import series_dataset
+from studies import results
+from studies.life import Life, LifeSettings, live
+from studies.pair import make_pair
+from studies.report import circles, findings, inputs, phase, shapes, spectrum, write_report
+from studies.report.page import page_of
+from studies.report.result import Result, number
 from wear_fmu.kinematics import flank_arc_per_phase, sliding_per_crank_angle
 
 SECTIONS = ("parts", "turn", "growth", "orders-section", "inputs")
@@ -226,6 +227,6 @@ def test_standing_pins_wear_where_they_are_touched(rv20e):
 
 
 def test_a_result_without_a_life_is_refused(tmp_path):
-    series = results.series_dataset({"time": np.arange(3.0), "plant.lag": np.zeros((3, 1))}, {"plant.lag": "rad"}, {})
+    series = series_dataset({"time": np.arange(3.0), "plant.lag": np.zeros((3, 1))}, {"plant.lag": "rad"}, {})
     with pytest.raises(InputFault, match="rvwear life"):
         write_report(series, tmp_path / "none.html")

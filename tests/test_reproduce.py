@@ -6,11 +6,11 @@ import re
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault
-from orchestrator.reproduce import as_json, available_claims, print_table, run, write_page
-from orchestrator.reproduce import printed_forms as printed
-from orchestrator.reproduce.claim import CONDITIONAL, SOURCES, VERDICTS, Number
-from orchestrator.reproduce.page import page_of
+from fmu_src.faults import InputFault
+from reproduce import as_json, available_claims, print_table, run, write_page
+from reproduce import printed_forms as printed
+from reproduce.claim import CONDITIONAL, SOURCES, VERDICTS, Number
+from reproduce.page import page_of
 
 # Claims that need no life run.
 QUICK = ["T01", "T02", "T03", "T04", "T05", "T06", "T07", "T08", "T09", "T10", "T11", "T13", "T14", "T17", "T18",

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault
-from orchestrator.scenario import load_scenario
+from fmu_src.faults import InputFault
+from orchestrator.system import load
 
 PAIR = """
 [scenario]
@@ -41,7 +41,7 @@ def write(folder, text):
 
 
 def test_pair_from_a_file_runs_and_records(tmp_path):
-    scenario = load_scenario(write(tmp_path, PAIR))
+    scenario = load(write(tmp_path, PAIR))
     series = scenario.run()
     assert series["time"] == pytest.approx(1.3e-3 * np.arange(21))
     assert series["plant.mesh_force"].shape == (21, 2, 40)
@@ -53,8 +53,8 @@ def test_pair_from_a_file_runs_and_records(tmp_path):
 
 def test_fmu_from_a_file(tmp_path, fmus):
     text = PAIR.replace('reducer = "RV20E-121"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
-    theirs = load_scenario(write(tmp_path, text)).run()
-    ours = load_scenario(write(tmp_path, PAIR)).run()
+    theirs = load(write(tmp_path, text)).run()
+    ours = load(write(tmp_path, PAIR)).run()
     assert theirs["wear.flank_depth"] == pytest.approx(ours["wear.flank_depth"], rel=1e-12)
 
 
@@ -74,4 +74,4 @@ def test_fmu_from_a_file(tmp_path, fmus):
 def test_bad_scenario_is_told_what_is_wrong(tmp_path, before, after, said):
     assert before in PAIR
     with pytest.raises(InputFault, match=said):
-        load_scenario(write(tmp_path, PAIR.replace(before, after, 1)))
+        load(write(tmp_path, PAIR.replace(before, after, 1)))

@@ -6,7 +6,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from orchestrator.ssp.importer import read_ssp
 from orchestrator.system import connect, load

@@ -21,8 +21,8 @@ from lxml import etree
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
 from orchestrator.model_description import Described
-from orchestrator.pair import CONNECTIONS, export_pair
 from orchestrator.system import load
+from studies.pair import CONNECTIONS, export_pair
 
 STEP, STEPS = 1.3e-3, 100
 WATCHED = ["plant.output_angle", "plant.lag", "plant.largest_pin_force", "plant.mesh_force[1,7]", "plant.mesh_force[2,30]",

@@ -78,7 +78,7 @@ def series_of(name: str, settings: dict[str, float], made: Drawn, rng: np.random
 def one(result: dict, folder: Path) -> dict:
     """Proposal and random choice for one campaign, and what came of them."""
     from benchmarks.blind_trial.tool import MODEL, answer_of
-    from discrepancy.campaign import load_campaign
+    from discrepancy.campaign.load import load_campaign
     from discrepancy.model_file import load_model
     from discrepancy.next_run import next_run
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 

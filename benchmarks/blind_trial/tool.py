@@ -5,7 +5,7 @@ import time
 import warnings
 from pathlib import Path
 
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose

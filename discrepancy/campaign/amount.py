@@ -1,7 +1,7 @@
 """Numbers with units as a campaign file states them."""
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
-from orchestrator.faults import InputFault
 from orchestrator.settings import NUMBER
 
 # Ways of writing that benches use and pint reads otherwise ("Nm" would be a count times a metre).

@@ -12,8 +12,8 @@ from typing import Any, Literal
 from pydantic import Field, ValidationError, field_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
-from orchestrator.faults import InputFault
-from orchestrator.reducer import NAME, Strict
+from fmu_src.faults import InputFault
+from reducers.reducer import NAME, Strict
 
 FILE = "campaign.toml"
 

@@ -12,8 +12,8 @@ from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
 from discrepancy.problem import Parameter, Record
+from fmu_src.faults import InputFault
 from fmu_src.units import parse, registry
-from orchestrator.faults import InputFault
 
 DIRECTIONS = {"forward": 1, "reverse": -1, 1: 1, -1: -1}
 

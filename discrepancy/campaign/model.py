@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from discrepancy.problem import Parameter, Record
-from orchestrator.reducer import Reducer
+from reducers.reducer import Reducer
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 # The role of the column (or number) that holds the quantity itself.
 VALUE = "value"
+# What an empty campaign measures unless told otherwise.
+USUAL = ("transmission_error", "hysteresis", "input_torque")
 # Both encoders of a transmission error, in place of its value.
 ENCODERS = {"angle", "input_angle"}
 

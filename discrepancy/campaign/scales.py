@@ -6,8 +6,8 @@ from pathlib import Path
 from discrepancy.campaign.amount import amount, split, to_si
 from discrepancy.campaign.file_format import Head
 from discrepancy.campaign.quantities import FACTOR_KEYS, Key
-from orchestrator.faults import InputFault
-from orchestrator.reducer import Reducer, load_reducer
+from fmu_src.faults import InputFault
+from reducers.reducer import Reducer, load_reducer
 from rv_plant.gear_stage import total_ratio
 
 

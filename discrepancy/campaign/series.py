@@ -8,7 +8,7 @@ from discrepancy.campaign.file_format import Average, Column, Range, Run
 from discrepancy.campaign.model import Rows
 from discrepancy.campaign.quantities import AXES, ENCODERS, VALUE, Key
 from discrepancy.campaign.scales import Scales
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 Series = dict[str, np.ndarray]
 

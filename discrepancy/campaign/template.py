@@ -5,10 +5,9 @@ from pathlib import Path
 import pandas as pd
 
 from discrepancy.campaign.file_format import FILE
-from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, VALUE, Quantity, roles_of
-from orchestrator.faults import InputFault
+from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, USUAL, VALUE, Quantity, roles_of
+from fmu_src.faults import InputFault
 
-USUAL = ("transmission_error", "hysteresis", "input_torque")
 FORMATS = ("csv", "parquet")
 
 HEAD = """\

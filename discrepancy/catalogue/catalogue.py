@@ -7,7 +7,7 @@ from discrepancy.catalogue.examples import Case, cases, part_of
 from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.model_file import every_effect
 from fmu_src.effect import Effect, EffectParameter
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 
 @dataclass(frozen=True)

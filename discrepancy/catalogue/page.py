@@ -9,8 +9,8 @@ from plotly.offline import get_plotlyjs
 
 from discrepancy.catalogue.catalogue import Entry
 from discrepancy.catalogue.signature import Signature, words
-from orchestrator.report.look import Figure
-from orchestrator.reproduce import page as reproduce
+from pages.look import Figure
+from reproduce import page as reproduce
 
 # The look is that of the page of claims.
 STYLE = Path(reproduce.__file__).with_name("page.css")

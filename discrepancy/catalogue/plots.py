@@ -12,9 +12,9 @@ from discrepancy.catalogue.signature import (
 )
 from discrepancy.effects import MODULES
 from discrepancy.prediction.bench import Bench
-from orchestrator.report import look
-from orchestrator.report.look import Figure
-from orchestrator.reproduce.plots import COLOURS, Curve, chart
+from pages import look
+from pages.look import Figure
+from pages.charts import COLOURS, Curve, chart
 
 WITHOUT = "without"
 # Grey is the reducer without the effect.

@@ -16,9 +16,9 @@ from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench, Condition
 from discrepancy.prediction.observe import OBSERVED
 from discrepancy.problem import Record
-from orchestrator.coupled import COLUMNS
-from orchestrator.life import peak_of_circle
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
+from studies.coupled import COLUMNS
+from studies.life import peak_of_circle
 
 ORDERS = (1, 2, 39, 40, 78, 80, 120, 121, 156, 234, 279, 361, 1440, 1560)
 # Samples of one turn of the output; the mesh's order 1560 needs more than 3120.

@@ -5,16 +5,16 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.inference.confusable import canonical_correlation, confusable_set, penalised
-from discrepancy.inference.consistency import lack_of_fit
-from discrepancy.inference.effect_fit import renew
-from discrepancy.inference.features import ORDERS
-from discrepancy.inference.held_out import HeldOutJudge
-from discrepancy.inference.localise import Localisation, Localiser
-from discrepancy.inference.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
-from discrepancy.inference.screen import Score, candidate_columns, joint_gain, screen
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.held_out.consistency import lack_of_fit
+from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.misfit.features import ORDERS
+from discrepancy.inference.misfit.localise import Localisation, Localiser
+from discrepancy.inference.refit.confusable import canonical_correlation, confusable_set, penalised
+from discrepancy.inference.refit.effect_fit import renew
+from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
+from discrepancy.inference.screening.screen import Score, candidate_columns, joint_gain, screen
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Settings, decide
-from discrepancy.inference.workspace import Workspace
 from discrepancy.problem import Model
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.

@@ -6,7 +6,7 @@ from discrepancy.page.content import Card, Page
 from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.verdict import Answer
-from orchestrator.report.result import number
+from studies.report.result import number
 
 TONES = {ONE: "good", NONE: "good", SEVERAL: "good", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from discrepancy.page.amounts import signal_title
-from orchestrator.report import look
-from orchestrator.report.look import Figure, short
+from pages import look
+from pages.look import Figure, short
 
 BEFORE, AFTER = look.START, look.NOW
 

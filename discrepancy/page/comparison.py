@@ -6,8 +6,8 @@ from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.page import amounts, maps, numbers, series
 from discrepancy.page.content import Card, Page, Section, Table
 from discrepancy.page.runs import Run, by_signal, runs_of
-from orchestrator.report.look import Figure
-from orchestrator.report.result import number
+from pages.look import Figure
+from studies.report.result import number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from orchestrator.report.look import Figure
+from pages.look import Figure
 
 
 @dataclass(frozen=True)

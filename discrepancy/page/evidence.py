@@ -1,14 +1,14 @@
 """The parts of a diagnosis's page: effects, unused conditions, what cannot be separated, rivals, laws."""
 
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.content import Section, Table
 from discrepancy.verdict import Answer
-from orchestrator.report import look
-from orchestrator.report.look import Figure
-from orchestrator.report.result import number
+from pages import look
+from pages.look import Figure
+from studies.report.result import number
 
 MOST_RIVALS = 12
 

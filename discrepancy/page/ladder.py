@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from discrepancy.page.bars import noise_line
-from orchestrator.report import look
-from orchestrator.report.look import Figure, short
+from pages import look
+from pages.look import Figure, short
 
 # From this ratio of the largest to the smallest error on the axis is logarithmic.
 WIDE = 8.0

@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 
 from discrepancy.model_file import ModelFile
 from discrepancy.page.ladder import KINDS, WIDE, attempts, label, stairs
-from orchestrator.report.look import FONT, GRID, INK, QUIET
+from pages.look import FONT, GRID, INK, QUIET
 
 LEFT, RIGHT, TOP, BOTTOM, STEP, HEIGHT = 64.0, 40.0, 62.0, 74.0, 190.0, 250.0
 # The names of fonts stand inside an attribute.

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from discrepancy.inference.closed_forms import Form, _forms
-from discrepancy.inference.recover import Recovered
+from discrepancy.inference.law.closed_forms import Form, _forms
+from discrepancy.inference.law.recover import Recovered
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Table
 from discrepancy.page.runs import slug
-from orchestrator.report import look
-from orchestrator.report.look import Figure, short
-from orchestrator.report.result import number
+from pages import look
+from pages.look import Figure, short
+from studies.report.result import number
 
 MOST_FORMS = 8
 MOST_SHARE_HIDDEN = 0.02

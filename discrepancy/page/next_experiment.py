@@ -10,9 +10,9 @@ from discrepancy.page import amounts, comparison, maps
 from discrepancy.page.amounts import effect_title
 from discrepancy.page.content import Card, Page, Section, Table
 from discrepancy.page.evidence import listed
-from orchestrator.report import look
-from orchestrator.report.look import Figure, short
-from orchestrator.report.result import number
+from pages import look
+from pages.look import Figure, short
+from studies.report.result import number
 
 MOST = 12
 GOOD, POOR = "#00705a", "#98a3af"

@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, slug
-from orchestrator.report.look import Figure, short
+from pages.look import Figure, short
 
 CONDITION = "condition"
 

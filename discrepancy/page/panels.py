@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from orchestrator.report import look
+from pages import look
 
 MEASURED, PREDICTED, HELD, BAND = "#7d8894", look.NOW, "#d55e00", "rgba(11,79,148,0.14)"
 UPPER, LOWER = [0.40, 1.0], [0.0, 0.30]

@@ -8,7 +8,8 @@ from plotly.offline import get_plotlyjs
 
 from discrepancy.page.content import Choosable, Page
 from discrepancy.page.template import SCRIPT, STYLE, TEMPLATE
-from orchestrator.report.page import inside
+from pages.embed import STYLE as LOOK
+from pages.embed import inside
 
 
 def rendered(page: Page) -> str:
@@ -32,7 +33,7 @@ def rendered(page: Page) -> str:
     template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(TEMPLATE)
     return template.render(
         page=page,
-        style=inside("page.css") + Markup(STYLE),
+        style=inside(LOOK) + Markup(STYLE),
         script=Markup(SCRIPT),
         plotly=Markup(get_plotlyjs()),
         content=Markup(text.replace("<", "\\u003c")),

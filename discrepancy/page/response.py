@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from discrepancy.inference.series import stream_of
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.page import comparison, spectra
 from discrepancy.page.amounts import effect_title
 from discrepancy.page.content import Section

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.noise import SHORT
-from discrepancy.inference.series import stream_of
-from discrepancy.inference.workspace import Workspace
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.noise.noise import SHORT
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.problem import Record
 
 

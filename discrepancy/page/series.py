@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.page import amounts, panels
 from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, axis_name, slug
-from orchestrator.report.look import Figure, short
+from pages.look import Figure, short
 
 # Samples drawn of one series: fewer where there are many conditions, so that the page stays small.
 SAMPLES, FEWEST, MOST = 40_000, 800, 3_000

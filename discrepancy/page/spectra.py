@@ -8,8 +8,8 @@ from discrepancy.page import amounts
 from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, slug
 from discrepancy.page.series import by_condition
-from orchestrator.report import look
-from orchestrator.report.look import Figure, short
+from pages import look
+from pages.look import Figure, short
 
 MOST_ORDERS = 200
 SHOWN = 24

@@ -1,4 +1,4 @@
-"""The frame of the pages; colours and type are those of the wear report (orchestrator/report/page.css)."""
+"""The frame of the pages; colours and type are those of the wear report (pages/page.css)."""
 
 STYLE = """
 :root { --good: #00705a; --fair: #9a6a00; --bad: #b3401b; --plain: #0b4f94; }

@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fmu_src.faults import RunFault
 from fmu_src.variables import Table
-from orchestrator import coupled
-from orchestrator.faults import RunFault
-from orchestrator.life import HOUR
-from orchestrator.reducer import Reducer
+from reducers.reducer import Reducer
 from rv_plant import plant
 from rv_plant.gear_stage import total_ratio
 from rv_plant.needle_bearing import cage_rate
+from studies import coupled
+from studies.life import HOUR
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from discrepancy.model_file import ModelFile
+from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.bench import (
     HELD_ANGLES,
     SHORT_CYCLE,
@@ -26,11 +26,11 @@ from discrepancy.prediction.bench import (
     stretches,
     within_turn,
 )
-from orchestrator.coupled import COLUMNS
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
-from orchestrator.pair import CONNECTIONS, require_built_from
+from studies.coupled import COLUMNS
+from studies.pair import CONNECTIONS, require_built_from
 
 # The wear unit takes no more than half a turn of cranks, carrier or cages in a step [rad].
 LONGEST_WEAR_STEP = 3.0
@@ -221,9 +221,6 @@ def refusal_as_run_fault():
 
 def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
     """An FMU is that of the model's reducer, or of the extended model; the rest is set at each run."""
-    # Not above: extending a model needs the bench.
-    from discrepancy.extend import extended_reducer
-
     extended = extended_reducer(model)
     built_extended = unit.specification() == extended.specification(name)
     require_built_from(extended if built_extended else model.reducer, unit, name)

@@ -8,10 +8,10 @@ import numpy as np
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
 from discrepancy.problem import Record
-from orchestrator.coupled import COLUMNS
-from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
-from orchestrator.life import peak_of_circle
 from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
+from studies.coupled import COLUMNS
+from studies.hysteresis import LOST_MOTION_SHARE, torque_way
+from studies.life import peak_of_circle
 
 Values = Mapping[str, float]
 STEEL = 7850.0

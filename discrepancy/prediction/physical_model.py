@@ -18,7 +18,7 @@ from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
-from orchestrator.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.
 ZEROED = ("transmission_error", "hysteresis")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from discrepancy.campaign import load_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import compare
 from discrepancy.extend import extend
 from discrepancy.model_file import load_model

@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from orchestrator.component import InProcess
-from orchestrator.life import Life, LifeSettings, live
-from orchestrator.pair import make_pair
-from orchestrator.reducer import load_reducer
 from orchestrator.system import System, connect
+from reducers.reducer import load_reducer
+from studies.life import Life, LifeSettings, live
+from studies.pair import make_pair
 
 HERE = Path(__file__).parent
 FMUS = {"controller": "Controller", "drive": "Drive", "motor": "Motor", "arm": "Arm"}

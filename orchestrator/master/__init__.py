@@ -2,7 +2,7 @@
 
 from orchestrator.master.connections import Connection
 from orchestrator.master.loops import LoopSettings
-from orchestrator.master.master import SCHEMES, Master
+from orchestrator.master.master import Master
 from orchestrator.master.step_control import StepControl
 
-__all__ = ["SCHEMES", "Connection", "LoopSettings", "Master", "StepControl"]
+__all__ = ["Connection", "LoopSettings", "Master", "StepControl"]

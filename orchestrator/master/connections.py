@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, Element, Signal
-from orchestrator.faults import InputFault
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault, RunFault
 from orchestrator.master.connections import Link, Transfer, group_links, make_transfer
 
 METHODS = ("newton", "fixed-point")

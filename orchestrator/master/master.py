@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
 from orchestrator.master.connections import (
     Connection,
     Link,
@@ -28,8 +28,7 @@ from orchestrator.master.extrapolation import HIGHEST_ORDER, ExtrapolatedTransfe
 from orchestrator.master.loops import LoopSettings, Settling, has_feedthrough
 from orchestrator.master.power import THRESHOLD, PowerBond, find_pairs, make_bond, pair_of
 from orchestrator.master.step_control import Controller, StepControl
-
-SCHEMES = ("gauss-seidel", "jacobi")
+from orchestrator.schemes import SCHEMES
 
 
 class Master:

@@ -13,9 +13,9 @@ from functools import cache
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, parse, registry
 from orchestrator.component import Component
-from orchestrator.faults import InputFault
 from orchestrator.master.connections import Link, Transfer
 
 THRESHOLD = 0.01

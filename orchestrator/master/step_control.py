@@ -21,17 +21,14 @@ only: where positions are exchanged but the error enters velocities, name these 
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import numpy as np
 
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component, Signal
-from orchestrator.faults import InputFault, RunFault
 from orchestrator.master.connections import Link, resolve
 from orchestrator.master.extrapolation import History
-
-if TYPE_CHECKING:
-    from orchestrator.master.master import Master
 
 METHODS = ("auto", "doubling", "extrapolation")
 # A step doubles only if the error foreseen for it is this part of the allowed one.
@@ -89,10 +86,35 @@ class Probe:
         return float((difference / np.where(size > 0.0, size, 1.0)).max(initial=0.0))
 
 
+class Stepped(Protocol):
+    """What the control needs of a master."""
+
+    components: dict[str, Component]
+    ratios: dict[str, int]
+    step_size: float
+    extrapolation: int
+
+    @property
+    def time(self) -> float: ...
+
+    @property
+    def coupling_order(self) -> int: ...
+
+    def advance(self, start: float, duration: float) -> None: ...
+
+    def snapshot(self) -> Any: ...
+
+    def revert(self, snapshot: Any) -> None: ...
+
+    def forget(self, snapshot: Any) -> None: ...
+
+    def warn(self, text: str) -> None: ...
+
+
 class Controller:
     """Makes the base steps of a master in controlled parts."""
 
-    def __init__(self, master: "Master", settings: StepControl, links: list[Link]):
+    def __init__(self, master: Stepped, settings: StepControl, links: list[Link]):
         self.master, self.settings = master, settings
         stuck = [name for name, c in master.components.items() if not c.can_vary_step]
         if stuck:

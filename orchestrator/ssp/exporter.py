@@ -16,9 +16,9 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import fmpy
 
+from fmu_src.faults import InputFault
 from fmu_src.package import EPOCH
 from orchestrator.component import Signal
-from orchestrator.faults import InputFault
 from orchestrator.model_description import EXPONENTS, Described
 
 STANDARD = "http://ssp-standard.org/SSP1/SystemStructure"

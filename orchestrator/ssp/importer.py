@@ -12,8 +12,8 @@ from tempfile import TemporaryDirectory
 from urllib.parse import unquote
 from zipfile import BadZipFile, ZipFile
 
+from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit
-from orchestrator.faults import InputFault
 from orchestrator.master import Connection
 from orchestrator.ssp.parameters import Parameter, read_bindings
 from orchestrator.ssp.xml import child, children, local, number, parse, units_of

@@ -3,9 +3,9 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit, UnitError, conversion
 from orchestrator.component import Component, Signal
-from orchestrator.faults import InputFault
 from orchestrator.ssp.xml import child, children, local, number, parse, units_of
 
 

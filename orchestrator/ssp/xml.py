@@ -4,8 +4,8 @@ from pathlib import Path
 
 from lxml import etree
 
+from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit
-from orchestrator.faults import InputFault
 from orchestrator.model_description import EXPONENTS
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator import stepping
 from benchmarks.blind_trial.generator.stepping import COLUMNS
-from orchestrator.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, load_reducer
 from rv_plant import plant
 from rv_plant.gear_stage import total_ratio
 from wear_fmu import accumulator

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from orchestrator.faults import InputFault
+from fmu_src.faults import InputFault
 
 # Ending of the file's name -> reader's module.  The modules import their libraries themselves:
 # a campaign of CSV files needs none of the others.

@@ -1,0 +1,39 @@
+"""``rvwear build``: the FMUs of a reducer."""
+
+import argparse
+from pathlib import Path
+
+from cli.options import add_json, add_reducer
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    fmus = sub.add_parser("build", help="build and validate RvPlant.fmu, RvWear.fmu and RvReducer.fmu")
+    add_reducer(fmus)
+    fmus.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
+    fmus.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"
+                       " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
+    fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
+    fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
+                       " for this machine alone; needs zig: pip install rvwear[build]")
+    add_json(fmus)
+    fmus.set_defaults(run=build)
+
+
+def build(options: argparse.Namespace) -> int:
+    """``rvwear build``: FMUs of both units and of the unit of both, validated; those that are up to date stay."""
+    from cli import screen
+    from reducers.reducer import load_reducer
+    from studies.building import Wanted, build_units
+
+    reducer = load_reducer(options.reducer)
+    wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
+    built, packages = build_units(reducer, Path(options.output), wanted, screen.busy)
+    if options.json:
+        screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})
+    else:
+        for entry in built:
+            state = "built" if entry["built"] else "up to date"
+            print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+        for package in packages:
+            print(f"{package}  plant and wear, connected")
+    return 0

@@ -1,0 +1,195 @@
+"""``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``: the loop of model against measurement."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.completion import completed_by, reducer_completions
+from cli.options import add_json, all_cores, folder
+from fmu_src.faults import InputFault
+
+if TYPE_CHECKING:
+    from discrepancy.campaign.model import Campaign
+    from discrepancy.model_file import ModelFile
+
+MODEL_HELP = "model file, reducer file or name of a reducer"
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    for name, run, text in (
+        ("compare", run_compare, "hold a model against a campaign: error against noise, per signal and condition"),
+        ("localise", run_localise, "where a model fails: signals, orders, loads, speeds, temperatures, hours, places"),
+        ("diagnose", run_diagnose, "which physical effect a model lacks"),
+        ("next", run_next, "the cheapest next experiment that separates what is left"),
+    ):
+        command = sub.add_parser(name, help=text)
+        add_common(command)
+        command.set_defaults(run=run)
+        if name != "next":
+            command.add_argument("--fmus", metavar="FOLDER",
+                                 help="step RvPlant.fmu and RvWear.fmu of this folder instead of their kernels in this process")
+        if name == "diagnose":
+            command.add_argument("--draft", metavar="FILE", help="write an effect file from the recovered law, if nothing is named")
+    add = sub.add_parser("extend", help="add an effect to a model and judge it on runs that were not used")
+    add_common(add)
+    add.add_argument("--effect", action="append", metavar="NAME", help="effect, or effect.variant (default: what the diagnosis names)")
+    add.add_argument("--output", metavar="FILE", help="model file to write (default: the model file itself, or NAME.toml)")
+    add.add_argument("--fmus", metavar="FOLDER", help="build the FMUs of the extended model there")
+    add.add_argument("--anyway", action="store_true", help="keep an effect that did not help")
+    add.set_defaults(run=run_extend)
+    ladder = sub.add_parser("ladder", help="how the error fell, step by step")
+    add_model(ladder)
+    add_json(ladder, "print the steps as JSON, nothing else")
+    ladder.add_argument("--html", metavar="FILE", help="write a page with the ladder as a picture")
+    ladder.set_defaults(run=run_ladder)
+
+
+def add_model(command: argparse.ArgumentParser) -> None:
+    completed_by(command.add_argument("model", help=MODEL_HELP), reducer_completions)
+
+
+def add_common(command: argparse.ArgumentParser) -> None:
+    add_model(command)
+    command.add_argument("campaign", help="folder with campaign.toml")
+    command.add_argument("--data", metavar="FOLDER", help="where the data files are (default: as campaign.toml says)")
+    add_json(command, "print the result as JSON, nothing else")
+    command.add_argument("--html", metavar="FILE", help="write a page with pictures")
+
+
+def inputs(options: argparse.Namespace) -> "tuple[ModelFile, Campaign]":
+    from discrepancy.campaign.load import load_campaign
+    from discrepancy.model_file import load_model
+
+    file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
+    if not campaign.records:
+        raise InputFault(f"{options.campaign}: no run has any rows yet; fill in the files (rvwear campaign check lists them)")
+    if not campaign.training:
+        raise InputFault(f"{options.campaign}: every run is held out; leave some conditions for fitting (held_out = false)")
+    return file, campaign
+
+
+def write_html(options: argparse.Namespace, result: object) -> None:
+    if options.html:
+        from discrepancy.page import write_page
+
+        write_page(result, Path(options.html))
+
+
+def run_compare(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_comparison
+    from discrepancy.compare import compare
+
+    with busy("comparing"):
+        comparison = compare(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
+    write_html(options, comparison)
+    if options.json:
+        json_text(comparison.as_json())
+    else:
+        show_comparison(comparison)
+    return 0
+
+
+def run_localise(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import console, show_localisation, show_warnings
+    from discrepancy.compare import compare
+
+    with busy("localising"):
+        comparison = compare(*inputs(options), fmus=folder(options.fmus))
+    write_html(options, comparison)
+    if options.json:
+        json_text(comparison.as_json()["localisation"])
+    else:
+        show_localisation(comparison.diagnostician.localisation)
+        show_warnings(console(), comparison.warnings)
+    return 0
+
+
+def run_diagnose(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_answer
+    from discrepancy.draft import draft_effect
+    from discrepancy.verdict import diagnose
+
+    with busy("diagnosing"):
+        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
+    write_html(options, answer)
+    draft = None
+    if options.draft:
+        draft = draft_effect(answer, Path(options.draft))
+    if options.json:
+        json_text(answer.as_json() | {"draft": str(draft) if draft else None})
+    else:
+        show_answer(answer)
+        if options.draft:
+            print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law could be recovered")
+    return 0
+
+
+def run_extend(options: argparse.Namespace) -> int:
+    """Exit code 1 where the effect did not help on unused runs."""
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_extension
+    from discrepancy.extend import DID_NOT_HELP, build_units, extend
+    from discrepancy.inference.verdict import ONE, SEVERAL
+    from discrepancy.model_file import save_model
+    from discrepancy.verdict import diagnose
+
+    file, campaign = inputs(options)
+    names = options.effect
+    if not names:
+        with busy("diagnosing"):
+            answer = diagnose(file, campaign, jobs=all_cores())
+        if answer.verdict not in (ONE, SEVERAL):
+            raise InputFault(
+                f"the diagnosis says {answer.verdict!r}: nothing to add by itself; name what you want with --effect"
+                + (f" ({', '.join(answer.confusable)} cannot be told apart)" if answer.confusable else "")
+            )
+        names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
+    with busy(f"adding {', '.join(names)}"):
+        extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
+    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+    save_model(extension.file, target)
+    fmus = []
+    if options.fmus and extension.verdict != DID_NOT_HELP:
+        with busy("building the FMUs"):
+            fmus = [str(path) for path in build_units(extension.file, Path(options.fmus))]
+    write_html(options, extension)
+    if options.json:
+        json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
+    else:
+        show_extension(extension)
+        print(f"model  {target}")
+        for path in fmus:
+            print(f"FMU    {path}")
+    return 1 if extension.verdict == DID_NOT_HELP else 0
+
+
+def run_ladder(options: argparse.Namespace) -> int:
+    from cli.screen import json_text
+    from cli.show.comparison import show_ladder
+    from discrepancy.model_file import load_model
+
+    file = load_model(options.model)
+    write_html(options, file)
+    if options.json:
+        json_text({"model": file.name, "steps": list(file.steps)})
+    else:
+        show_ladder(file)
+    return 0
+
+
+def run_next(options: argparse.Namespace) -> int:
+    from cli.screen import busy, json_text
+    from cli.show.comparison import show_next
+    from discrepancy.next_run import next_run
+
+    with busy("looking for an experiment"):
+        run = next_run(*inputs(options), jobs=all_cores())
+    write_html(options, run)
+    if options.json:
+        json_text(run.as_json())
+    else:
+        show_next(run)
+    return 0

@@ -1,0 +1,77 @@
+"""``rvwear effects``: the list, one effect explained, the page of all."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.options import add_json, add_reducer
+
+if TYPE_CHECKING:
+    from discrepancy.catalogue.catalogue import Entry
+    from discrepancy.catalogue.signature import Signature
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
+    effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number (default: list all)")
+    add_reducer(effects, "reducer on the bench (default RV20E-121)")
+    add_json(effects, "print as JSON, nothing else")
+    effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
+    effects.set_defaults(run=run_effects)
+
+
+def run_effects(options: argparse.Namespace) -> int:
+    """List, or explain one; with ``--html`` the page of what was asked for."""
+    from cli.screen import json_text
+    from cli.show.effects import show_list, show_one
+    from discrepancy.catalogue.catalogue import entries, entry
+
+    chosen = [entry(options.name)] if options.name else entries()
+    computed = compute(chosen, options.reducer) if options.name and not options.html else {}
+    if options.html:
+        computed = write_page(chosen, options.reducer, Path(options.html))
+    if options.json:
+        found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
+        json_text(found[0] if options.name else {"effects": found})
+    elif options.name:
+        show_one(chosen[0], computed[chosen[0].name])
+    elif not options.html:
+        show_list(chosen)
+    if options.html and not options.json:
+        print(options.html)
+    return 0
+
+
+def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":
+    from cli.screen import busy
+    from discrepancy.catalogue.signature import new_bench, signature
+
+    with busy("computing the signature"):
+        bench = new_bench(reducer)
+        return {e.name: [signature(bench, e.name, case) for case in e.cases] for e in chosen}
+
+
+def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, list[Signature]]":
+    """Compute all signatures and pictures and write them."""
+    from cli.screen import Progress
+    from discrepancy.catalogue.page import page_of
+    from discrepancy.catalogue.plots import figure
+    from discrepancy.catalogue.signature import new_bench, signature
+
+    bench, shown = new_bench(reducer), []
+    with Progress(len(chosen), "effects") as progress:
+        for e in chosen:
+            shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
+            progress.advance()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(page_of(shown), encoding="utf-8")
+    return {e.name: found for e, found, _ in shown}
+
+
+def as_json(found: "Signature") -> dict:
+    """A signature with all its figures, visible or not."""
+    rows = [
+        {"figure": r.figure, "condition": r.condition, "unit": r.unit, "without": float(r.without), "with": float(r.present)}
+        for r in found.rows
+    ]  # fmt: skip
+    return {"case": found.case.title, "values": dict(found.case.values), "rows": rows}

@@ -1,0 +1,76 @@
+"""``rvwear ensemble``: many lives, kept as they finish, and what they say."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from cli.options import add_json
+from fmu_src.faults import InputFault
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    command = sub.add_parser("ensemble", help="lives of many reducers: scatter of parts, duty and parameters")
+    command.add_argument("file", help="what scatters and how, and the limits (.toml, examples/ensemble.toml)")
+    command.add_argument("--samples", type=int, help="base samples, a power of two, before the file's")
+    command.add_argument("--jobs", type=int, default=-1, help="processes (default: one per core)")
+    command.add_argument("--backend", choices=("joblib", "dask"), default="joblib", help="this machine (default), or a Dask cluster")
+    command.add_argument("--scheduler", metavar="ADDRESS", help="of the Dask cluster: tcp://host:8786; its workers need this package")
+    command.add_argument("--output", help="result (default results/NAME_ensemble.json); finished lives are kept beside it")
+    command.add_argument("--restart", action="store_true", help="discard the lives that are there")
+    add_json(command, "result as JSON on stdout")
+    command.set_defaults(run=ensemble)
+
+
+def ensemble(options: argparse.Namespace) -> int:
+    """``rvwear ensemble``: what it needs beyond the rest is named where it is missing."""
+    try:
+        return compute(options)
+    except ModuleNotFoundError as missing:
+        raise InputFault(f"{missing.name} is missing: pip install rvwear[ensembles]") from None
+
+
+def compute(options: argparse.Namespace) -> int:
+    """Draw the lives, run those that are missing, keep and judge them."""
+    from cli import screen
+    from cli.show.ensemble import show
+    from fmu_src.source_hash import source_hash
+    from studies.ensemble.backends import through_dask, through_joblib
+    from studies.ensemble.ensemble_file import load_ensemble
+    from studies.ensemble.member import run
+    from studies.ensemble.sampling import tasks_of
+    from studies.ensemble.store import Store
+    from studies.ensemble.summary import summarise
+
+    if (options.backend == "dask") != bool(options.scheduler):
+        raise InputFault("--backend dask and --scheduler ADDRESS go together")
+    if options.jobs == 0:
+        raise InputFault("--jobs 0: give a number of processes, or -1 for one per core")
+    drawn = load_ensemble(options.file, options.samples)
+    path = Path(options.output or f"results/{Path(options.file).stem}_ensemble.json")
+    if path.suffix != ".json":
+        raise InputFault(f"--output {path}: the name must end in .json")
+    tasks = tasks_of(drawn)
+    store = Store(path.with_suffix(".lives"), drawn.identity() | {"source_hash": source_hash()}, options.restart)
+    missing = [task for task in tasks if task.number not in store.lives]
+    if len(missing) < len(tasks):
+        print(f"{len(tasks) - len(missing)} lives are there already", file=sys.stderr)
+    arriving = through_dask(run, missing, options.scheduler) if options.backend == "dask" else through_joblib(run, missing, options.jobs)
+    interrupted = False
+    try:
+        with screen.Progress(len(missing), "lives") as progress:
+            for life in arriving:
+                if store.add(life):
+                    progress.advance()
+    except KeyboardInterrupt:
+        arriving.close()
+        interrupted = True
+        print(f"interrupted with {len(store.lives)} of {len(tasks)} lives; the same command goes on", file=sys.stderr)
+    found = summarise(drawn, store.lives, len(tasks)) | {"lives": str(store.path)}
+    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    if options.json:
+        screen.json_text(found)
+    else:
+        show(found)
+        print(f"result  {path}")
+    return 130 if interrupted else 0

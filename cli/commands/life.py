@@ -1,0 +1,195 @@
+"""``rvwear life``, ``dynamics-wear`` and ``report``: wear over hours and its pages."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.options import add_coupling_options, add_json, add_reducer_options, folder, result_path, settings_of
+from fmu_src.faults import InputFault
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    hours = sub.add_parser("life", help="wear over thousands of hours, in error-controlled jumps")
+    add_reducer_options(hours)
+    add_coupling_options(hours)
+    hours.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
+    hours.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
+    hours.add_argument("--tolerance", type=float, default=0.01,
+                      help="error of the depths over those at the end (default 0.01)")
+    hours.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
+    hours.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
+    hours.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
+    hours.add_argument("--no-report", action="store_true", help="write no HTML report")
+    start = hours.add_mutually_exclusive_group()
+    start.add_argument("--resume", action="store_true", help="go on from the checkpoint beside the output")
+    start.add_argument("--restart", action="store_true", help="discard a checkpoint and start anew")
+    start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
+    add_json(hours)
+    hours.set_defaults(run=life)
+
+    dynamics = sub.add_parser("dynamics-wear", help="wear of bodies in motion against equilibria: where dynamics matters")
+    add_reducer_options(dynamics, positions=False)
+    dynamics.add_argument("--speeds", type=float, nargs="+", default=[0.25, 1.0, 2.0], metavar="TIMES",
+                          help="multiples of the set input speed (default 0.25 1 2); light load and resonance come along")
+    dynamics.add_argument("--hours", type=float, default=200.0, help="operating hours at each point (default 200)")
+    dynamics.add_argument("--cycles", type=int, default=4, help="meshing cycles that stand for them (default 4)")
+    dynamics.add_argument("--limit", type=float, default=2.0, help="percent that count as a difference (default 2)")
+    dynamics.add_argument("--output", help="the page (default results/NAME_dynamics.html)")
+    add_json(dynamics)
+    dynamics.set_defaults(run=dynamics_wear)
+
+    page = sub.add_parser("report", help="write the HTML report of a life result again")
+    page.add_argument("result", help="result file of rvwear life (.nc)")
+    page.add_argument("--output", help="report file (default beside the result)")
+    page.set_defaults(run=report)
+
+
+def life(options: argparse.Namespace) -> int:
+    """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
+    from cli import screen
+    from cli.show.life import LifeProgress
+    from fmu_src.source_hash import source_hash
+    from orchestrator import netcdf
+    from orchestrator.master import Master
+    from reducers.reducer import load_reducer
+    from studies import results
+    from studies.checkpoint import load_checkpoint, save_checkpoint
+    from studies.coupled_master import CoupledMaster
+    from studies.duty import load_duty
+    from studies.life import Life, LifeSettings, live
+    from studies.pair import make_pair
+    from studies.solve import require_positions
+
+    positions = require_positions(options.positions)
+    reducer = load_reducer(options.reducer)
+    settings = settings_of(options, reducer)
+    life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
+    life_settings.check()
+    duty = load_duty(options.duty) if options.duty else ()
+    inputs = {
+        "reducer": reducer.name, "starts": reducer.starts, "settings": {s.name: s.value for s in settings},
+        "life": vars(life_settings).copy(), "duty": [vars(s) for s in duty], "scheme": options.scheme, "positions": positions,
+        "units": "fmu" if options.fmus else "in process", "source_hash": source_hash(),
+    }  # fmt: skip
+    path = result_path(options.output, f"{reducer.name}_life")
+    if any(setting.name == "acceleration" for setting in settings):
+        raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
+    checkpoint = path.with_suffix(".checkpoint")
+    if options.reuse and (known := known_result(path, inputs)) is not None:
+        return show_life(options, known, path)
+    resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
+    if checkpoint.exists() and not (resume or options.restart or options.reuse):
+        raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
+    with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
+        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty,
+                         # In this process many steps go into one compiled call.
+                         Master if options.fmus else CoupledMaster)
+    lived = Life(life_settings)
+    first_orders = results.order_spectrum(pair, 0.0)
+    if resume:
+        lived, saved = load_checkpoint(checkpoint, inputs)
+        pair.master.restore(saved)
+
+    def keep(state: Life) -> None:
+        save_checkpoint(checkpoint, state, pair.master.save(), inputs)
+
+    try:
+        with LifeProgress(lived) as progress:
+            live(pair, lived, progress.show, keep)
+    except KeyboardInterrupt:
+        print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
+        return 130
+    orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
+    dataset = results.life_dataset(pair, lived, orders, inputs)
+    netcdf.write(dataset, path)
+    checkpoint.unlink()
+    pair.master.close()
+    return show_life(options, dataset, path)
+
+
+def belongs_to(checkpoint: Path, inputs: dict) -> bool:
+    """Whether a run of these inputs left the checkpoint."""
+    from studies.checkpoint import load_checkpoint
+
+    try:
+        load_checkpoint(checkpoint, inputs)
+    except InputFault:
+        return False
+    return True
+
+
+def known_result(path: Path, inputs: dict) -> "xr.Dataset | None":
+    """A finished result with the same inputs, or None."""
+    from orchestrator import netcdf
+
+    if not path.exists():
+        return None
+    dataset = netcdf.read(path)
+    stored = json.loads(dataset.attrs["inputs"])
+    same = all(stored.get(k) == json.loads(json.dumps(v)) for k, v in inputs.items())
+    return dataset if same else None
+
+
+def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) -> int:
+    """Table or JSON on the screen, and the report."""
+    from cli import screen
+    from cli.show.life import life_table
+    from studies import results
+
+    page = path.with_suffix(".html")
+    if not options.no_report:
+        from studies.report import write_report
+
+        write_report(dataset, page)
+    if options.json:
+        screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
+    else:
+        life_table(dataset)
+        print(f"result  {path}")
+        if not options.no_report:
+            print(f"report  {page}")
+    return 0
+
+
+def dynamics_wear(options: argparse.Namespace) -> int:
+    """``rvwear dynamics-wear``: wear of both fidelities, and where they differ."""
+    from cli import screen
+    from cli.show.life import show_dynamics
+    from reducers.reducer import load_reducer
+    from studies.dynamics_wear import as_json, compare
+    from studies.report.dynamics import write_dynamics_page
+
+    reducer = load_reducer(options.reducer)
+    page = Path(options.output or f"results/{reducer.name}_dynamics.html")
+    found = compare(reducer, settings_of(options, reducer), options.speeds, options.hours, options.cycles, options.limit,
+                    lambda text: print(text, file=sys.stderr, flush=True))  # fmt: skip
+    write_dynamics_page(found, page)
+    if options.json:
+        screen.json_text(as_json(found) | {"page": str(page)})
+    else:
+        show_dynamics(found)
+        print(f"page  {page}")
+    return 0
+
+
+def report(options: argparse.Namespace) -> int:
+    """``rvwear report``: the page of a result file."""
+    from orchestrator import netcdf
+    from studies.report import write_report
+
+    path = Path(options.result)
+    if not path.is_file():
+        raise InputFault(f"no result file at {path}; rvwear life writes one")
+    page = Path(options.output) if options.output else path.with_suffix(".html")
+    try:
+        dataset = netcdf.read(path)
+    except (OSError, ValueError) as problem:
+        raise InputFault(f"{path} is not a result of rvwear life: {problem}") from None
+    write_report(dataset, page)
+    print(page)
+    return 0

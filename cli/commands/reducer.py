@@ -1,0 +1,98 @@
+"""``rvwear solve``, ``hysteresis`` and ``modes``: one reducer as it stands."""
+
+import argparse
+
+from cli.options import add_json, add_reducer_options, settings_of
+from fmu_src.faults import InputFault
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    turn = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
+    add_reducer_options(turn)
+    add_json(turn)
+    turn.set_defaults(run=solve)
+
+    loop = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
+    add_reducer_options(loop)
+    loop.add_argument("--steps", type=int, default=40, help="torques per quarter of the loop (default 40)")
+    loop.add_argument("--angles", type=int, default=8, help="input angles averaged (default 8)")
+    add_json(loop)
+    loop.set_defaults(run=hysteresis)
+
+    shapes = sub.add_parser("modes", help="natural frequencies and mode shapes under load, input held")
+    add_reducer_options(shapes)
+    add_json(shapes)
+    shapes.set_defaults(run=modes)
+
+
+def solve(options: argparse.Namespace) -> int:
+    """``rvwear solve``: the plant alone over one crank turn."""
+    from cli import screen
+    from orchestrator.component import InProcess
+    from orchestrator.master import Master
+    from orchestrator.settings import apply
+    from reducers.reducer import load_reducer
+    from studies.pair import Pair, crank_turn_time
+    from studies.solve import figures_of, record_turn, require_positions
+
+    positions = require_positions(options.positions)
+    reducer = load_reducer(options.reducer)
+    plant = InProcess("plant", reducer.specification("rv_plant"))
+    apply(settings_of(options, reducer), {"plant": plant})
+    torque = plant.get("load_torque")
+    with screen.busy("equilibria of one crank turn"):
+        master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)
+        pair = Pair(reducer, master, plant, plant, positions)
+        master.initialise()
+        full = record_turn(pair, positions)
+        plant.set("load_torque", 0.5 * torque)
+        half = record_turn(pair, positions)
+        figures = figures_of(reducer, plant, full, half, torque)
+    if options.json:
+        screen.json_text({"reducer": reducer.name, "positions": positions} | figures)
+    else:
+        screen.figures(f"{reducer.name} over one crank turn", figures)
+    return 0
+
+
+def hysteresis(options: argparse.Namespace) -> int:
+    """``rvwear hysteresis``: the standard stiffness test."""
+    from cli import screen
+    from reducers.reducer import load_reducer
+    from studies.hysteresis import hysteresis as measure
+
+    if options.steps < 4 or options.angles < 1:
+        raise InputFault(f"steps = {options.steps}, angles = {options.angles}: at least 4 and 1 are needed")
+    reducer = load_reducer(options.reducer)
+    with screen.busy("loading torques at locked input"):
+        loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles)
+    figures = {
+        "rated_torque_Nm": float(loop.torque.max()),
+        "lost_motion_arcmin": loop.lost_motion_arcmin,
+        "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
+        "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,
+        "loop_area_Nm_arcmin": loop.loop_area_Nm_arcmin,
+    }
+    if options.json:
+        curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
+        screen.json_text({"reducer": reducer.name} | figures | curve)
+    else:
+        screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
+    return 0
+
+
+def modes(options: argparse.Namespace) -> int:
+    """``rvwear modes``: natural frequencies about the loaded equilibrium."""
+    from cli import screen
+    from cli.show.life import show_modes
+    from reducers.reducer import load_reducer
+    from studies.modes import modes as natural_modes
+
+    reducer = load_reducer(options.reducer)
+    with screen.busy("linearising the plant in motion"):
+        found = natural_modes(reducer, settings_of(options, reducer))
+    if options.json:
+        screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+    else:
+        show_modes(f"{reducer.name}: modes under load, input held", found)
+    return 0

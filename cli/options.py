@@ -1,0 +1,93 @@
+"""Options that several commands share, and what is made of them."""
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.completion import completed_by, reducer_completions
+from fmu_src.faults import InputFault
+from orchestrator.schemes import SCHEMES
+from reducers.library import available
+
+if TYPE_CHECKING:
+    from orchestrator.settings import Setting
+    from reducers.reducer import Reducer
+
+USUAL_REDUCER = "RV20E-121"
+REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_REDUCER})"
+
+# Options that are shorthands of settings: option -> (variable, unit).
+SHORTHANDS = {
+    "torque": ("load_torque", "N.m"),
+    "bearing_clearance": ("bearing_clearance", "um"),
+    "equidistant": ("equidistant_modification", "um"),
+    "shift": ("shift_modification", "um"),
+    "stiffness_reading": ("stiffness_reading", ""),
+    "contact_law": ("contact_law", ""),
+}
+
+
+def add_json(command: argparse.ArgumentParser, what: str = "print figures as JSON, nothing else") -> None:
+    command.add_argument("--json", action="store_true", help=what)
+
+
+def add_reducer(command: argparse.ArgumentParser, text: str = REDUCER_HELP) -> None:
+    completed_by(command.add_argument("--reducer", default=USUAL_REDUCER, help=text), reducer_completions)
+
+
+def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True) -> None:
+    add_reducer(command)
+    command.add_argument("--torque", type=float, metavar="NM", help="output torque [N m], opposing the motion")
+    command.add_argument("--bearing-clearance", type=float, metavar="UM", help="radial needle clearance [um]")
+    command.add_argument("--equidistant", type=float, metavar="UM", help="equidistant modification [um], > 0 is a gap")
+    command.add_argument("--shift", type=float, metavar="UM", help="shift modification [um], < 0 is a gap")
+    command.add_argument("--stiffness-reading", metavar="SI|literal", help="how the printed stiffnesses are read")
+    command.add_argument("--contact-law", metavar="LAW", help="line, lankarani-nikravesh or palmgren")
+    command.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE",
+        help="any parameter or input, with a unit if it is not SI: --set pin_radius_error[3]=2um",
+    )  # fmt: skip
+    if positions:
+        command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")
+
+
+def add_coupling_options(command: argparse.ArgumentParser, scheme: str | None = SCHEMES[0]) -> None:
+    command.add_argument("--fmus", metavar="FOLDER", help="step the FMUs of this folder instead of the kernels")
+    command.add_argument("--scheme", default=scheme, help="gauss-seidel (default) or jacobi")
+
+
+def settings_of(options: argparse.Namespace, reducer: "Reducer") -> list["Setting"]:
+    """Settings from the shorthand options and ``--set``, in this order."""
+    from orchestrator.settings import parse_setting
+
+    texts = [
+        f"{name}={value if isinstance(value, str) else repr(value)}{unit}"
+        for option, (name, unit) in SHORTHANDS.items()
+        if (value := getattr(options, option)) is not None
+    ]
+    return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
+
+
+def folder(text: str | None) -> Path | None:
+    return Path(text) if text else None
+
+
+def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)) -> Path:
+    """Where a result goes; checked before the work, so that none is lost."""
+    path = Path(text or f"results/{name}.nc")
+    if path.suffix not in endings:
+        if len(endings) > 1:
+            raise InputFault(f"--output {path}: the name must end in {' or '.join(endings)}")
+        raise InputFault(f"--output {path}: a result is a NetCDF file; give a name that ends in .nc")
+    if path.is_dir():
+        raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not os.access(path.parent, os.W_OK):
+        raise InputFault(f"--output {path}: the folder {path.parent} cannot be written to")
+    return path
+
+
+def all_cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

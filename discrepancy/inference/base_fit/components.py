@@ -1,0 +1,89 @@
+"""How well each part of the noise is known, and what that does to tests and intervals.
+
+In whitened space every part of the noise has unit variance; the bulk of a signal's noise is
+known from thousands of samples, its offset from run to run only from the few replicates.
+"""
+
+from collections import defaultdict
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+
+# Samples from which the mean square of a signal's misfit says something.
+LONG = 200
+
+
+def component_grams(space: Workspace, columns: np.ndarray) -> dict[tuple[str, str], np.ndarray]:
+    """Gram matrix of ``columns`` (N, m) in each part of the noise; their sum is the whole."""
+    grams: dict[tuple[str, str], np.ndarray] = {}
+    width = columns.shape[1]
+    for i, rows in space.rows.items():
+        whitener = space.noise.whiteners[i]
+        block = columns[rows]
+        main = grams.setdefault((whitener.quantity, "main"), np.zeros((width, width)))
+        main += block.T @ block
+        if whitener.directions.shape[1]:
+            along = whitener.directions.T @ block
+            main -= along.T @ along
+            for k, component in enumerate(whitener.components):
+                gram = grams.setdefault(component, np.zeros((width, width)))
+                gram += np.outer(along[k], along[k])
+    return grams
+
+
+def effective_dof(space: Workspace, shares: dict[tuple[str, str], float]) -> float:
+    """Satterthwaite's degrees of freedom of a variance made of parts with these shares."""
+    total = sum(max(s, 0.0) for s in shares.values())
+    if total <= 0:
+        return 1e6
+    inverse = sum((max(s, 0.0) / total) ** 2 / space.noise.dof(c) for c, s in shares.items())
+    return float(np.clip(1.0 / max(inverse, 1e-7), 1.0, 1e6))
+
+
+def excess(space: Workspace, fit: Fit) -> dict[tuple[str, str], float]:
+    """By which factor the misfit of each long signal is larger than its noise from replicates, at least 1.
+
+    What a fit leaves all over a signal (heavy tails, a base that is a little wrong) is no evidence for one effect.
+    """
+    squares, counts = defaultdict(float), defaultdict(int)
+    for i, rows in space.rows.items():
+        key = (space.noise.whiteners[i].quantity, "main")
+        squares[key] += float(np.sum(fit.residual[rows] ** 2))
+        counts[key] += rows.stop - rows.start
+    return {key: max(1.0, squares[key] / count) for key, count in counts.items() if count >= LONG}
+
+
+def mean_excess(factors: dict[tuple[str, str], float], shares: dict[tuple[str, str], float]) -> float:
+    """The factor for a test whose noise has these shares."""
+    total = sum(max(s, 0.0) for s in shares.values())
+    return sum(max(s, 0.0) * factors.get(c, 1.0) for c, s in shares.items()) / total if total > 0.0 else 1.0
+
+
+def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: int, rng: np.random.Generator,
+             factors: dict[tuple[str, str], float]) -> np.ndarray:
+    """Scores (draws, m) of pure noise whose parts have variances estimated with their degrees of freedom, times ``factors``."""
+    width = next(iter(grams.values())).shape[0]
+    scores = np.zeros((draws, width))
+    for component, gram in grams.items():
+        # In units of each column: sizes differ by many powers of ten, and rounding goes with the largest.
+        size = np.sqrt(np.maximum(np.diag(gram), 0.0))
+        inverse = np.divide(1.0, size, out=np.zeros(width), where=size > 0.0)
+        values, vectors = np.linalg.eigh(gram * np.outer(inverse, inverse))
+        keep = values > 1e-12 * max(values.max(), 1e-300)
+        if not keep.any():
+            continue
+        root = size[:, None] * vectors[:, keep] * np.sqrt(values[keep])
+        dof = space.noise.dof(component)
+        inflation = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
+        inflation *= np.sqrt(factors.get(component, 1.0))
+        scores += inflation[:, None] * (rng.standard_normal((draws, keep.sum())) @ root.T)
+    return scores
+
+
+def project_out(columns: np.ndarray, jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """``columns`` with the span of ``jacobian`` (with its priors, ``normal``) removed."""
+    if not jacobian.shape[1]:
+        return columns
+    return columns - jacobian @ (np.linalg.pinv(normal, hermitian=True) @ (jacobian.T @ columns))

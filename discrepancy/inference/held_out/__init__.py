@@ -1,0 +1,1 @@
+"""Is it enough: what the fit leaves, and the error on runs that were never used."""

@@ -1,0 +1,142 @@
+"""Error on runs that were never used for fitting.
+
+The unit is the noise: 1 is what replicates differ by.  It is taken over few directions, so that
+the error of the model is not drowned in thousands of noisy samples: the generic functions that
+carried the misfit in training, and the responses of the effects under discussion.
+"""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import f as fisher
+
+from discrepancy.inference.base_fit.components import effective_dof
+from discrepancy.inference.base_fit.workspace import Workspace, rows_of
+from discrepancy.inference.misfit.features import ORDERS, features
+from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.refit import Refit
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left."""
+
+    before: float
+    after: float
+    p_after: float
+    rms: dict[str, dict[str, float]]
+    kind: str
+
+
+class HeldOutJudge:
+    """Judges fits on the held-out records over one common set of directions."""
+
+    def __init__(self, space: Workspace, localisation: Localisation, rivals: Sequence[Refit], orders=ORDERS, most: int = 3):
+        self.space = space
+        self.indices = space.held_out
+        if not self.indices:
+            return
+        self.rows, self.size = rows_of(space.noise, self.indices)
+        self.base = self._raw(space.base.values)
+        columns = []
+        for finding in localisation.findings[:most]:
+            columns.extend(self._finding(finding, orders))
+        for rival in rivals:
+            columns.append(self.response(rival))
+        directions = np.column_stack(columns) if columns else np.zeros((self.size, 0))
+        blind = np.column_stack([self._stack({i: c for i, c in space.raw_nuisance[k].items() if i in self.rows}) for k in space.blind]) \
+            if space.blind else np.zeros((self.size, 0))
+        self.blind = _orthonormal(blind)
+        directions = directions - self.blind @ (self.blind.T @ directions)
+        self.directions = _orthonormal(directions)
+
+    def _stack(self, arrays):
+        result = np.zeros(self.size)
+        for i, a in arrays.items():
+            result[self.rows[i]] = self.space.noise.whiteners[i](a)
+        return result
+
+    def _raw(self, values):
+        ys = self.space.predictions(values, self.indices)
+        return self._stack({i: self.space.records[i].values - y for i, y in zip(self.indices, ys)})
+
+    def response(self, rival: Refit) -> np.ndarray:
+        """Whitened contribution of the effects on the held-out records."""
+        own = {p.name for p in rival.own}
+        rest = {k: v for k, v in rival.fit.values.items() if k not in own}
+        high = self.space.predictions(rival.fit.values, self.indices)
+        low = self.space.predictions(rest, self.indices)
+        return self._stack({i: a - b for i, a, b in zip(self.indices, high, low)})
+
+    def _finding(self, finding, orders):
+        """The finding's function in the held-out records, with the mean over them and, if it depends on a factor, its trend."""
+        blocks = {}
+        for i in self.indices:
+            if stream_of(self.space.records[i]) != finding.signal:
+                continue
+            match = [f for f in features(self.space.records[i], orders) if f.name == finding.feature]
+            if match:
+                blocks[i] = match[0].columns[:, :4]
+        if not blocks:
+            return []
+        width = min(b.shape[1] for b in blocks.values())
+        weights = {i: 1.0 for i in blocks}
+        if finding.dependence != "everywhere":
+            reference = [self.space.records[i].factors[finding.dependence] for i in finding.indices]
+            middle, spread = np.mean(reference), np.std(reference) or 1.0
+            weights = {i: (self.space.records[i].factors.get(finding.dependence, middle) - middle) / spread for i in blocks}
+        return [self._stack({i: weights[i] * b[:, k] for i, b in blocks.items()}) for k in range(width)]
+
+    def error(self, values) -> tuple[float, int]:
+        """Chi-square in the common directions and their number."""
+        if not self.indices or not self.directions.shape[1]:
+            return 0.0, 0
+        e = self._raw(values)
+        return float(np.sum((self.directions.T @ e) ** 2)), self.directions.shape[1]
+
+    def judge(self, rival: Refit) -> HeldOut | None:
+        if not self.indices or not self.directions.shape[1]:
+            return None
+        before, width = self.error(self.space.base.values)
+        after, _ = self.error(rival.fit.values)
+        dof = effective_dof(self.space, self._shares())
+        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fisher.sf(after / width, width, dof)),
+                       self.rms(rival.fit.values), "held-out runs")
+
+    def _shares(self) -> dict[tuple[str, str], float]:
+        """Share of each part of the noise in the common directions."""
+        shares: dict[tuple[str, str], float] = defaultdict(float)
+        for i, rows in self.rows.items():
+            whitener, block = self.space.noise.whiteners[i], self.directions[rows]
+            amounts = np.sum((whitener.directions.T @ block) ** 2, axis=1)
+            shares[(whitener.quantity, "main")] += max(float(np.sum(block**2) - amounts.sum()), 0.0)
+            for component, amount in zip(whitener.components, amounts):
+                shares[component] += float(amount)
+        return shares
+
+    def rms(self, values) -> dict[str, dict[str, float]]:
+        """Root mean square by signal in its own unit, before and after, with the noise floor."""
+        sums = defaultdict(lambda: {"before": [], "after": [], "floor": []})
+        base = self.space.predictions(self.space.base.values, self.indices)
+        now = self.space.predictions(values, self.indices)
+        for i, b, n in zip(self.indices, base, now):
+            record, whitener = self.space.records[i], self.space.noise.whiteners[i]
+            cell = sums[stream_of(record)]
+            kept = whitener.kept
+            cell["before"].append(np.mean((record.values - b)[kept] ** 2))
+            cell["after"].append(np.mean((record.values - n)[kept] ** 2))
+            stream = self.space.noise.streams[whitener.quantity]
+            cell["floor"].append(np.mean(whitener.scale**2) * (1 + sum(stream.patterns.values())))
+        return {s: {k: float(np.sqrt(np.mean(v))) for k, v in cell.items()} for s, cell in sums.items()}
+
+
+def _orthonormal(columns: np.ndarray) -> np.ndarray:
+    norms = np.linalg.norm(columns, axis=0)
+    columns = columns[:, norms > 1e-9] / norms[norms > 1e-9] if columns.shape[1] else columns
+    if not columns.shape[1]:
+        return np.zeros((columns.shape[0], 0))
+    u, s, _ = np.linalg.svd(columns, full_matrices=False)
+    return u[:, s > 1e-4 * s[0]]

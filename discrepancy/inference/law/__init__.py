@@ -1,0 +1,1 @@
+"""The missing law without a name: curves over conditions and axes, and closed forms."""

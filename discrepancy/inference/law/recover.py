@@ -1,0 +1,147 @@
+"""The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.law.closed_forms import Form, propose
+from discrepancy.inference.law.splines import Curve, additive
+from discrepancy.inference.noise.noise import SHORT
+from discrepancy.inference.noise.series import order_axis, stream_of
+
+BINS = 24
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """The law of one signal.  ``relative``: the misfit as a share of the prediction.  ``forms`` of the leading curve, best first."""
+
+    signal: str
+    relative: bool
+    curves: list[Curve]
+    leading: str
+    factor: str | None
+    points: dict[str, list[float]]
+    forms: list[Form]
+    held_out_error_before: float | None
+    held_out_error_after: float | None
+    text: str
+
+    def to_dict(self) -> dict:
+        plain = dict(self.__dict__)
+        plain["curves"] = [c.to_dict() for c in self.curves]
+        plain["forms"] = [f.to_dict() for f in self.forms]
+        return plain
+
+
+def recover(space: Workspace, fit: Fit, signals: list[str] | None = None) -> list[Recovered]:
+    """Laws of the misfit that ``fit`` leaves, for ``signals`` (all by default)."""
+    streams: dict[str, list[int]] = {}
+    for i, record in enumerate(space.records):
+        streams.setdefault(stream_of(record), []).append(i)
+    return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices)) is not None]
+
+
+def _table(space, fit, indices):
+    """Binned residuals with their conditions: columns of one table, a row per bin and run."""
+    ys = space.predictions(fit.values, indices)
+    rows = []
+    for i, y in zip(indices, ys):
+        record, whitener = space.records[i], space.noise.whiteners[i]
+        stream = space.noise.streams[whitener.quantity]
+        e = np.asarray(record.values, dtype=float) - y
+        kept = np.flatnonzero(whitener.kept)
+        axes = {k: np.asarray(v, dtype=float) for k, v in record.axes.items() if np.ptp(v) > 0}
+        angle = order_axis(record)
+        names = [n for n in axes if not (n == "time" and angle is not None)]
+        main = axes[names[0]] if names and kept.size >= SHORT else None
+        cuts = [kept] if main is None else np.array_split(kept[np.argsort(main[kept], kind="stable")], min(BINS, max(kept.size // 4, 1)))
+        weight = np.zeros(e.size)
+        weight[kept] = whitener.weight**2
+        for cut in cuts:
+            if cut.size == 0:
+                continue
+            w = weight[cut] + 1e-9
+            scale = float(np.mean(whitener.scale))
+            # correlated samples average worse than independent ones
+            spacing = np.median(np.abs(np.diff(main))) if main is not None and main.size > 1 else 1.0
+            together = 1 + 2 * (1 - stream.nugget) * stream.length / max(spacing, 1e-300) if stream.length else 1.0
+            variance = scale**2 * (min(together, cut.size) / cut.size)
+            row = {"y": float(np.sum(w * e[cut]) / np.sum(w)), "prediction": float(np.mean(y[cut])), "variance": variance,
+                   "condition": record.condition, "held": record.held_out, **{f"factor:{k}": float(v) for k, v in record.factors.items()}}
+            if main is not None:
+                row["axis:" + names[0]] = float(np.mean(main[cut]))
+            rows.append(row)
+    return rows
+
+
+def _signal(space, fit, signal, indices):
+    rows = _table(space, fit, indices)
+    training = [r for r in rows if not r["held"]]
+    if len(training) < 5:
+        return None
+    keys = sorted({k for r in rows for k in r if k.startswith(("factor:", "axis:"))})
+    keys = [k for k in keys if all(k in r for r in rows) and np.unique([r[k] for r in training]).size >= 2]
+    if not keys:
+        return None
+    best = None
+    predictions = np.array([abs(r["prediction"]) for r in training])
+    # which way of writing the misfit is smooth in the conditions: as it is, by direction, by load, or as a share
+    ways: dict[str, Callable[[dict], float]] = {"none": lambda r: 1.0}
+    if any("factor:direction" in r and r["factor:direction"] < 0 for r in training):
+        ways["direction"] = lambda r: r["factor:direction"]
+    if predictions.min() > 0.002 * predictions.max():
+        ways["prediction"] = lambda r: r["prediction"]
+    if all(r.get("factor:load", 0) > 0 for r in rows):
+        ways["load"] = lambda r: r["factor:load"]
+        if "direction" in ways:
+            ways["load and direction"] = lambda r: r["factor:load"] * r["factor:direction"]
+    for name, way in ways.items():
+        axes = {k: np.array([r[k] for r in training]) for k in keys if not (k == "factor:direction" and "direction" in name)}
+        if not axes:
+            continue
+        y = np.array([r["y"] / way(r) for r in training])
+        w = np.array([way(r) ** 2 / r["variance"] for r in training])
+        used = {k: _monotone(k, x) for k, x in axes.items()}
+        curves, fitted = additive(y, w, {k: u for k, u in used.items()})
+        loss = float(np.sum(w * (y - fitted) ** 2)) + 2 * sum(c.effective_dof for c in curves) + 2 * (name != "none")
+        if best is None or loss < best[0]:
+            best = (loss, name, way, y, w, axes, curves, fitted)
+    _, name, way, y, w, axes, curves, fitted = best
+    lead = curves[0].name
+    # partial residual of the leading axis
+    x = axes[lead]
+    rest = sum((np.interp(_monotone(c.name, axes[c.name]), c.x, c.y) for c in curves[1:]), np.zeros(y.size))
+    partial = y - rest
+    forms = propose(x, partial, 1 / np.sqrt(w), [r["condition"] for r in training] if np.unique(x).size < 8 else None)
+    shown = [Curve(c.name.split(":")[1], _back(c.name, c.x, axes[c.name]), c.y, c.deviation, c.share, c.effective_dof) for c in curves]
+    held = [r for r in rows if r["held"]]
+    before = after = None
+    if held:
+        hy = np.array([r["y"] for r in held])
+        variance = np.array([r["variance"] for r in held])
+        level = float(np.average(y, weights=w)) if not np.any(fitted) else float(np.average(fitted, weights=w))
+        predicted = np.array([way(r) for r in held]) * (level + sum(
+            np.interp(_monotone(c.name, np.array([r[c.name] for r in held]), axes[c.name]), c.x, c.y) for c in curves))
+        before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
+    lead_name = lead.split(":")[1]
+    text = f"{'misfit' if name == 'none' else 'misfit / ' + name} of {signal} over {lead_name}: " + (forms[0].text if forms else "no form")
+    return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name,
+                     {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}, forms, before, after, text)
+
+
+def _logarithmic(name, reference):
+    return name.split(":")[1] not in ("angle", "depth_angle", "temperature", "direction") and np.min(reference) > 0 and np.max(reference) > 5 * np.min(reference)
+
+
+def _monotone(name, x, reference=None):
+    """Logarithm of quantities that span decades."""
+    reference = x if reference is None else reference
+    return np.log(np.maximum(x, 0.2 * np.min(reference))) if _logarithmic(name, reference) else x
+
+
+def _back(name, grid, reference):
+    return np.exp(grid) if _logarithmic(name, reference) else grid

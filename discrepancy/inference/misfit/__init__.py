@@ -1,0 +1,1 @@
+"""Where the fitted model fails, by functions of a record that know no cause."""

@@ -1,0 +1,189 @@
+"""Where the misfit is: which signals, orders, places and conditions carry it.
+
+For each group G of generic functions S = r'MG (G'MG)^+ G'Mr is tested against the noise of the
+replicates, with Satterthwaite's degrees of freedom, and corrected for multiplicity after Holm.
+"""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+from scipy.stats import f as fisher
+
+from discrepancy.inference.base_fit.components import effective_dof, excess, mean_excess
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.misfit.features import ORDERS, features, modulations
+from discrepancy.inference.noise.series import stream_of
+
+LEVEL = 0.004
+"""Significance of a finding over all groups together."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Result of one group.  ``share``: part of the whole significant misfit; ``p`` corrected for multiplicity."""
+
+    signal: str
+    feature: str
+    dependence: str
+    statistic: float
+    width: int
+    dof: float
+    p_single: float
+    p: float
+    share: float = 0.0
+    indices: tuple[int, ...] = field(default=(), repr=False)
+
+
+@dataclass(frozen=True)
+class Localisation:
+    """All groups, the significant ones best first, and maps for drawing."""
+
+    groups: list[Group]
+    conditions: dict[str, dict[str, float]]
+    level: float
+
+    @property
+    def findings(self) -> list[Group]:
+        return sorted((g for g in self.groups if g.p <= self.level), key=lambda g: (g.p_single, -g.statistic))
+
+    @property
+    def excess(self) -> float:
+        """Chi-square in the significant groups that is more than noise, counted without overlap as far as groups are orthogonal."""
+        return sum(max(g.statistic - g.width, 0.0) for g in self.findings)
+
+    def to_dict(self) -> dict:
+        def plain(g):
+            entry = asdict(g)
+            entry.pop("indices")
+            return entry
+        rows = [g for g in self.groups if not g.feature.startswith("order ") or g.p <= self.level]
+        return {"findings": [plain(g) for g in self.findings], "map": [plain(g) for g in rows],
+                "conditions": self.conditions, "level": self.level}
+
+
+class Localiser:
+    """Whitened generic functions of all training records, computed once and tested against any fit."""
+
+    def __init__(self, space: Workspace, orders: Mapping[str, Sequence[float]] = ORDERS):
+        self.space = space
+        self.streams = defaultdict(list)
+        for i in space.training:
+            self.streams[stream_of(space.records[i])].append(i)
+        self.cells = {}
+        for i in space.training:
+            made = features(space.records[i], orders)
+            whitener = space.noise.whiteners[i]
+            block = whitener(np.hstack([f.columns for f in made]))
+            slices, start = {}, 0
+            for f in made:
+                slices[f.name] = slice(start, start + f.columns.shape[1])
+                start += f.columns.shape[1]
+            along = whitener.directions.T @ block if whitener.directions.shape[1] else np.zeros((0, start))
+            self.cells[i] = (block, slices, along, block.T @ block)
+
+    def test(self, fit: Fit, level: float = LEVEL, name: str = "") -> Localisation:
+        """Tests what ``fit`` leaves over; ``name`` restricts to one signal."""
+        space = self.space
+        inverse = np.linalg.pinv(fit.normal, hermitian=True) if fit.normal.size else np.zeros((0, 0))
+        gradient = fit.gradient
+        self.factors = excess(space, fit)
+        crosses = {i: block.T @ fit.jacobian[space.rows[i]] for i, (block, *_) in self.cells.items()}
+        scores = {i: block.T @ fit.residual[space.rows[i]] for i, (block, *_) in self.cells.items()}
+        along_jacobian = {i: space.noise.whiteners[i].directions.T @ fit.jacobian[space.rows[i]] for i in self.cells}
+        groups = []
+        for stream, indices in self.streams.items():
+            if name and stream != name:
+                continue
+            modulation = modulations([space.records[i] for i in indices])
+            names = list(dict.fromkeys(f for i in indices for f in self.cells[i][1]))
+            for feature in names:
+                comb = feature.startswith("order ")
+                have = [k for k, i in enumerate(indices) if feature in self.cells[i][1]]
+                for dependence, basis in modulation.items():
+                    if comb and dependence != "everywhere":
+                        continue
+                    group = self._group(stream, feature, dependence, [indices[k] for k in have], basis[have],
+                                        inverse, gradient, crosses, scores, along_jacobian)
+                    if group is not None:
+                        groups.append(group)
+        groups = _holm(groups)
+        whole = sum(max(g.statistic - g.width, 0.0) for g in groups if g.p <= level)
+        groups = [Group(**{**g.__dict__, "share": max(g.statistic - g.width, 0.0) / whole if whole and g.p <= level else 0.0}) for g in groups]
+        return Localisation(groups, self._conditions(scores), level)
+
+    def _group(self, stream, feature, dependence, indices, basis, inverse, gradient, crosses, scores, along_jacobian):
+        slices = [self.cells[i][1][feature] for i in indices]
+        common = min(s.stop - s.start for s in slices)
+        own = [slice(s.start, s.start + common) for s in slices]
+        m, p = basis.shape[1], gradient.size
+        width = m * common
+        cells = np.array([self.cells[i][3][o, o] for i, o in zip(indices, own)])
+        gram = np.einsum("ri,rj,rab->iajb", basis, basis, cells, optimize=True).reshape(width, width)
+        cross = np.einsum("ri,rap->iap", basis, np.array([crosses[i][o] for i, o in zip(indices, own)])).reshape(width, p)
+        score = np.einsum("ri,ra->ia", basis, np.array([scores[i][o] for i, o in zip(indices, own)])).reshape(width)
+        original = np.diag(gram).copy()
+        gram = gram - cross @ inverse @ cross.T
+        score = score - cross @ (inverse @ gradient)
+        alive = np.diag(gram) > 1e-6 * np.maximum(original, 1e-300)
+        if not alive.any():
+            return None
+        gram, score, back = gram[np.ix_(alive, alive)], score[alive], (cross @ inverse)[alive]
+        size = np.sqrt(np.diag(gram))
+        values, vectors = np.linalg.eigh(gram / np.outer(size, size))
+        keep = values > 1e-6 * values.max()
+        root = np.zeros((int(keep.sum()), width))
+        root[:, alive] = (vectors[:, keep] / np.sqrt(values[keep])).T / size
+        statistic = float(np.sum((root[:, alive] @ score) ** 2))
+        rank = root.shape[0]
+        # functions of this group, record by record, in the coordinates of the test
+        maps = np.einsum("kia,ri->rka", root.reshape(rank, m, common), basis)
+        totals = np.einsum("rka,rab,rkb->r", maps, cells, maps, optimize=True)
+        back_root = root[:, alive] @ back
+        shares: dict[tuple[str, str], float] = defaultdict(float)
+        for k, (i, o) in enumerate(zip(indices, own)):
+            whitener = self.space.noise.whiteners[i]
+            main = totals[k]
+            if whitener.directions.shape[1]:
+                amounts = np.sum((self.cells[i][2][:, o] @ maps[k].T - along_jacobian[i] @ back_root.T) ** 2, axis=1)
+                main = max(main - float(amounts.sum()), 0.0)
+                for component, amount in zip(whitener.components, amounts):
+                    shares[component] += float(amount)
+            shares[(whitener.quantity, "main")] += main
+        dof = effective_dof(self.space, shares)
+        statistic /= mean_excess(self.factors, shares)
+        return Group(stream, feature, dependence, statistic, rank, dof, float(fisher.sf(statistic / rank, rank, dof)), 1.0, 0.0, tuple(indices))
+
+    def _conditions(self, scores):
+        """Misfit of each condition and signal in standard deviations of the mean feature, for drawing."""
+        result = defaultdict(dict)
+        for stream, indices in self.streams.items():
+            sums = defaultdict(lambda: [0.0, 0.0])
+            for i in indices:
+                block, slices, _, gram = self.cells[i]
+                named = [s for f, s in slices.items() if not f.startswith("order ")]
+                pick = np.concatenate([np.arange(s.start, s.stop) for s in named])
+                g = gram[np.ix_(pick, pick)]
+                s = scores[i][pick]
+                scale = np.sqrt(np.maximum(np.diag(g), 1e-300))
+                pinv = np.linalg.pinv(g / np.outer(scale, scale), rcond=1e-8, hermitian=True)
+                cell = sums[self.space.records[i].condition]
+                cell[0] += float((s / scale) @ pinv @ (s / scale))
+                cell[1] += pick.size
+            for condition, (total, width) in sums.items():
+                result[stream][condition] = total / max(width, 1)
+        return dict(result)
+
+
+def _holm(groups):
+    """Holm's correction; the single orders of the comb count as one family with as many members."""
+    order = np.argsort([g.p_single for g in groups])
+    count = len(groups)
+    running = 0.0
+    corrected = [1.0] * count
+    for rank, k in enumerate(order):
+        running = max(running, min(1.0, groups[k].p_single * (count - rank)))
+        corrected[k] = running
+    return [Group(**{**g.__dict__, "p": float(p)}) for g, p in zip(groups, corrected)]

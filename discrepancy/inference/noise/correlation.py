@@ -1,0 +1,82 @@
+"""Correlation of the noise along a run, from deviations between replicates."""
+
+import numpy as np
+
+from discrepancy.inference.noise.whiten import correlations, gains, innovations
+
+
+def detrended_values(position, values):
+    x = position - position.mean()
+    basis = np.column_stack([np.ones_like(x), x])
+    return values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]
+
+
+def correlation_of(deviations, values):
+    """Length and white share that maximise the likelihood, over a grid and then around its best point."""
+    # the two deviations of a pair mirror each other: one is enough
+    seen, single = set(), []
+    for k, d in enumerate(deviations):
+        if not (d.pair and d.condition in seen):
+            single.append(k)
+        seen.add(d.condition)
+    chosen = sorted(single, key=lambda k: -values[k].size)[:12]
+    spacing = np.median(np.concatenate([np.abs(np.diff(deviations[i].position)) for i in chosen]))
+    longest = np.median([np.ptp(deviations[i].position) for i in chosen])
+    total = sum(values[i].size for i in chosen)
+
+    trends = []
+    for i in chosen:
+        x = deviations[i].position - deviations[i].position.mean()
+        trends.append(np.column_stack([values[i], np.ones_like(x), x / (np.ptp(x) or 1.0)]))
+
+    def deviance(length, nugget):
+        """Restricted likelihood: level and trend of each run are left out, or slow noise would be taken for them."""
+        square = logs = 0.0
+        for i, columns in zip(chosen, trends):
+            rho = correlations(deviations[i].position, length)
+            gain, deviation = gains(rho, nugget)
+            inside = innovations(columns, rho, gain, deviation)
+            gram = inside.T @ inside
+            basis, along = gram[1:, 1:], gram[1:, 0]
+            square += gram[0, 0] - along @ np.linalg.solve(basis, along)
+            logs += 2 * np.sum(np.log(deviation)) + np.log(np.linalg.det(basis))
+        free = total - 2 * len(trends)
+        return free * np.log(square / free) + logs
+
+    best = (deviance(0.0, 0.0), 0.0, 0.0)
+    for _ in range(3):
+        if best[1] == 0:
+            lengths = [spacing * 2.0**k for k in range(-1, 8) if spacing * 2.0**k < 0.3 * longest]
+            nuggets = (0.0, 0.1, 0.3, 0.6, 0.85)
+        else:
+            lengths = best[1] * np.array([0.6, 0.8, 1.0, 1.25, 1.6])
+            nuggets = np.clip(best[2] + np.array([-0.08, 0.0, 0.08]), 0.0, 0.97)
+        trials = [(deviance(length, nugget), length, nugget) for length in lengths for nugget in nuggets]
+        if not trials or min(trials)[0] >= best[0] - (6 if best[1] == 0 else 0):
+            break
+        best = min(trials)
+    return float(best[1]), float(best[2])
+
+
+def autoregression_of(series, most=10):
+    """Remaining correlation of the innovations: taps of the order with the best AIC, last entry the gain.
+
+    One tap too many costs little; a resonance that is left makes effects out of noise.
+    """
+    total = sum(e.size for e in series)
+    if total < 200:
+        return np.zeros(0)
+    clipped = [np.clip(e, -4, 4) for e in series]
+    c = np.array([sum(np.sum(e[lag:] * e[: e.size - lag]) for e in clipped if e.size > lag) for lag in range(most + 1)])
+    c /= c[0]
+    best = (0.0, np.zeros(0))
+    for order in range(1, most + 1):
+        matrix = c[np.abs(np.subtract.outer(np.arange(order), np.arange(order)))]
+        taps = np.linalg.solve(matrix, c[1: order + 1])
+        variance = 1 - taps @ c[1: order + 1]
+        if variance <= 0:
+            continue
+        score = 0.5 * total * np.log(variance) + order
+        if score < best[0] - 1:
+            best = (score, np.append(taps, np.sqrt(variance)))
+    return best[1]

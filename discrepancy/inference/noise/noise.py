@@ -1,0 +1,265 @@
+"""Noise of each signal, from runs that repeat each other and not from the misfit of the model.
+
+Signals: V = s^2 AR1(length, nugget) + offset, drift and gain that differ from run to run;
+single numbers: V = s^2, constant or proportional to the value.  Without replicates the stated
+noise is taken, and without that the fast part of the residual, inflated: both are flagged.
+"""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values
+from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
+from discrepancy.inference.noise.replicates import Deviation, deviations_of
+from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
+from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
+from discrepancy.problem import Record
+
+SHORT = 8
+"""Records with fewer samples are single numbers: no correlation is looked for."""
+UNREPLICATED_INFLATION = 1.5
+UNREPLICATED_DOF = 8.0
+UNSEEN = {"offset": 0.25, "drift": 0.1}
+"""By what runs differ where none is repeated (assumed: half and a third of the noise): a drifting zero of one run proves nothing."""
+SPECTRUM_DOF = 100.0
+"""Of a signal's noise, however long: its spectrum is a fitted form, known at single orders to a seventh."""
+KNOWN = 1e6
+
+
+@dataclass(frozen=True)
+class StreamNoise:
+    """Noise of one signal.  ``scales`` by condition; ``patterns`` variance relative to scale^2; ``dof`` of each part."""
+
+    scale: float
+    scales: dict[str, float]
+    proportional: bool
+    length: float
+    nugget: float
+    taps: np.ndarray
+    patterns: dict[str, float]
+    dof: dict[str, float]
+    source: str
+    tail: float
+    floor: float = 0.0
+
+    def to_dict(self) -> dict:
+        return {"scale": self.scale, "proportional": self.proportional, "correlation_length": self.length,
+                "white_share": self.nugget, "between_runs": {k: float(np.sqrt(v)) * self.scale for k, v in self.patterns.items()},
+                "degrees_of_freedom": dict(self.dof), "source": self.source, "tail": self.tail}
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Noise of all signals, with the whitening of every record."""
+
+    streams: dict[str, StreamNoise]
+    whiteners: list[Whitener]
+    warnings: tuple[str, ...]
+
+    def dof(self, component: tuple[str, str]) -> float:
+        stream, part = component
+        return self.streams[stream].dof.get(part, KNOWN) if stream in self.streams else KNOWN
+
+
+def estimate(records: Sequence[Record], residuals: Sequence[np.ndarray], predictions: Sequence[np.ndarray]) -> Noise:
+    """Noise from training records; held-out records get whiteners of the same noise."""
+    masks = [usable(np.asarray(r.values)) & np.isfinite(e) for r, e in zip(records, residuals)]
+    members = defaultdict(list)
+    for index, record in enumerate(records):
+        members[noise_key(record)].append(index)
+    streams, whiteners, warnings = {}, [None] * len(records), []
+    for key, indices in members.items():
+        training = [i for i in indices if not records[i].held_out] or indices
+        short = all(masks[i].sum() < SHORT for i in indices)
+        fit = _numbers if short else _signals
+        stream, weights, note = fit(records, residuals, predictions, masks, training)
+        streams[key] = stream
+        if note:
+            warnings.append(f"{key}: {note}")
+        held = [i for i in indices if i not in training]
+        if held and not short:
+            weights.update(_weights(stream, deviations_of(records, residuals, masks, held), records, residuals, masks, held))
+        for i in indices:
+            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i))
+        lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
+        if lost:
+            warnings.append(f"{key}: stuck or missing samples left out in {', '.join(lost[:6])}{' ...' if len(lost) > 6 else ''}")
+    return Noise(streams, whiteners, tuple(warnings))
+
+
+def noise_key(record: Record) -> str:
+    """Single numbers share the noise of their quantity, signals have their own by tag."""
+    return record.quantity if np.size(record.values) < SHORT else stream_of(record)
+
+
+def _numbers(records, residuals, predictions, masks, indices):
+    """Scale of single numbers, constant or proportional, whichever is likelier."""
+    deviations = deviations_of(records, residuals, masks, indices)
+    dof = sum(d.share * d.values.size for d in deviations)
+    stated = [records[i].stated_noise for i in indices if records[i].stated_noise]
+    sizes = {i: np.maximum(np.abs(predictions[i]), 1e-300) for i in indices}
+    everything = np.concatenate([sizes[i] for i in indices])
+    floor = 0.02 * np.median(everything)
+    if dof >= 2:
+        values = np.concatenate([d.values for d in deviations])
+        shares = np.concatenate([np.full(d.values.size, d.share) for d in deviations])
+        reference = np.concatenate([np.maximum(sizes[d.index][d.rows], floor) for d in deviations])
+        constant = _variance(values, shares)
+        relative = _variance(values / reference, shares)
+        gain = np.sum(shares * (np.log(constant) - np.log(relative * reference**2)))
+        varied = everything.max() > 2 * np.median(everything)
+        proportional = bool(varied and relative > 0 and gain > -15)
+        if proportional and gain < 5:
+            # too few replicates to tell: the larger of both holds for each number
+            floor = max(floor, float(np.sqrt(constant / relative)))
+        variance = relative if proportional else constant
+        scale, source, note, known = np.sqrt(variance), "replicates", "", dof
+        tiny = 1e-9 * (1.0 if proportional else np.max(everything))
+        if dof < 3 and stated and not proportional:
+            scale, source, known = max(scale, float(np.median(stated))), "replicates and stated", max(dof, 4.0)
+        scale = max(scale, tiny)
+    elif stated:
+        scale, proportional, source, known = float(np.median(stated)), False, "stated", UNREPLICATED_DOF
+        note = "no replicates, noise as stated"
+    else:
+        values = np.concatenate([residuals[i][masks[i]] for i in indices])
+        known = max(values.size - 2.0, 1.0)
+        scale, proportional, source = float(np.sqrt(np.mean(values**2) * values.size / known)), False, "misfit"
+        note = "neither replicates nor stated noise: nothing can be concluded from these numbers alone"
+    stream = StreamNoise(float(scale), {}, proportional, 0.0, 0.0, np.zeros(0), {}, {"main": float(known)}, source, 0.0, floor)
+    return stream, {}, note
+
+
+def _variance(values, shares):
+    """Variance with the largest deviations drawn in, so that one bad number does not set the scale."""
+    total = np.sum(shares)
+    variance = np.sum(shares * values**2) / total
+    return max(variance, 1e-300)
+
+
+def _signals(records, residuals, predictions, masks, indices):
+    """Correlation, scale, tails and run-to-run patterns of a series."""
+    deviations = [d for d in deviations_of(records, residuals, masks, indices) if d.values.size >= SHORT]
+    replicated = bool(deviations)
+    note = ""
+    if not replicated:
+        deviations = []
+        for i in indices:
+            rows = np.flatnonzero(masks[i])
+            if rows.size < SHORT:
+                continue
+            values = residuals[i][rows]
+            fast = np.zeros_like(values)
+            fast[1:-1] = (values[1:-1] - 0.5 * (values[:-2] + values[2:])) / np.sqrt(1.5)
+            deviations.append(Deviation(i, position_of(records[i])[rows], fast, rows, 1.0, records[i].condition, False))
+    detrended = [detrended_values(d.position, d.values) for d in deviations]
+    size = np.median([robust_scale(v) for v in detrended])
+    size = max(size, 1e-9 * max(np.max(np.abs(predictions[i])) for i in indices), 1e-300)
+    if replicated:
+        length, nugget = correlation_of(deviations, [np.clip(v / (robust_scale(v) + 1e-300), -4, 4) for v in detrended])
+    else:
+        length, nugget = 0.0, 0.0
+    inside = []
+    for d, v in zip(deviations, detrended):
+        rho = correlations(d.position, length)
+        inside.append(innovations(v[:, None], rho, *gains(rho, nugget))[:, 0])
+    taps = autoregression_of([e / max(robust_scale(e), 1e-300) for e in inside]) if replicated else np.zeros(0)
+    inside = [autoregress(e[:, None], taps)[:, 0] for e in inside]
+    # scale by condition, drawn towards the common one
+    common = np.median([robust_scale(e) for e in inside])
+    common = max(common, 1e-9 * size)
+    scales = {}
+    for condition in {d.condition for d in deviations}:
+        own = [(e, d) for e, d in zip(inside, deviations) if d.condition == condition]
+        dof = sum(d.share * e.size for e, d in own)
+        variance = np.mean([_tail_variance(e) for e, _ in own])
+        scales[condition] = np.sqrt((dof * variance + 20 * common**2) / (dof + 20))
+    scale = float(np.sqrt(np.mean(np.square(list(scales.values())))))
+    source = "replicates"
+    known = min(sum(d.share * d.values.size for d in deviations), SPECTRUM_DOF)
+    if not replicated:
+        stated = [records[i].stated_noise for i in indices if records[i].stated_noise]
+        if stated:
+            level = max(float(np.median(stated)), scale)
+            note, source = "no replicates, noise as stated", "stated"
+        else:
+            level = UNREPLICATED_INFLATION * scale
+            note, source = "no replicates: noise guessed from the fast part of the residual", "fast residual"
+        scales = {c: level for c in scales}
+        scale, known = level, UNREPLICATED_DOF
+    every = np.concatenate([e / scales[d.condition] for e, d in zip(inside, deviations)])
+    tail = float(np.mean(np.abs(every) > CUT))
+    base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail)
+    if replicated:
+        patterns, dof = pattern_variances(base, deviations, predictions)
+    else:
+        patterns, dof = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
+    stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **dof}, source, tail)
+    weights = _weights(stream, deviations if replicated else [], records, residuals, masks, indices)
+    return stream, weights, note
+
+
+def _tail_variance(e):
+    """Variance that makes the Huber score have unit variance: E[w^2 e^2]/E[w]."""
+    scale = max(robust_scale(e), 1e-300)
+    for _ in range(4):
+        w = huber_weights(e / scale)
+        scale = np.sqrt(np.mean(w**2 * e**2) / np.mean(w**1)) or scale
+    return scale**2
+
+
+def _weights(stream, deviations, records, residuals, masks, indices):
+    """Huber weights of each record: from its replicates, else from its own neighbours."""
+    weights = {}
+    alone = {}
+    for i in indices:
+        rows = np.flatnonzero(masks[i])
+        if rows.size < SHORT:
+            continue
+        position = position_of(records[i])[rows]
+        rho = correlations(position, stream.length)
+        g = gains(rho, stream.nugget)
+        level = stream.scales.get(records[i].condition, stream.scale)
+        e = innovations((residuals[i][rows] / level)[:, None], rho, *g)
+        alone[i] = local_deviation(autoregress(e, stream.taps)[:, 0])
+        weights[i] = huber_weights(alone[i], 2 * CUT if deviations else 1.6 * CUT)
+    for d in deviations:
+        if d.index not in alone:
+            continue
+        rho = correlations(d.position, stream.length)
+        g = gains(rho, stream.nugget)
+        e = innovations((d.values / stream.scales.get(d.condition, stream.scale))[:, None], rho, *g)
+        e = autoregress(e, stream.taps)[:, 0]
+        weight = huber_weights(e - np.median(e))
+        rows = np.flatnonzero(masks[d.index])
+        at = np.searchsorted(rows, d.rows)
+        own = np.ones(rows.size)
+        own[at] = weight
+        if d.pair:
+            # both runs deviate alike: the one that also leaves its own neighbours is to blame
+            partner = [j for j in alone if j != d.index and records[j].condition == d.condition and stream_of(records[j]) == stream_of(records[d.index])
+                       and alone[j].size == rows.size]
+            if partner:
+                innocent = np.abs(alone[d.index]) < 0.5 * np.max([np.abs(alone[j]) for j in partner], axis=0)
+                own[innocent] = 1.0
+        weights[d.index] = own
+    return weights
+
+
+def _whitener(key, stream, record, prediction, kept, weight) -> Whitener:
+    rows = int(kept.sum())
+    position = position_of(record)[kept]
+    level = stream.scales.get(record.condition, stream.scale)
+    scale = np.full(rows, level)
+    if stream.proportional:
+        scale = level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300))
+    names = list(stream.patterns)
+    patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
+    variances = np.array([stream.patterns[n] for n in names]) if patterns.shape[1] else np.zeros(0)
+    return whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
+                    np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
+                    tuple((key, n) for n in names), key)

@@ -1,0 +1,71 @@
+"""Runs that repeat each other: how they deviate, whatever the model says."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.inference.noise.series import position_of, stream_of
+
+
+@dataclass(frozen=True)
+class Deviation:
+    index: int
+    position: np.ndarray
+    values: np.ndarray
+    rows: np.ndarray
+    share: float
+    condition: str
+    pair: bool
+
+
+def _groups(records, indices):
+    """Sets of runs that repeat each other, within one mounting where that leaves any."""
+    for with_mounting in (True, False):
+        groups = defaultdict(list)
+        for i in indices:
+            r = records[i]
+            groups[(stream_of(r), r.condition, r.mounting if with_mounting else "")].append(i)
+        repeated = [g for g in groups.values() if len(g) > 1]
+        if repeated:
+            return repeated
+    return []
+
+
+def deviations_of(records, residuals, masks, indices) -> list[Deviation]:
+    """Deviations of repeated runs from each other, scaled to the variance of one run."""
+    result = []
+    for group in _groups(records, indices):
+        positions = [position_of(records[i]) for i in group]
+        spacing = np.median(np.abs(np.diff(positions[0]))) if positions[0].size > 1 else 1.0
+        # sample by sample even if the samples wander a little: pairing with neighbours twice would feign slow noise
+        matched = all(p.size == positions[0].size and np.allclose(p, positions[0], rtol=0, atol=1.5 * spacing + 1e-12) for p in positions)
+        condition = records[group[0]].condition
+        if matched:
+            rows = np.flatnonzero(np.all([masks[i] for i in group], axis=0))
+            if rows.size == 0:
+                continue
+            stack = np.array([residuals[i][rows] for i in group])
+            count = len(group)
+            spread = (stack - (stack.mean(0) if count == 2 else np.median(stack, axis=0))) * np.sqrt(count / (count - 1))
+            if count > 2:
+                spread = (stack - stack.mean(0)) * np.sqrt(count / (count - 1))
+            for i, position, values in zip(group, positions, spread):
+                result.append(Deviation(i, position[rows], values, rows, (count - 1) / count, condition, count == 2))
+            continue
+        for a, b in zip(group[:-1], group[1:]):
+            pa, pb = position_of(records[a]), position_of(records[b])
+            ra, rb = np.flatnonzero(masks[a]), np.flatnonzero(masks[b])
+            if ra.size < 2 or rb.size < 2 or np.any(np.diff(pb[rb]) <= 0):
+                continue
+            at = np.clip(np.searchsorted(pb[rb], pa[ra]), 1, rb.size - 1)
+            at -= np.abs(pb[rb][at - 1] - pa[ra]) < np.abs(pb[rb][at] - pa[ra])
+            close = np.abs(pb[rb][at] - pa[ra]) <= 0.75 * spacing
+            if close.sum() < max(4, 0.3 * ra.size):
+                continue
+            once = np.zeros(close.size, dtype=bool)
+            once[np.unique(at, return_index=True)[1]] = True
+            close &= once
+            rows = ra[close]
+            result.append(Deviation(a, pa[rows], (residuals[a][rows] - residuals[b][rb][at][close]) / np.sqrt(2), rows, 1.0, condition, False))
+    return result

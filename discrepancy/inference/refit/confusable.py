@@ -1,0 +1,52 @@
+"""Which effects this campaign cannot tell apart."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.stats import norm
+from scipy.stats import t as student
+
+from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.refit import Refit
+
+MARGIN = 6.0
+"""Difference of chi-square within which an effect stays in the set."""
+PER_PARAMETER = 2.0
+"""Price of a further parameter, in chi-square (Akaike)."""
+
+
+def penalised(rival: Refit) -> float:
+    """Chi-square with a price for parameters: a flexible effect imitates a stiff one, not the other way round."""
+    return rival.fit.chi2 + PER_PARAMETER * len(rival.own)
+
+
+def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float = 1e6, margin: float = MARGIN) -> list[Refit]:
+    """Effects whose fit is as good as the best but for ``margin``, best first.
+
+    ``inflation`` is the leftover misfit per degree of freedom; few replicates widen the margin to
+    what Student's law asks for the same probability.
+    """
+    if not rivals:
+        return []
+    ordered = sorted(rivals, key=penalised)
+    least = penalised(ordered[0])
+    if dof < 200:
+        margin = student.isf(norm.sf(np.sqrt(margin)), max(dof, 2.0)) ** 2
+    return [r for r in ordered if (penalised(r) - least) / max(1.0, inflation) <= margin]
+
+
+def canonical_correlation(space: Workspace, a: Refit, b: Refit) -> float:
+    """Largest canonical correlation of two effects' responses, nuisances projected out: 1 cannot be separated."""
+    base = space.base
+    spans = []
+    for rival in (a, b):
+        own = rival.fit.jacobian[:, len(base.parameters):]
+        columns = project_out(np.column_stack([rival.response, own]), base.jacobian, base.normal)
+        columns = columns[:, :1] if np.linalg.norm(columns[:, 0]) > 0 else columns
+        norms = np.linalg.norm(columns, axis=0)
+        q, _ = np.linalg.qr(columns[:, norms > 0] / norms[norms > 0])
+        spans.append(q)
+    if not spans[0].shape[1] or not spans[1].shape[1]:
+        return 0.0
+    return float(min(1.0, np.linalg.svd(spans[0].T @ spans[1], compute_uv=False)[0]))

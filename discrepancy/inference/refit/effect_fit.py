@@ -1,0 +1,183 @@
+"""Fits of effects, with the nuisances that go with them.
+
+Nuisances are close to linear around the base fit, so an effect is first fitted with their
+sensitivities frozen, and the result is then polished with full predictions.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import Candidate, Parameter
+
+MISLED = 0.2
+"""Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
+JOINT_STEPS = 15
+
+
+def fit_effects(space: Workspace, candidates: Sequence[Candidate], start: Mapping[str, float]) -> Fit:
+    """Nuisances and the parameters of ``candidates``, from ``start``."""
+    frozen = _Frozen(space, candidates)
+    own, nuisances = frozen.own, space.model.nuisances
+    parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
+    first = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
+    values, converged, columns = _descend(frozen, first)
+    promised, residual = frozen.cost(values)
+    full = {**frozen.nuisances_with(residual), **values}
+    if _cost(space, Box(parameters), full)[0] > space.base.chi2:
+        # Too far for frozen sensitivities: from the base fit's nuisances.
+        full = {**frozen.theta, **values}
+    found = _polish(space, parameters, full, np.column_stack([frozen.jacobian, columns]), names, converged, promised)
+    if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
+        # The base fit's nuisances had taken the effect's place, and are no place to start from.
+        anew = {**{p.name: p.off for p in nuisances}, **{p.name: start.get(p.name, p.off) for p in own}}
+        found = min(found, _jointly(space, parameters, anew, names), key=lambda f: f.chi2)
+    return found
+
+
+def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
+    """The same fit with sensitivities at its own values: for what is reported."""
+    for _ in range(3):
+        columns = space.columns(fit.parameters, fit.values)
+        renewed = _polish(space, fit.parameters, fit.values, columns, tuple(c.name for c in candidates), fit.converged, fit.chi2, fresh=True)
+        gain, fit = fit.chi2 - renewed.chi2, renewed
+        if gain < 0.5:
+            break
+    return fit
+
+
+class _Frozen:
+    """Chi-square of effects with the nuisances projected out, priors included, at the base fit's sensitivities."""
+
+    def __init__(self, space: Workspace, candidates: Sequence[Candidate]):
+        self.space = space
+        self.own = tuple(p for c in candidates for p in c.parameters)
+        self.shows = {p.name: [i for i in space.touched(c) if i in space.rows] for c in candidates for p in c.parameters}
+        self.which = sorted({i for indices in self.shows.values() for i in indices})
+        self.theta = dict(space.base.values)
+        self.jacobian = space.base.jacobian
+        self.box = Box(space.model.nuisances)
+        self.pull = self.box.prior_gradient(self.box.array(self.theta))
+        # A nuisance that the base model hardly shows stays where it is, rather than running to its bounds.
+        width = 50.0 * (self.box.upper - self.box.lower)
+        self.inverse = np.linalg.pinv(space.base.normal + np.diag(width**-2.0), hermitian=True)
+        self.base = dict(zip(space.training, space.predictions(self.theta, space.training)))
+
+    def residual(self, values: Mapping[str, float]) -> np.ndarray:
+        """Whitened residual with the base fit's nuisances."""
+        ys = self.space.predictions({**self.theta, **values}, self.which)
+        return self.space.base.residual - self.space.whiten({i: y - self.base[i] for i, y in zip(self.which, ys)})
+
+    def nuisance_gradient(self, residual: np.ndarray) -> np.ndarray:
+        return self.jacobian.T @ residual - self.pull
+
+    def cost(self, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+        """Generalised least squares: chi-square at the best nuisances, and the residual before they follow."""
+        r = self.residual(values)
+        g = self.nuisance_gradient(r)
+        return float(r @ r - g @ self.inverse @ g), r
+
+    def columns(self, values: Mapping[str, float]) -> np.ndarray:
+        return np.column_stack([self.space.whiten(self.space.column({**self.theta, **values}, p, self.shows[p.name])) for p in self.own])
+
+    def nuisances_with(self, residual: np.ndarray) -> dict[str, float]:
+        """The nuisances that go with what the effects leave."""
+        shift = self.inverse @ self.nuisance_gradient(residual)
+        return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
+
+
+def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, np.ndarray]:
+    """Levenberg-Marquardt within bounds over the effects' parameters: values, whether it converged, columns (N, p)."""
+    box = Box(frozen.own)
+    x = box.array(values)
+
+    def total(z):
+        cost, r = frozen.cost(box.named(z))
+        return cost + box.prior_cost(z), r
+
+    cost, r = total(x)
+    damping, converged = 1e-3, False
+    c, fresh = frozen.columns(box.named(x)), True
+    for _ in range(iterations):
+        cross = frozen.jacobian.T @ c
+        normal = c.T @ c - cross.T @ frozen.inverse @ cross + np.diag(box.precision)
+        gradient = c.T @ r - cross.T @ frozen.inverse @ frozen.nuisance_gradient(r) - box.prior_gradient(x)
+        better = False
+        for _ in range(6):
+            scaled = normal * np.outer(box.scale, box.scale)
+            scaled = scaled + damping * np.diag(np.maximum(np.diag(scaled), 1e-9 * (np.max(np.diag(scaled)) + 1e-300)))
+            step = box.step(x, scaled, gradient * box.scale)
+            trial = np.clip(x + step, box.lower, box.upper)
+            new, new_r = total(trial)
+            if np.isfinite(new) and new < cost:
+                better = True
+                break
+            damping = max(damping * 8, 1e-3)
+            if not fresh or np.max(np.abs(step) / box.scale) < 1e-4:
+                break
+        gain = cost - new if better else 0.0
+        if better:
+            move = trial - x
+            promised = 2.0 * gradient @ move - move @ normal @ move
+            x, cost, r = trial, new, new_r
+            damping = max(damping / 5, 1e-6)
+        if gain < 0.02:
+            if fresh:
+                converged = True
+                break
+        elif 0.8 * promised < gain < 1.25 * promised:
+            # Sensitivities are dear; these still foretell what a step gains.
+            fresh = False
+            continue
+        c, fresh = frozen.columns(box.named(x)), True
+    return box.named(x), converged, c
+
+
+def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+    """Chi-square with the priors, and the whitened residual."""
+    r = space.residual(values)
+    return float(r @ r) + box.prior_cost(box.array(values)), r
+
+
+def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: np.ndarray, candidates: tuple[str, ...],
+            converged: bool, expected: float, rounds: int = 8, fresh: bool = False) -> Fit:  # fmt: skip
+    """Full predictions until the chi-square stands still; sensitivities are renewed where the frozen ones mislead."""
+    box = Box(parameters)
+    x = box.array(values)
+
+    def cost_of(z):
+        return _cost(space, box, box.named(z))
+
+    cost, r = cost_of(x)
+    for _ in range(rounds):
+        normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
+        normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
+        step = box.step(x, normal, box.scale * (columns.T @ r - box.prior_gradient(x)))
+        for part in (1.0, 0.4, 0.1):
+            trial = np.clip(x + part * step, box.lower, box.upper)
+            new, new_r = cost_of(trial)
+            if new < cost:
+                break
+        gain = cost - new
+        if gain > 0:
+            x, r, cost = trial, new_r, new
+        if gain < 0.05:
+            # done, unless frozen sensitivities left it above what the partly linear fit promised
+            if fresh or cost < expected + 0.5 and cost < space.base.chi2:
+                break
+            columns = space.columns(parameters, box.named(x))
+            fresh = True
+        else:
+            fresh = False
+    return fit_of(parameters, box.named(x), r, columns, candidates, converged)
+
+
+def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...]) -> Fit:
+    """All parameters together, with new sensitivities at every step: dear, but from anywhere."""
+    box = Box(parameters)
+    solution = box.minimise(lambda x: space.residual(box.named(x)), lambda x: space.columns(parameters, box.named(x)), box.array(start),
+                            inside=0.1, xtol=1e-5, ftol=1e-5, evaluations=JOINT_STEPS)  # fmt: skip
+    values = box.named(solution.x)
+    return fit_of(parameters, values, space.residual(values), space.columns(parameters, values), candidates, bool(solution.success))

@@ -1,0 +1,165 @@
+"""Nonlinear refit of candidates, intervals of their parameters, leave-one-condition-out error."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import t as student
+
+from discrepancy.inference.base_fit.components import component_grams, effective_dof
+from discrepancy.inference.base_fit.fit import Fit, fit_of
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.effect_fit import fit_effects
+from discrepancy.inference.screening.screen import Score
+from discrepancy.problem import Candidate, Parameter
+
+UNDETERMINED = 1e-6
+"""Information (in units of the parameter's scale) below which a parameter is not estimated."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter with its interval."""
+
+    name: str
+    unit: str
+    value: float
+    deviation: float
+    interval: tuple[float, float]
+    dof: float
+    at_bound: bool
+
+    def to_dict(self) -> dict:
+        return {"value": self.value, "interval": list(self.interval), "unit": self.unit, "standard_deviation": self.deviation,
+                "at_bound": self.at_bound}
+
+
+@dataclass(frozen=True)
+class Refit:
+    """One or several effects fitted together.  ``response`` (N,) is their whitened contribution."""
+
+    candidates: tuple[Candidate, ...]
+    fit: Fit
+    gain: float
+    response: np.ndarray
+    covariance: np.ndarray
+
+    @property
+    def name(self) -> str:
+        return " + ".join(c.name for c in self.candidates)
+
+    @property
+    def own(self) -> list[Parameter]:
+        return [p for c in self.candidates for p in c.parameters]
+
+
+def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None) -> Refit:
+    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts."""
+    first = {k: v for s in scores for k, v in s.start.items()}
+    starts = [{**first, **(fixed or {})}]
+    for s in scores:
+        if s.second_start:
+            starts.append({**first, **s.second_start, **(fixed or {})})
+    fits = [fit_effects(space, candidates, start) for start in starts[:2]]
+    return finished(space, candidates, min(fits, key=lambda f: f.chi2))
+
+
+def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit) -> Refit:
+    """Adds response, gain and covariance to a fit."""
+    own = {p.name: fit.values[p.name] for c in candidates for p in c.parameters}
+    rest = {k: v for k, v in fit.values.items() if k not in own}
+    which = [i for i in space.training if any(i in space.touched(c) for c in candidates)]
+    high, low = space.predictions({**rest, **own}, which), space.predictions(rest, which)
+    response = space.whiten({i: a - b for i, a, b in zip(which, high, low)})
+    # scaled before inversion: units differ by orders of magnitude
+    size = np.array([p.scale for p in fit.parameters])
+    covariance = np.linalg.pinv(fit.normal * np.outer(size, size), rcond=1e-11, hermitian=True) * np.outer(size, size)
+    return Refit(tuple(candidates), fit, space.base.chi2 - fit.chi2, response, covariance)
+
+
+def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation: float = 1.0) -> list[Estimate]:
+    """Intervals by Student's law with the degrees of freedom of the noise that matters for each parameter.
+
+    Parameters that cannot change sign get intervals symmetric in their logarithm.
+    ``inflation`` widens for a misfit that is left.
+    """
+    fit = result.fit
+    influence = fit.jacobian @ result.covariance
+    grams = component_grams(space, influence)
+    estimated = []
+    for k, p in enumerate(fit.parameters):
+        if not any(p is q for q in result.own):
+            continue
+        if fit.normal[k, k] * p.scale**2 < UNDETERMINED:
+            # The data say nothing about it: the interval is its range.
+            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False))
+            continue
+        deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
+        dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
+        half = student.ppf(0.5 + coverage / 2, dof) * deviation
+        value = fit.values[p.name]
+        shape = not any(p is a for c in result.candidates for a in c.amplitudes)
+        if shape and p.lower > 0 and value > 0:
+            low, high = value * np.exp(-half / value), value * np.exp(half / value)
+        else:
+            low, high = value - half, value + half
+        interval = (float(max(low, p.lower)), float(min(high, p.upper)))
+        estimated.append(Estimate(p.name, p.unit, value, deviation, interval, dof, p.name in fit.at_bounds))
+    return estimated
+
+
+def drop_cost(result: Refit, candidate: Candidate) -> float:
+    """Growth of chi-square without one of several effects, if all were linear (Wald)."""
+    index = [k for k, p in enumerate(result.fit.parameters) if any(p is a for a in candidate.amplitudes)]
+    parameters = [result.fit.parameters[k] for k in index]
+    size = np.array([p.scale for p in parameters])
+    amounts = np.array([result.fit.values[p.name] - p.off for p in parameters]) / size
+    covariance = result.covariance[np.ix_(index, index)] / np.outer(size, size)
+    return float(amounts @ np.linalg.pinv(covariance, rcond=1e-9, hermitian=True) @ amounts)
+
+
+def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
+    """Chi-square of each condition when the fit had not seen it, e_c = (I - H_cc)^-1 e_c in the form of normal equations."""
+    rows = defaultdict(list)
+    for i, s in space.rows.items():
+        rows[space.records[i].condition].append(s)
+    size = np.array([p.scale for p in fit.parameters])
+    gradient = fit.gradient
+    at = np.array([fit.values[p.name] for p in fit.parameters])
+    lower, upper = np.array([(p.lower, p.upper) for p in fit.parameters]).reshape(-1, 2).T
+    result = {}
+    for condition, slices in rows.items():
+        jacobian = np.vstack([fit.jacobian[s] for s in slices])
+        residual = np.concatenate([fit.residual[s] for s in slices])
+        if not size.size:
+            result[condition] = float(residual @ residual)
+            continue
+        normal = (fit.normal - jacobian.T @ jacobian) * np.outer(size, size)
+        step = size * (np.linalg.pinv(normal, rcond=1e-10, hermitian=True) @ (size * (gradient - jacobian.T @ residual)))
+        # What the others hardly determine goes to its bounds, not beyond.
+        step = np.clip(at + step, lower, upper) - at
+        error = residual - jacobian @ step
+        result[condition] = float(error @ error)
+    return result
+
+
+def literal_leave_out(space: Workspace, result: Refit, conditions: Sequence[str] | None = None) -> dict[str, float]:
+    """The same with real refits: the records of one condition get no weight."""
+    every = list(dict.fromkeys(space.records[i].condition for i in space.training))
+    errors = {}
+    base, training, rows, size = space.base, space.training, space.rows, space.size
+    try:
+        for condition in conditions or every:
+            inside = [i for i in training if space.records[i].condition != condition]
+            outside = [i for i in training if space.records[i].condition == condition]
+            space.training = inside
+            space.lay_out()
+            keep = np.concatenate([np.arange(rows[i].start, rows[i].stop) for i in inside])
+            space.base = fit_of(base.parameters, base.values, base.residual[keep], base.jacobian[keep])
+            fit = fit_effects(space, result.candidates, result.fit.values)
+            ys = space.predictions(fit.values, outside)
+            errors[condition] = float(sum(np.sum(space.noise.whiteners[i](space.records[i].values - y) ** 2) for i, y in zip(outside, ys)))
+    finally:
+        space.base, space.training, space.rows, space.size = base, training, rows, size
+    return errors

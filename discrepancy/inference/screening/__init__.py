@@ -1,0 +1,1 @@
+"""Which candidates would reduce the misfit more than noise does."""

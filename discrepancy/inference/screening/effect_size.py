@@ -1,0 +1,34 @@
+"""d': the size of an effect in noise units after the nuisances are projected out."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.workspace import Workspace
+
+
+def effect_size(space: Workspace, difference: Mapping[int, np.ndarray]) -> float:
+    """d' of a change of the records' values (by training record), on a workspace whose base is fitted."""
+    column = space.whiten({i: np.asarray(d, dtype=float) for i, d in difference.items() if i in space.rows})
+    return float(np.sqrt(max(column @ project_out(column[:, None], space.base.jacobian, space.base.normal)[:, 0], 0.0)))
+
+
+def amplitude_for(space: Workspace, response, target: float, start: float, rounds: int = 12) -> float:
+    """Amplitude at which ``response(amplitude) -> {record: change}`` has d' = ``target``."""
+    amplitude = start
+    for _ in range(rounds):
+        size = effect_size(space, response(amplitude))
+        if size <= 0:
+            amplitude *= 4
+            continue
+        ratio = target / size
+        if abs(ratio - 1) < 0.01:
+            break
+        amplitude *= float(np.clip(ratio, 0.2, 5.0))
+    return amplitude
+
+
+def detection_sizes(space: Workspace, columns: np.ndarray) -> Sequence[float]:
+    """d' of each whitened column: what one unit of each parameter would be worth."""
+    return np.sqrt(np.maximum(np.sum(columns * project_out(columns, space.base.jacobian, space.base.normal), axis=0), 0.0))

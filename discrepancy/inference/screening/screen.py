@@ -1,0 +1,258 @@
+"""Score test of every candidate: which of them would reduce the misfit more than noise does.
+
+T_k = max over shapes and amplitudes of r'U(U'U)^-1U'r with U = M dg_k, one-sided where physics
+fixes the sign.  Multiplicity by Westfall and Young: noise is drawn with the covariance of all
+columns together.  Columns are differences over a small and a typical amplitude, so that effects
+that begin with zero slope (thresholds, clearances) are seen too.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+from scipy.stats import f as fisher
+
+from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import Candidate
+
+SMALL, TYPICAL = 0.05, 1.0
+DRAWS = 2000
+# An effect that stays below this many noise units even at the bounds of its parameters cannot be seen; what is left
+# of it in the predictions is rounding, which scaled up would fit anything.
+LEAST_REACH = 2.0
+
+
+@dataclass(frozen=True)
+class Block:
+    """Columns of one candidate at one point of its shape grid, per unit of ``Parameter.scale``."""
+
+    candidate: int
+    shape: dict[str, float]
+    columns: slice
+    signs: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Whitened columns of all candidates (N, m), nuisances not yet projected out."""
+
+    values: np.ndarray
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Score:
+    """Result of one candidate.  ``start`` are parameter values from which to refit."""
+
+    name: str
+    statistic: float
+    p_single: float
+    p_adjusted: float
+    start: dict[str, float]
+    second_start: dict[str, float] | None
+    best_block: int
+
+
+@dataclass(frozen=True)
+class Screen:
+    scores: list[Score]
+    blocks: tuple[Block, ...] = field(repr=False)
+
+    @property
+    def best(self) -> Score | None:
+        return min(self.scores, key=lambda s: (s.p_adjusted, s.p_single, -s.statistic), default=None)
+
+
+def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
+    """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
+    stacks, blocks, width = [], [], 0
+    for k, candidate in enumerate(candidates):
+        which = [i for i in space.touched(candidate) if i in space.rows]
+        if not which:
+            continue
+        linear = None
+        seen: list[np.ndarray] = []
+        for shape in candidate.shape_grid or ({},):
+            at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
+            # The small one is cheap, and enough where the large one showed the same at the first shape.
+            sizes = [SMALL] if linear else [TYPICAL, SMALL]
+            two_sided = any(p.sign == 0 for p in candidate.amplitudes)
+            made = {}
+            for size in sizes:
+                made[size] = _block(space, candidate, at, which, size)
+            if linear is None:
+                a, b = made[TYPICAL], made[SMALL]
+                linear = _same(a, b)
+                if linear:
+                    del made[SMALL]
+            if not linear and two_sided:
+                made[-TYPICAL] = _block(space, candidate, at, which, -TYPICAL)
+            for size, block in made.items():
+                if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for other in seen):
+                    continue
+                seen.append(block)
+                stacks.append(block)
+                # a difference over a large amplitude of a curved effect is only valid on its own side
+                signs = tuple((p.sign or (int(np.sign(size)) if not linear and abs(size) == TYPICAL and len(candidate.amplitudes) == 1 else 0))
+                              for p in candidate.amplitudes)
+                blocks.append(Block(k, dict(shape), slice(width, width + block.shape[1]), signs))
+                width += block.shape[1]
+    return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
+
+
+def _reach(candidate, block):
+    """Size, in noise units, of the effect at the bounds of its parameters."""
+    return max(
+        float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
+        for p, column in zip(candidate.amplitudes, block.T)
+    )
+
+
+def _step(p, size):
+    return float(np.clip(p.off + (p.sign or 1) * size * p.scale, p.lower, p.upper) - p.off)
+
+
+def _block(space, candidate, at, which, size):
+    columns = []
+    for p in candidate.amplitudes:
+        step = _step(p, size)
+        if step == 0.0:
+            columns.append(np.zeros(space.size))
+            continue
+        moved = {**at, p.name: p.off + step}
+        if abs(size) == SMALL:
+            high, low = space.predictions.beside(moved, at, which), space.predictions.beside(at, at, which)
+        else:
+            high, low = space.predictions(moved, which), space.predictions(at, which)
+        columns.append(space.whiten({i: (a - b) / step * p.scale for i, a, b in zip(which, high, low)}))
+    return np.column_stack(columns)
+
+
+def _same(a, b):
+    """Whether two blocks span the same directions, column by column."""
+    if a.shape != b.shape:
+        return False
+    na, nb = np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0)
+    if np.any((na == 0) != (nb == 0)):
+        return False
+    cosine = np.sum(a * b, axis=0) / np.maximum(na * nb, 1e-300)
+    return bool(np.all((cosine > 0.9995) | (na == 0)))
+
+
+def cone_statistic(scores: np.ndarray, gram: np.ndarray, signs: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Gain in chi-square and amplitudes for each row of ``scores``, amplitudes keeping their signs."""
+    width = gram.shape[0]
+    draws = scores.shape[0]
+    best = np.zeros(draws)
+    amplitude = np.zeros((draws, width))
+    signed = [j for j in range(width) if signs[j]] if width <= 5 else []
+    free = [j for j in range(width) if j not in signed]
+    for count in range(len(signed), -1, -1):
+        for chosen in combinations(signed, count):
+            subset = free + list(chosen)
+            if not subset:
+                continue
+            inverse = np.linalg.pinv(gram[np.ix_(subset, subset)], rcond=1e-9, hermitian=True)
+            a = scores[:, subset] @ inverse
+            gain = np.sum(a * scores[:, subset], axis=1)
+            allowed = np.ones(draws, dtype=bool)
+            for j in chosen:
+                allowed &= a[:, subset.index(j)] * signs[j] >= 0
+            better = allowed & (gain > best)
+            best[better] = gain[better]
+            amplitude[better] = 0.0
+            amplitude[np.ix_(better, subset)] = a[better]
+    return best, amplitude
+
+
+def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, fit: Fit, seed: int = 0, draws: int = DRAWS,
+           exclude: Sequence[str] = ()) -> Screen:
+    """Tests every candidate for what ``fit`` has left over."""
+    if not columns.blocks:
+        return Screen([], ())
+    rng = np.random.default_rng(seed)
+    projected = project_out(columns.values, fit.jacobian, fit.normal)
+    before = np.sum(columns.values**2, axis=0)
+    # with priors the inverse covariance is I - J N^-1 J': applied once, not twice
+    gram = columns.values.T @ projected
+    gram = 0.5 * (gram + gram.T)
+    dead = np.diag(gram) < 1e-6 * np.maximum(before, 1e-300)
+    gram[dead] = 0.0
+    gram[:, dead] = 0.0
+    score = columns.values.T @ fit.settled
+    score[dead] = 0.0
+    grams = {c: np.where(dead[:, None] | dead[None, :], 0.0, g) for c, g in component_grams(space, projected).items()}
+    prior = gram - sum(grams.values())
+    if np.trace(prior) > 1e-6 * np.trace(gram):
+        grams[("prior", "prior")] = prior
+    draws_of = simulate(space, grams, draws, rng, excess(space, fit))
+    everything = np.vstack([score, draws_of])
+    results = {}
+    for index, block in enumerate(columns.blocks):
+        own = slice(block.columns.start, block.columns.stop)
+        candidate = candidates[block.candidate]
+        if candidate.name in exclude:
+            continue
+        statistic, amplitude = cone_statistic(everything[:, own], gram[own, own], block.signs)
+        shares = {c: float(np.trace(np.linalg.pinv(gram[own, own], rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
+        entry = results.setdefault(block.candidate, {"sup": np.zeros(draws + 1), "starts": [], "width": 0, "dof": 1e6})
+        entry["sup"] = np.maximum(entry["sup"], statistic)
+        entry["starts"].append((statistic[0], index, amplitude[0]))
+        entry["width"] = max(entry["width"], block.columns.stop - block.columns.start)
+        entry["dof"] = min(entry["dof"], effective_dof(space, shares))
+    singles = {k: _tail(e["sup"][0], np.sort(e["sup"][1:]), e["width"], e["dof"]) for k, e in results.items()}
+    least = np.full(draws, 1.0)
+    for e in results.values():
+        sims = e["sup"][1:]
+        ranks = np.empty(draws)
+        ranks[np.argsort(-sims, kind="stable")] = (np.arange(draws) + 0.5) / draws
+        least = np.minimum(least, ranks)
+    ordered = np.sort(least)
+    level = ordered[max(int(0.02 * draws) - 1, 0)]
+    effective = 0.02 / level
+    scores = []
+    for k, e in results.items():
+        starts = sorted(e["starts"], key=lambda s: -s[0])
+        p = singles[k]
+        adjusted = min(1.0, effective * p) if p < level else float(np.mean(ordered <= p))
+        made = [_start(candidates[k], columns.blocks[i], a) for _, i, a in starts]
+        second = next((m for (t, i, _), m in zip(starts[1:], made[1:])
+                       if columns.blocks[i].shape != columns.blocks[starts[0][1]].shape and t > 0.6 * starts[0][0]), None)
+        scores.append(Score(candidates[k].name, float(e["sup"][0]), p, adjusted, made[0], second, starts[0][1]))
+    scores.sort(key=lambda s: (-s.statistic))
+    return Screen(scores, columns.blocks)
+
+
+def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
+    """Gain in chi-square of several effects together, linear and without bounds, at the places where each fits best alone."""
+    chosen = np.hstack([columns.values[:, columns.blocks[s.best_block].columns] for s in scores])
+    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    score = chosen.T @ fit.settled
+    return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
+
+
+def _tail(value, sims, width, dof):
+    """Probability under the null: counted, beyond the 99th percentile continued with the law of F."""
+    draws = sims.size
+    bend = sims[int(0.99 * draws)]
+    if value <= bend or bend <= 0:
+        return float((draws - np.searchsorted(sims, value) + 1) / (draws + 1))
+    reference = fisher.sf(bend / width, width, dof)
+    return float(0.01 * fisher.sf(value / width, width, dof) / max(reference, 1e-300))
+
+
+def _start(candidate, block, amplitude):
+    """Where a refit begins: the linear estimate, kept off zero and inside the bounds."""
+    start = {p.name: p.off for p in candidate.shapes}
+    start.update(block.shape)
+    for j, p in enumerate(candidate.amplitudes):
+        value = p.off + amplitude[j] * p.scale
+        if p.sign and (value - p.off) * p.sign < 0.02 * p.scale:
+            value = p.off + 0.02 * p.scale * p.sign
+        if not p.sign and value == p.off:
+            value = p.off + 0.01 * p.scale
+        start[p.name] = float(np.clip(value, p.lower, p.upper))
+    return start

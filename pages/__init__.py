@@ -1,0 +1,1 @@
+"""How results look: one look, one template, one way to draw each kind of picture."""

@@ -1,0 +1,1 @@
+"""Reducer files: the library of reducers, and how a file is read, checked and completed."""

@@ -1,0 +1,191 @@
+"""Reducer files: read, checked against the units' tables, turned into start values.
+
+A file has [reducer] (name, description), [topology] (counts) and any other sections
+with ``key = { value, unit, source }``.  The keys are names of variables of the plant, the
+wear unit or the unit of both; sections only group them.  The units' tables say what exists, in which
+unit and within which bounds, so a new parameter needs no change here.
+"""
+
+import difflib
+import tomllib
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from fmu_src.faults import InputFault
+from fmu_src.units import UnitError, conversion
+from fmu_src.variables import Table, ValueFault
+from reducers.library import LIBRARY, available
+from rv_plant.variables import FILE, Topology, plant_table
+from rv_reducer.variables import reducer_table
+from wear_fmu.variables import Resolution, wear_table
+
+
+class Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=False)
+
+
+class Entry(Strict):
+    """One number of a reducer file."""
+
+    value: float | str
+    unit: str
+    source: str = Field(min_length=1)
+
+
+# A name becomes part of file names.
+NAME = r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$"
+
+
+class Head(Strict):
+    name: str = Field(pattern=NAME)
+    description: str = ""
+
+
+class Counts(Strict):
+    discs: int = Field(ge=1, le=3)
+    cranks: int = Field(ge=1, le=3)
+    pins: int = Field(ge=4, le=400)
+    lobes: int = Field(ge=3, le=399)
+    rollers: int = Field(ge=3, le=200)
+    output_pins: int = Field(default=0, ge=0, le=100)
+
+
+@dataclass(frozen=True)
+class Reducer:
+    """One reducer: its topology and the numbers of its file in SI units."""
+
+    name: str
+    description: str
+    topology: Topology
+    starts: dict[str, float]
+    sources: dict[str, str]
+    path: Path
+    resolution: Resolution = Resolution()
+
+    def specification(self, unit: str) -> dict:
+        """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
+        names = {"rv_plant": self.plant, "wear_fmu": self.wear, "rv_reducer": self.joint}[unit].by_name
+        return {
+            "unit": unit,
+            "reducer": self.name,
+            "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
+            "starts": {k: v for k, v in self.starts.items() if k in names},
+            "sources": {k: v for k, v in self.sources.items() if k in names},
+        }
+
+    @cached_property
+    def plant(self) -> Table:
+        """The plant's table with this reducer's numbers."""
+        return plant_table(self.topology).with_starts(self.starts, self.sources)
+
+    @cached_property
+    def wear(self) -> Table:
+        """The wear unit's table with this reducer's numbers."""
+        return wear_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+
+    @cached_property
+    def joint(self) -> Table:
+        """The table of both in one unit with this reducer's numbers."""
+        return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+
+
+def load_reducer(name_or_path: str | Path) -> Reducer:
+    """A reducer by its name in the library or by the path of its file."""
+    path = Path(name_or_path)
+    if path.suffix != ".toml":
+        path = LIBRARY / f"{name_or_path}.toml"
+    if not path.is_file():
+        raise InputFault(
+            f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
+        )
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise InputFault(f"{path}: not a TOML file: {problem}") from None
+    head = checked(Head, content.pop("reducer", None), path, "reducer")
+    counts = checked(Counts, content.pop("topology", None), path, "topology")
+    if counts.pins != counts.lobes + 1:
+        raise InputFault(
+            f"{path}: [topology] pins = {counts.pins}, lobes = {counts.lobes}: the pins do not close the ring;"
+            f" a cycloid disc needs one pin more than it has lobes: set pins = {counts.lobes + 1}"
+            f" or lobes = {counts.pins - 1}"
+        )
+    if counts.output_pins in (1, 2):
+        raise InputFault(f"{path}: [topology] output_pins = {counts.output_pins}: give at least 3, or 0 for output through the cranks")
+    if counts.output_pins == 0 and counts.cranks == 1:
+        raise InputFault(
+            f"{path}: [topology] cranks = 1, output_pins = 0: one crank cannot turn the carrier; set cranks = 2 or 3, or give"
+            " the number of output_pins of a plain cycloidal drive"
+        )
+    if counts.output_pins and counts.cranks != 1:
+        raise InputFault(
+            f"{path}: [topology] output_pins = {counts.output_pins}, cranks = {counts.cranks}: with output pins one eccentric on"
+            " the axis turns the discs; set cranks = 1, or output_pins = 0"
+        )
+    topology = Topology(**counts.model_dump())
+    starts, sources = {}, {}
+    tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
+    for section, entries in content.items():
+        if not isinstance(entries, dict):
+            raise InputFault(f"{path}: {section} stands outside of a section; put it below a [section]")
+        for key, raw in entries.items():
+            entry = checked(Entry, raw, path, f"{section}.{key}")
+            if key in starts:
+                raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
+            starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
+            sources[key] = entry.source
+    missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
+    if missing:
+        raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
+    if "rated_torque" not in starts and starts["load_torque"] != 0.0:
+        starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
+    return Reducer(head.name, head.description, topology, starts, sources, path)
+
+
+def checked(model: type[Strict], raw, path: Path, place: str):
+    """Validate one piece of the file; the error names file, key, value and remedy."""
+    if raw is None:
+        raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
+    if not isinstance(raw, dict):
+        raise InputFault(
+            f"{path}: {place} = {raw!r} has no unit: write {place.split('.')[-1]} ="
+            ' { value = ..., unit = "...", source = "..." }'
+        )
+    try:
+        return model(**raw)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        key = ".".join(map(str, (place, *first["loc"])))
+        fields = ", ".join(model.model_fields)
+        given = "" if first["type"] == "missing" else f" = {first['input']!r}"
+        raise InputFault(f"{path}: {key}{given}: {first['msg']}; {place} takes {fields}") from None
+
+
+def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> float:
+    """The entry in the variable's unit, checked against the tables that have it."""
+    owners = [t for t in tables if key in t.by_name and t.by_name[key].role in ("parameter", "input")]
+    if not owners:
+        names = [v.name for t in tables for v in t.of_role("parameter", "input")]
+        close = difflib.get_close_matches(key, names, 1)
+        hint = f"did you mean {close[0]}?" if close else "see docs/variables.md for the names"
+        raise InputFault(f"{place} is not a parameter of plant or wear unit; {hint}")
+    variable = owners[0].by_name[key]
+    if variable.choices:
+        if entry.value not in variable.choices:
+            raise InputFault(f"{place} = {entry.value!r}: choose one of {', '.join(variable.choices)}")
+        return variable.choices.index(entry.value)
+    if isinstance(entry.value, str):
+        raise InputFault(f"{place} = {entry.value!r} is not a number; give it in {variable.unit}")
+    try:
+        factor, offset = conversion(entry.unit, variable.unit)
+        value = factor * entry.value + offset
+        for owner in owners:
+            owner.by_name[key].check(value)
+    except UnitError as problem:
+        raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
+    except ValueFault as problem:
+        raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
+    return value

@@ -1,0 +1,58 @@
+"""Every claim of the two source documents and of later literature, held against the computation.
+
+    claims = run(None, print)
+    print_table(claims); write_page(claims, "results/reproduce.html"); as_json(claims)
+
+``claim`` says what a claim is, ``context`` runs what several of them share, the modules
+``*_claims`` hold the claims, ``printed_forms`` the formulas as printed; ``table`` and
+``page`` show the outcome.  Equal code gives equal results, byte for byte.
+"""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from fmu_src.faults import InputFault
+from reproduce import (  # noqa: F401  each registers its claims
+    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, individuality_claims, literature_claims,
+    pin_wear_claims, pressure_claims, raceway_claims, raceway_law_claims, sliding_claims, stiffness_claims,
+)  # fmt: skip
+from reproduce.claim import REGISTRY, Claim
+from reproduce.context import Context
+from reproduce.page import page_of
+from reproduce.table import as_json, print_table
+
+__all__ = ["Claim", "as_json", "available_claims", "print_table", "run", "write_page"]
+
+
+def available_claims() -> list[str]:
+    """The ids of all claims."""
+    return sorted(REGISTRY, key=lambda name: ("TNLCI".index(name[0]), name))
+
+
+def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None) -> list[Claim]:
+    """Judge the claims of the given ids or id prefixes ("T", "N1"), or all; ``progress`` gets lines of text."""
+    ids = available_claims()
+    if selected:
+        for name in selected:
+            if not any(known.startswith(name) for known in ids):
+                raise InputFault(f"claim {name!r}: there is none; the claims are {', '.join(ids)}")
+        ids = [known for known in ids if known.startswith(tuple(selected))]
+    context = Context(lambda text: progress(f"  run   {text}"))
+    claims = []
+    for i, name in enumerate(ids, 1):
+        begun = time.perf_counter()
+        claims.append(REGISTRY[name](context))
+        progress(f"{i:3d}/{len(ids)}  {name}  {claims[-1].title}: {claims[-1].verdict} "
+                 f" ({time.perf_counter() - begun:.1f} s)")
+    return claims
+
+
+def write_page(claims: list[Claim], path: Path) -> Path:
+    """Write the claims as one HTML file that opens offline."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(path.name + ".part")
+    partial.write_text(page_of(claims), encoding="utf-8", newline="\n")
+    partial.replace(path)
+    return path

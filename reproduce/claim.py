@@ -1,0 +1,124 @@
+"""What a claim is: quoted, held against computed numbers, judged.
+
+A claim is a function of the shared ``Context`` that returns a ``Finding``; the decorator
+``states`` registers it under its id with the source and what the source says.  Every
+number of a finding comes out of a kernel, a run or a printed form at that moment.  The
+``grounds`` of a verdict are conditions on these numbers: if one of them ceases to hold,
+the verdict no longer stands, and table, page and tests say so.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from pages.look import Figure
+from reproduce.context import Context
+
+REPRODUCED = "reproduced"
+CONDITIONAL = "reproduced under a stated condition"
+CONTRADICTED = "contradicted"
+NOT_TESTABLE = "not testable"
+VERDICTS = (REPRODUCED, CONDITIONAL, CONTRADICTED, NOT_TESTABLE)
+
+TOOTH = "tooth-profile document (BX-40E)"
+NEEDLE = "needle-bearing document (RV20E-121)"
+LITERATURE = "later literature"
+CATALOGUE = "catalogue"
+INDIVIDUALITY = "individuality of parts"
+SOURCES = (TOOTH, NEEDLE, LITERATURE, CATALOGUE, INDIVIDUALITY)
+
+
+@dataclass(frozen=True)
+class Number:
+    """One computed number.
+
+    ``value`` is what the right physics gives, ``printed`` what the printed formula gives,
+    ``audited`` what an independent solver found earlier: a value, held to the relative
+    ``tolerance``, or a range (low, high).
+    """
+
+    label: str
+    unit: str
+    value: float | None = None
+    printed: float | None = None
+    audited: float | tuple[float, float] | None = None
+    tolerance: float = 0.03
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether the number confirms the independent check; None without one."""
+        if self.audited is None:
+            return None
+        found = self.printed if self.value is None else self.value
+        if isinstance(self.audited, tuple):
+            low, high = self.audited
+            spare = self.tolerance * max(abs(low), abs(high))
+            return low - spare <= found <= high + spare
+        return math.isclose(found, self.audited, rel_tol=self.tolerance, abs_tol=1e-12)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the numbers say of a claim; ``condition`` is needed with the verdict CONDITIONAL."""
+
+    verdict: str
+    why: str
+    numbers: list[Number]
+    grounds: list[tuple[str, bool]]
+    condition: str = ""
+    figures: list[Figure] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A judged claim."""
+
+    id: str
+    source: str
+    title: str
+    says: str
+    verdict: str
+    condition: str
+    why: str
+    numbers: list[Number]
+    grounds: list[tuple[str, bool]]
+    figures: list[Figure]
+
+    @property
+    def stands(self) -> bool:
+        """Whether the numbers still carry the verdict."""
+        return all(holds for _, holds in self.grounds)
+
+    @property
+    def discrepancies(self) -> list[Number]:
+        """Numbers that do not confirm the independent check."""
+        return [number for number in self.numbers if number.agrees is False]
+
+
+REGISTRY: dict[str, Callable[[Context], Claim]] = {}
+
+
+def states(identity: str, source: str, title: str, says: str):
+    """Register the function below as the claim ``identity`` of a source."""
+    if identity in REGISTRY:
+        raise ValueError(f"claim {identity} is registered twice")
+
+    def register(function: Callable[[Context], Finding]) -> Callable[[Context], Finding]:
+        def judge(context: Context) -> Claim:
+            f = function(context)
+            if f.verdict not in VERDICTS or (f.verdict == CONDITIONAL) != bool(f.condition):
+                raise ValueError(f"claim {identity}: verdict {f.verdict!r} with condition {f.condition!r}")
+            grounds = [(text, bool(holds)) for text, holds in f.grounds]
+            return Claim(
+                identity, source, title, says, f.verdict, f.condition, f.why, f.numbers, grounds, f.figures
+            )
+
+        REGISTRY[identity] = judge
+        return function
+
+    return register
+
+
+def listed(values, unit: str = "", digits: int = 3) -> str:
+    """Numbers in running text."""
+    return ", ".join(f"{v:.{digits}g}" for v in values) + (f" {unit}" if unit else "")

@@ -1,0 +1,163 @@
+"""What several claims need, computed once: turns, lives, stiffness tests.
+
+``TOLERANCE`` per jump is coarse on purpose: it moves the figures by a percent and keeps the
+command within a minute or two.  ``POSITIONS`` a turn is not: with a third of them the worn
+flank gets a false second hump (claim T26).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from orchestrator.settings import Setting, parse_setting
+from reducers.reducer import Reducer, load_reducer
+from reproduce.contacts import Contacts, contacts_of
+from studies.hysteresis import LOST_MOTION_SHARE, Hysteresis, hysteresis
+from studies.life import Life, LifeSettings, live, run_cycle
+from studies.pair import Pair, make_pair
+from studies.solve import ARCSEC, record_turn
+
+BX, RV = "BX-40E", "RV20E-121"
+MODIFIED = ("equidistant_modification=-13um", "shift_modification=-20um")
+RIGID_BEARINGS = ("bearing_clearance=0um", "roller_stiffness=1e8", "tolerance=1e-6")
+STAND, TURN = ("pins=stand",), ()
+POSITIONS, TOLERANCE, HOURS = 72, 0.02, 10_000.0
+# At most [h]: statements are looked at from a few hundred hours on.
+FIRST_JUMP = 200.0
+
+
+@dataclass
+class LifeRun:
+    """A life and, for each of its recorded hours, contacts and lost motion."""
+
+    pair: Pair
+    life: Life
+    contacts: list[Contacts] = field(default_factory=list)
+    lost_motion_arcsec: list[float] = field(default_factory=list)
+
+    @property
+    def hours(self) -> np.ndarray:
+        return np.array(self.life.hours)
+
+    def figure(self, name: str) -> np.ndarray:
+        """A figure over the recorded hours."""
+        return np.array([figures[name] for figures in self.life.figures])
+
+    def tooth(self, hour: int = -1) -> np.ndarray:
+        """Mean depth over all teeth [m], by the bins of a lobe from root to root."""
+        wear = self.life.surfaces[hour]["disc_wear"]
+        lobes = self.pair.reducer.topology.lobes
+        return wear.reshape(wear.shape[0] * lobes, -1).mean(axis=0)
+
+    def at(self, hours: float) -> int:
+        """Index of the recorded hour nearest to ``hours``."""
+        return int(np.abs(self.hours - hours).argmin())
+
+
+def flank_of(tooth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(phase [deg, 0 to 180], depth) of the more worn flank of a tooth's bins."""
+    half = tooth.size // 2
+    phase = 180.0 * (np.arange(half) + 0.5) / half
+    first, second = tooth[:half], tooth[: half - 1 : -1]
+    return phase, first if first.sum() >= second.sum() else second
+
+
+class Context:
+    """Runs by their settings, each made once."""
+
+    def __init__(self, progress: Callable[[str], None] = lambda _: None):
+        self.progress = progress
+        self.known: dict[tuple, object] = {}
+
+    def once(self, key: tuple, make: Callable[[], object], text: str = ""):
+        """The value of ``key``, made at the first call."""
+        if key not in self.known:
+            if text:
+                self.progress(text)
+            self.known[key] = make()
+        return self.known[key]
+
+    def reducer(self, name: str) -> Reducer:
+        return self.once(("reducer", name), lambda: load_reducer(name))
+
+    def settings(self, name: str, texts: tuple[str, ...]) -> list[Setting]:
+        reducer = self.reducer(name)
+        return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
+
+    def pair(self, name: str, *texts: str, positions: int = POSITIONS) -> Pair:
+        """A new pair; not shared."""
+        return make_pair(self.reducer(name), self.settings(name, texts), positions=positions)
+
+    def contacts(self, name: str, *texts: str) -> Contacts:
+        """Contacts of new parts over a crank turn."""
+        return self.once(("contacts", name, texts), lambda: contacts_of(self.pair(name, *texts)))
+
+    def life(self, name: str, *texts: str, hours: float = HOURS, tolerance: float = TOLERANCE,
+             positions: int = POSITIONS) -> LifeRun:
+        """A life in error-controlled jumps."""
+        label = f"{name}, {hours:.0f} h" + (f" ({', '.join(texts)})" if texts else "")
+        key = ("life", name, texts, hours, tolerance, positions)
+        return self.once(key, lambda: self.lived(name, texts, hours, tolerance, positions), label)
+
+    def lived(self, name: str, texts: tuple[str, ...], hours: float, tolerance: float, positions: int) -> LifeRun:
+        run = LifeRun(self.pair(name, *texts, positions=positions),
+                      Life(LifeSettings(hours, tolerance, FIRST_JUMP)))
+
+        def keep(life: Life) -> None:
+            # A finer run begins anew.
+            before = len(life.hours) - 1
+            del run.contacts[before:], run.lost_motion_arcsec[before:]
+            run.contacts.append(contacts_of(run.pair))
+            run.lost_motion_arcsec.append(lost_motion(run.pair))
+
+        live(run.pair, run.life, lambda _: None, keep)
+        return run
+
+    def reversing(self, name: str, *texts: str, hours: float = HOURS, parts: int = 8) -> LifeRun:
+        """A life of ``parts`` equal jumps in which the torque changes its sign from cycle to cycle."""
+        def make() -> LifeRun:
+            pair = self.pair(name, *texts)
+            run = LifeRun(pair, Life(LifeSettings(hours=hours)))
+            torque = pair.plant.get("load_torque")
+            for _ in range(parts):
+                for sign in (1.0, -1.0):
+                    pair.plant.set("load_torque", sign * torque)
+                    run_cycle(pair, 0.5 * hours / parts)
+            pair.plant.set("load_torque", torque)
+            run.life.note(pair)
+            return run
+
+        label = f"{name}, {hours:.0f} h with reversing torque" + (f" ({', '.join(texts)})" if texts else "")
+        return self.once(("reversing", name, texts, hours, parts), make, label)
+
+    def stiffness(self, name: str, *texts: str) -> Hysteresis:
+        """The standard stiffness test."""
+        make = lambda: hysteresis(self.reducer(name), self.settings(name, texts), steps=20, angles=8)  # noqa: E731
+        return self.once(("stiffness", name, texts), make)
+
+    def output_turn(self, name: str, *texts: str, positions: int = 48):
+        """Lag of a new reducer over one output turn [arcsec], as the plant's series."""
+        def make() -> np.ndarray:
+            pair = self.pair(name, *texts, positions=positions)
+            pair.wear.set("acceleration", 0.0)
+            return ARCSEC * record_turn(pair, positions * pair.reducer.topology.lobes)["lag"].ravel()
+
+        return self.once(("orders", name, texts, positions), make)
+
+
+def lost_motion(pair: Pair) -> float:
+    """Turning between +3 % and -3 % of the torque at the present wear [arcsec]."""
+    saved, torque = pair.master.save(), pair.plant.get("load_torque")
+    pair.wear.set("acceleration", 0.0)
+    means = []
+    for sign in (1.0, -1.0):
+        pair.plant.set("load_torque", sign * LOST_MOTION_SHARE * torque)
+        means.append(record_turn(pair, pair.positions)["lag"].mean())
+    pair.master.restore(saved)
+    return float(means[0] - means[1]) * ARCSEC
+
+
+def amplitude(series: np.ndarray, order: int) -> float:
+    """Amplitude of an order per output turn in a record of one output turn."""
+    return float(2.0 * abs(np.fft.rfft(series)[order]) / series.size)

@@ -1,0 +1,72 @@
+"""The claims on the screen and as plain data."""
+
+from rich.console import Console
+from rich.table import Table
+
+from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Claim, Number
+
+STYLES = {REPRODUCED: "green", CONDITIONAL: "yellow", CONTRADICTED: "red", NOT_TESTABLE: "dim"}
+
+
+def value_text(value: float | None) -> str:
+    """A number with four digits; nothing for None."""
+    if value is None:
+        return ""
+    if value != 0.0 and not 1e-3 <= abs(value) < 1e5:
+        return f"{value:.3g}"
+    return f"{value:.4g}" if abs(value) < 1e4 else f"{value:,.0f}"
+
+
+def audited_text(number: Number) -> str:
+    """What the independent check has."""
+    if isinstance(number.audited, tuple):
+        return " to ".join(value_text(v) for v in number.audited)
+    return value_text(number.audited)
+
+
+def print_table(claims: list[Claim]) -> None:
+    """One row per claim, and below what the independent check does not confirm."""
+    console = Console(width=max(Console().width, 130))
+    table = Table(title="Claims of the sources against the computation", title_justify="left", show_lines=True)
+    for head in ("id", "claim", "verdict", "why"):
+        table.add_column(head, ratio={"claim": 3, "verdict": 2, "why": 7}.get(head))
+    for claim in claims:
+        verdict = claim.verdict if claim.stands else f"{claim.verdict}: NO LONGER CARRIED BY THE NUMBERS"
+        condition = f"{claim.condition}. " if claim.condition else ""
+        condition = f"Condition: {condition}" if condition else ""
+        table.add_row(claim.id, claim.title, f"[{STYLES[claim.verdict]}]{verdict}[/]", condition + claim.why)
+    console.print(table)
+    counts = {verdict: sum(c.verdict == verdict for c in claims) for verdict in VERDICTS}
+    console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)
+    for claim in claims:
+        for number in claim.discrepancies:
+            found = value_text(number.printed if number.value is None else number.value)
+            console.print(f"{claim.id} {number.label}: {found} {number.unit}, independent check"
+                          f" {audited_text(number)}", highlight=False)
+
+
+def as_json(claims: list[Claim]) -> dict:
+    """Everything but the figures as plain data."""
+    return {"claims": [claim_data(c) for c in claims],
+            "verdicts": {v: sum(c.verdict == v for c in claims) for v in VERDICTS}}
+
+
+def claim_data(c: Claim) -> dict:
+    numbers = [
+        {"label": n.label, "unit": n.unit, "value": plain(n.value), "printed": plain(n.printed),
+         "independent_check": plain(n.audited), "agrees": n.agrees}
+        for n in c.numbers
+    ]  # fmt: skip
+    return {
+        "id": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict,
+        "condition": c.condition,
+        "why": c.why, "stands": c.stands, "numbers": numbers,
+        "grounds": [{"text": text, "holds": holds} for text, holds in c.grounds],
+    }  # fmt: skip
+
+
+def plain(value):
+    """NumPy scalars as Python numbers."""
+    if value is None:
+        return None
+    return [float(v) for v in value] if isinstance(value, tuple) else float(value)

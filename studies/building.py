@@ -1,0 +1,91 @@
+"""Building the FMUs of a reducer, and what of them is up to date."""
+
+import sys
+import zipfile
+from collections.abc import Callable
+from contextlib import nullcontext
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import fmpy
+
+from fmu_src.description import guid
+from fmu_src.link import compiler, host_platform
+from fmu_src.native import NativeFault, host_triple, object_codes
+from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
+from fmu_src.source_hash import source_hash
+from orchestrator.component import InProcess
+from reducers.reducer import Reducer
+from studies.pair import POSITIONS_PER_TURN, crank_turn_time, export_pair
+
+UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one."""
+
+    flavour: str = "both"
+    fmi: str = "both"
+    all_platforms: bool = False
+
+
+def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy: Callable = nullcontext) -> tuple[list[dict], list[Path]]:
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
+
+    ``busy(text)`` is entered while something is compiled.
+    """
+    plant = InProcess("plant", reducer.specification("rv_plant"))
+    step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
+    tool = f"rvwear {version('rvwear')}"
+    native = native_versions(wanted)
+    built = []
+    for name, unit in UNITS.items():
+        specification = reducer.specification(unit)
+        identity = guid(specification, source_hash())
+        editable = folder / f"{name}.fmu"
+        ours = [folder / f"fmi{version}" / f"{name}.fmu" for version in native]
+        stale = [path for path in ours if not is_current(path, identity, wanted.all_platforms)]
+        paths = ([] if wanted.flavour == "native" else [editable]) + ours
+        if editable in paths and not is_current(editable, identity):
+            stale.append(editable)
+        if stale:
+            with busy(f"compiling and packing {name}"):
+                codes = object_codes(specification, triples_for(wanted.all_platforms))
+                if editable in stale:
+                    build_fmu(name, specification, step, tool, folder, codes[host_triple()])
+                if versions := tuple(v for v, path in zip(native, ours) if path in stale):
+                    build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes)
+        for path in paths:
+            validate(path)
+            entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
+            built.append(entry | {"flavour": "python" if path == editable else "native"})
+    places = dict.fromkeys(Path(entry["fmu"]).parent for entry in built)
+    return built, [export_pair(reducer, place, step, tool) for place in places]
+
+
+def native_versions(wanted: Wanted) -> tuple[str, ...]:
+    """FMI versions of the native FMUs to build; none if nobody asked for them and there is no C compiler."""
+    if wanted.flavour == "python":
+        return ()
+    try:
+        compiler(host_platform(), wanted.all_platforms)
+    except NativeFault as fault:
+        if wanted.flavour == "native" or wanted.all_platforms:
+            raise
+        print(f"no native FMUs: {fault}", file=sys.stderr)
+        return ()
+    return tuple(VERSIONS) if wanted.fmi == "both" else (wanted.fmi,)
+
+
+def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
+    """Whether an FMU of this identity, for all platforms if need be, is there already."""
+    if not path.exists():
+        return False
+    description = fmpy.read_model_description(str(path))
+    known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
+    with zipfile.ZipFile(path) as archive:
+        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    # Four folders in FMI 2.0, where Darwin has one library for both processors.
+    return known == identity and (not all_platforms or len(libraries) >= 4)

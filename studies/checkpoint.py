@@ -1,0 +1,64 @@
+"""Checkpoints of a life run: everything needed to go on to the same result."""
+
+import json
+import zipfile
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from fmu_src.faults import InputFault
+from studies.life import Life, LifeSettings
+from studies.solve import Turn
+
+# Fields of Life that are plain numbers or lists of them.
+PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "coarse", "error_before")
+
+
+def save_checkpoint(path: Path, life: Life, saved: dict, inputs: dict) -> None:
+    """Write beside the target and move: a kill at any moment leaves a whole file."""
+    arrays = {f"state.{name}": np.frombuffer(state, "u1") for name, state in saved["states"].items()}
+    arrays |= {f"start.{name}": np.frombuffer(state, "u1") for name, state in life.start["states"].items()}
+    for name in life.surfaces[0]:
+        arrays[f"surface.{name}"] = np.stack([surface[name] for surface in life.surfaces])
+    for name in life.turns[0].series:
+        arrays[f"turn.{name}"] = np.stack([turn[name] for turn in life.turns])
+    head = {
+        "inputs": inputs, "clock": saved["clock"], "start_clock": life.start["clock"], "settings": asdict(life.settings),
+        "life": {name: getattr(life, name) for name in PLAIN},
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_suffix(".part")
+    with partial.open("wb") as file:
+        np.savez_compressed(file, head=np.frombuffer(json.dumps(head).encode(), "u1"), **arrays)
+    partial.replace(path)
+
+
+def load_checkpoint(path: Path, inputs: dict) -> tuple[Life, dict]:
+    """(life, saved master) of a checkpoint; InputFault if it belongs to other inputs."""
+    if not path.is_file():
+        raise InputFault(f"no checkpoint at {path}: start the run without --resume")
+    try:
+        with np.load(path) as arrays:
+            head = json.loads(arrays["head"].tobytes())
+            data = {name: arrays[name] for name in arrays.files if name != "head"}
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as problem:
+        raise InputFault(f"{path} is not a checkpoint ({problem}); start anew with --restart") from None
+    different = [k for k in inputs.keys() | head["inputs"].keys() if inputs.get(k) != head["inputs"].get(k)]
+    if different:
+        changes = "; ".join(f"{k} was {head['inputs'].get(k)}, is {inputs.get(k)}" for k in sorted(different))
+        raise InputFault(f"{path} belongs to a run with other inputs: {changes}. Give the same, or --restart")
+    life = Life(LifeSettings(**head["settings"]), **head["life"])
+    count = len(life.hours)
+    life.surfaces = [rows(data, "surface.", i) for i in range(count)]
+    life.turns = [Turn(rows(data, "turn.", i)) for i in range(count)]
+    life.start = {"clock": head["start_clock"], "states": states(data, "start.")}
+    return life, {"clock": head["clock"], "states": states(data, "state.")}
+
+
+def states(data: dict[str, np.ndarray], prefix: str) -> dict[str, bytes]:
+    return {name.removeprefix(prefix): data[name].tobytes() for name in data if name.startswith(prefix)}
+
+
+def rows(data: dict[str, np.ndarray], prefix: str, i: int) -> dict[str, np.ndarray]:
+    return {name.removeprefix(prefix): data[name][i] for name in data if name.startswith(prefix)}

@@ -1,0 +1,13 @@
+"""Units of figures, which their names end in: ``peak_pin_force_N``."""
+
+# Unit and meaning of the figures' name endings.
+FIGURE_UNITS = {
+    "_N": "N", "_Nm": "N.m", "_MPa": "MPa", "_arcsec": "arcsec", "_um": "um", "_deg": "deg", "_mm_s": "mm/s",
+    "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_Nm_arcmin": "N.m.arcmin",
+}  # fmt: skip
+
+
+def figure_unit(name: str) -> str:
+    """Unit of a figure, from the ending of its name; "1" if it has none."""
+    endings = [ending for ending in FIGURE_UNITS if name.endswith(ending)]
+    return FIGURE_UNITS[max(endings, key=len)] if endings else "1"

@@ -1,0 +1,123 @@
+"""Plant and wear unit of one reducer, connected."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from fmu_src.faults import InputFault
+from orchestrator.component import Component, InProcess
+from orchestrator.fmu import Fmu
+from orchestrator.master import Master
+from orchestrator.opening import open_fmu
+from orchestrator.settings import Setting, apply
+from orchestrator.ssp.exporter import Experiment, export_ssp
+from reducers.reducer import Reducer
+from rv_plant.gear_stage import total_ratio
+from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
+from studies.duty import Segment
+
+# Everything that the two units exchange.
+CONNECTIONS = [
+    *((f"plant.{source}", f"wear.{target}") for source, target in PLANT_TO_WEAR),
+    *((f"wear.{source}", f"plant.{target}") for source, target in WEAR_TO_PLANT),
+]
+
+POSITIONS_PER_TURN = 72
+
+
+@dataclass
+class Pair:
+    """The coupled units and how they are stepped through crank turns."""
+
+    reducer: Reducer
+    master: Master
+    plant: Component
+    wear: Component
+    positions: int
+    duty: tuple[Segment, ...] = ()
+
+    @property
+    def turn_time(self) -> float:
+        """Duration of one crank turn in the housing [s] at the set input speed."""
+        return crank_turn_time(self.reducer, self.plant)
+
+    def set_positions(self, positions: int) -> None:
+        """Equilibria per crank turn from now on."""
+        self.positions = positions
+        self.master.rebase(self.turn_time / positions)
+
+
+    def set_operation(self, speed: float, torque: float) -> None:
+        """Other input speed [rad/s] and output torque [N m] from now on, the same positions per turn.
+
+        Two positions are run without wear, so that the profile errors exchanged are those of
+        the new step.
+        """
+        self.plant.set("input_speed", speed)
+        self.plant.set("load_torque", torque)
+        self.wear.set("acceleration", 0.0)
+        self.master.rebase(self.turn_time / self.positions)
+        self.master.run(2)
+
+
+def crank_turn_time(reducer: Reducer, plant: Component) -> float:
+    """Duration of one crank turn in the housing [s] at the plant's input speed."""
+    speed = plant.get("input_speed")
+    if speed == 0.0:
+        raise InputFault("input_speed = 0 rad/s: the cranks must turn; set input_speed, for instance 2000rpm")
+    ratio = total_ratio(plant.get("first_stage_ratio"), reducer.topology.pins, reducer.topology.lobes)
+    return 2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes)
+
+
+def require_built_from(reducer: Reducer, fmu: Fmu, unit: str) -> None:
+    """An FMU has its sizes and start values from one reducer file: it must be this one."""
+    if fmu.specification() != reducer.specification(unit):
+        raise InputFault(
+            f"{fmu.path} was built from another reducer file than {reducer.name} ({reducer.path.name});"
+            f" build it anew: rvwear build --reducer {reducer.name} --output {fmu.path.parent}"
+        )
+
+
+def make_pair(
+    reducer: Reducer,
+    settings: list[Setting] = (),
+    fmus: Path | None = None,
+    scheme: str = "gauss-seidel",
+    positions: int = POSITIONS_PER_TURN,
+    duty: tuple[Segment, ...] = (),
+    master_kind: type[Master] = Master,
+) -> Pair:
+    """Initialised pair of a reducer: in this process, or as FMUs from the folder ``fmus``."""
+    if fmus is None:
+        plant = InProcess("plant", reducer.specification("rv_plant"))
+        wear = InProcess("wear", reducer.specification("wear_fmu"))
+    else:
+        plant, wear = open_fmu("plant", fmus / "RvPlant.fmu"), open_fmu("wear", fmus / "RvWear.fmu")
+        require_built_from(reducer, plant, "rv_plant")
+        require_built_from(reducer, wear, "wear_fmu")
+    components = {"plant": plant, "wear": wear}
+    connected = {target.partition(".")[2] for _, target in CONNECTIONS} - {"temperature"}
+    for setting in settings:
+        if setting.name.partition("[")[0] in connected:
+            raise InputFault(f"{setting.name} is exchanged by the two units; a setting of it would have no effect")
+    apply(list(settings), components)
+    step = crank_turn_time(reducer, plant) / positions
+    master = master_kind(components, CONNECTIONS, step, scheme=scheme)
+    if scheme == "jacobi":
+        # Each unit then sees the other one step later than with Gauss-Seidel.
+        wear.set("contact_lead", 2.0)
+    master.initialise()
+    pair = Pair(reducer, master, plant, wear, positions, duty)
+    if duty:
+        pair.set_operation(duty[0].speed, duty[0].torque)
+    return pair
+
+
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+    return export_ssp(
+        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
+        # Tools exchange values at the step's start: each unit sees the other one step later.
+        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", tool,
+    )  # fmt: skip

@@ -1,0 +1,115 @@
+"""What the report knows of a life result: arrays, topology, parameters, derived speeds."""
+
+import json
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+
+from fmu_src.faults import InputFault
+from rv_plant.gear_stage import total_ratio
+from rv_plant.geometry import shortening
+from rv_plant.variables import Topology
+
+MICRON = 1e6
+ARCSEC = math.degrees(1.0) * 3600.0
+# Shapes and turns show at most this many of the recorded hours.
+MOST_SHOWN = 12
+
+
+@dataclass(frozen=True)
+class Result:
+    """One life; lengths in m and angles in rad as in the dataset, unless a name says otherwise."""
+
+    dataset: xr.Dataset
+    inputs: dict
+    topology: Topology
+
+    @classmethod
+    def of(cls, dataset: xr.Dataset) -> "Result":
+        n = dataset.sizes
+        if "hour" not in n or "lobe" not in n:
+            raise InputFault("this result holds no life, which the report shows; rvwear life writes one")
+        topology = Topology(n["disc"], n["crank"], n["pin"], n["lobe"], n["roller"])
+        return cls(dataset, json.loads(dataset.attrs.get("inputs", "{}")), topology)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.dataset[name].values
+
+    @property
+    def name(self) -> str:
+        return self.inputs["parameters"]["reducer"]
+
+    @property
+    def plant(self) -> dict:
+        return self.inputs["parameters"]["plant"]
+
+    @property
+    def wear(self) -> dict:
+        return self.inputs["parameters"]["wear"]
+
+    @property
+    def hours(self) -> np.ndarray:
+        return self["hour"]
+
+    @cached_property
+    def shown(self) -> list[int]:
+        """Entries of ``hour`` that shapes and turns show, first and last among them."""
+        count = len(self.hours)
+        return sorted({round(i) for i in np.linspace(0, count - 1, min(count, MOST_SHOWN))})
+
+    @property
+    def output_speed(self) -> float:
+        """Speed of the output [rad/s]."""
+        t = self.topology
+        return self.plant["input_speed"] / total_ratio(self.plant["first_stage_ratio"], t.pins, t.lobes)
+
+    @property
+    def crank_speed(self) -> float:
+        return -self.topology.lobes * self.output_speed
+
+    @property
+    def sense(self) -> float:
+        """+1 if the cranks turn counter-clockwise."""
+        return -1.0 if self.crank_speed < 0.0 else 1.0
+
+    @property
+    def pins_turn(self) -> bool:
+        return self.wear["pins"] == "turn"
+
+    @property
+    def generating(self) -> tuple[float, float, float]:
+        """Circle and radius that generate the profile [m], and its K1."""
+        circle = self.plant["pin_circle_radius"] + self.plant["shift_modification"]
+        radius = self.plant["pin_radius"] + self.plant["equidistant_modification"]
+        return circle, radius, shortening(self.plant["eccentricity"], self.topology.lobes, circle)
+
+    @cached_property
+    def deepest_tooth(self) -> tuple[int, int]:
+        """(disc, lobe) with the deepest wear at the end."""
+        worn = self["disc_wear"][-1].max(axis=2)
+        return tuple(int(i) for i in np.unravel_index(worn.argmax(), worn.shape))
+
+    def peak_place(self, name: str, entry: int = -1) -> float:
+        """Place of a surface's deepest wear [deg], e.g. ``inner_peak_deg``."""
+        return float(self[name][entry])
+
+
+def hour_text(hours: float) -> str:
+    """``10,000 h``"""
+    return f"{hours:,.4g} h" if hours < 1000.0 else f"{hours:,.0f} h"
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Rounded to significant digits, thousands marked, no exponent between 1e-3 and 1e6."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    size = math.floor(math.log10(abs(value)))
+    if not -5 < size < 7:
+        return f"{value:.{digits - 1}e}"
+    text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
+    return text.replace("-", "−")

@@ -1,0 +1,60 @@
+"""Help and completion answer at once: nothing that computes or draws is loaded for them."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from cli.main import parser
+
+HEAVY = {"numpy", "numba", "llvmlite", "pandas", "xarray", "plotly", "scipy", "pydantic", "rich", "fmpy", "jinja2", "pint"}
+# CPU seconds, the interpreter's own start included.
+SOON = 0.3
+
+
+def modules_after(arguments: list[str], **environment: str) -> tuple[set[str], float, str]:
+    """(modules that ``rvwear`` has loaded when it ends, CPU time [s] that it took, what it printed)."""
+    script = (
+        "import sys, time\nfrom cli.main import main\ntry:\n    main()\nexcept SystemExit:\n    pass\n"
+        "print(time.process_time(), *sorted({name.partition('.')[0] for name in sys.modules}), file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script, *arguments], capture_output=True, text=True, env=os.environ | environment, check=True
+    )
+    seconds, *names = done.stderr.split("\n")[-2].split()
+    return set(names), float(seconds), done.stdout
+
+
+COMMANDS = sorted(next(a for a in parser()._actions if a.dest == "command").choices)
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_help_loads_nothing_heavy(command):
+    loaded, seconds, text = modules_after([*command.split(), "--help"])
+    assert "usage: rvwear" in text
+    assert not loaded & HEAVY
+    assert seconds < SOON
+
+
+@pytest.mark.parametrize("shell, word", [("bash", "complete "), ("zsh", "compdef"), ("fish", "complete ")])
+def test_completion_prints_what_the_shell_sources(shell, word):
+    loaded, seconds, text = modules_after(["completion", shell])
+    assert word in text and "rvwear" in text
+    assert not loaded & HEAVY
+    assert seconds < SOON
+
+
+@pytest.mark.parametrize("line, offered", [
+    ("rvwear hys", ["hysteresis"]), ("rvwear solve --reducer RV", ["RV20E-121"]), ("rvwear compare BX", ["BX-40E"]),
+    ("rvwear life --first", ["--first-jump"]), ("rvwear completion f", ["fish"]),
+])  # fmt: skip
+def test_the_shell_is_offered_commands_options_and_reducers(tmp_path, line, offered):
+    """Asked as bash asks: the line in the environment, the answer in a file."""
+    answer = tmp_path / "answer"
+    environment = os.environ | {
+        "_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer), "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+    }  # fmt: skip
+    subprocess.run([sys.executable, "-m", "cli"], env=environment, cwd=tmp_path, check=True)
+    assert [word.strip() for word in answer.read_text().split("\n")] == offered
