@@ -18,7 +18,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.designs import TURN, Design, make_design
 from benchmarks.blind_trial.generator.folder import write_campaign
-from benchmarks.blind_trial.generator.laws import Drag
+from benchmarks.blind_trial.generator.laws.friction import Drag
 from benchmarks.blind_trial.generator.make import measure as measured_runs
 from benchmarks.blind_trial.generator.truth import Bench
 from benchmarks.ratios import Curve, Figure, Measured, exponent

@@ -20,7 +20,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from benchmarks.exudyn_peer import LADDER, SLOW_LADDER, ExudynPlant
-from benchmarks.integrators import REFERENCE, Stretch, errors, jacobian, observe, rate_of_change, rated, with_alpha, with_scipy
+from benchmarks.integrators.first_order import jacobian, rate_of_change
+from benchmarks.integrators.runs import REFERENCE, errors, with_alpha, with_scipy
+from benchmarks.integrators.stretches import Stretch, observe, rated
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Figure, Measured, Ratio
 from reducers.reducer import load_reducer

@@ -6,6 +6,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from fmu_src.project import Project
 from fmu_src.unit import LOG_CATEGORIES
 from fmu_src.units import fmi_base_unit
 from fmu_src.variables import Table, Variable
@@ -20,7 +21,7 @@ def guid(specification: dict, code_hash: str) -> str:
     return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
 
 
-def model_description(table: Table, identity: str, code_hash: str, step_size: float, tool: str) -> Element:
+def model_description(table: Table, identity: str, code_hash: str, step_size: float, tool: str, made_by: Project) -> Element:
     """The ``fmiModelDescription`` element of a co-simulation unit.
 
     All outputs are states of the unit: within a communication point no output depends
@@ -29,8 +30,8 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
     """
     root = Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=table.name, guid=identity,
-        description=table.description, version=code_hash[:16], generationTool=tool,
-        variableNamingConvention="structured", numberOfEventIndicators="0",
+        description=table.description, generationTool=tool, variableNamingConvention="structured", numberOfEventIndicators="0",
+        **made_by.attributes(code_hash),
     )
     SubElement(
         root, "CoSimulation", modelIdentifier=table.name, needsExecutionTool="false",

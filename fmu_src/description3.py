@@ -5,15 +5,16 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from fmu_src.description import CAUSALITY, add_log_categories, add_units, limits_of, number, starts_from, type_name
+from fmu_src.project import Project
 from fmu_src.variables import Table, Variable
 
 
-def model_description3(table: Table, identity: str, code_hash: str, step_size: float, tool: str) -> Element:
+def model_description3(table: Table, identity: str, code_hash: str, step_size: float, tool: str, made_by: Project) -> Element:
     """The ``fmiModelDescription`` element; ``fmu_src.description`` says what it declares and why."""
     root = Element(
         "fmiModelDescription", fmiVersion="3.0", modelName=table.name, instantiationToken=identity,
-        description=table.description, version=code_hash[:16], generationTool=tool,
-        variableNamingConvention="structured",
+        description=table.description, generationTool=tool, variableNamingConvention="structured",
+        **made_by.attributes(code_hash),
     )
     SubElement(
         root, "CoSimulation", modelIdentifier=table.name, needsExecutionTool="false",

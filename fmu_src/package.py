@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+from dataclasses import asdict
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -22,6 +23,7 @@ from fmu_src.faults import RunFault
 from fmu_src.link import PLATFORMS, host_platform, shared_library, universal
 from fmu_src.native import host_triple, object_code, object_codes
 from fmu_src.presentation import files_for_people
+from fmu_src.project import project
 from fmu_src.slaves.kernel_slave import OBJECT_CODE
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
 from fmu_src.unit import make_unit
@@ -43,7 +45,7 @@ def stamp_of(specification: dict, step_size: float, tool: str, flavour: str) -> 
     code_hash = source_hash()
     return {
         "specification": specification, "source_hash": code_hash, "guid": guid(specification, code_hash),
-        "triple": host_triple(), "step_size": step_size, "tool": tool, "flavour": flavour,
+        "triple": host_triple(), "step_size": step_size, "tool": tool, "flavour": flavour, "made_by": asdict(project()),
     }  # fmt: skip
 
 
@@ -73,7 +75,7 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
             raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")
         with zipfile.ZipFile(folder / "raw" / f"{name}.fmu") as raw:
             files = {entry.replace("\\", "/"): raw.read(entry) for entry in raw.namelist()}
-    files |= files_for_people(make_unit(specification).table, "2.0", stamp["guid"])
+    files |= files_for_people(make_unit(specification).table, "2.0", stamp["guid"], project())
     return write_archive(files, target / f"{name}.fmu")
 
 
@@ -94,13 +96,13 @@ def build_native(
     made = []
     for version in versions:
         describe, folders = (model_description, folders2) if version == "2" else (model_description3, folders3)
-        root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool)
+        root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool, project())
         ElementTree.indent(root)
         files = {
             "modelDescription.xml": ElementTree.tostring(root, "utf-8", xml_declaration=True),
             f"resources/{STAMP}": stamp_bytes(stamp),
         }
-        files |= files_for_people(unit.table, VERSIONS[version], stamp["guid"])
+        files |= files_for_people(unit.table, VERSIONS[version], stamp["guid"], project())
         files |= {f"binaries/{folder}/{name}{suffix}": data for (folder, suffix), data in folders(libraries).items()}
         made.append(write_archive(files, target / f"fmi{version}" / f"{name}.fmu"))
     return made

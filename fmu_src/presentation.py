@@ -9,6 +9,7 @@ from html import escape
 import numpy as np
 
 from fmu_src.link import FMI_HEADERS
+from fmu_src.project import Project
 from fmu_src.variables import Table, Variable
 
 STYLE = """body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#223}
@@ -16,13 +17,13 @@ table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:t
 code{font-size:14px}svg text{font:13px sans-serif}h2{margin-top:1.6em}"""
 
 
-def files_for_people(table: Table, fmi: str, identity: str) -> dict[str, bytes]:
+def files_for_people(table: Table, fmi: str, identity: str, made_by: Project) -> dict[str, bytes]:
     """The files of one FMU by their path in the archive, where its FMI version wants them."""
     files = {
-        "documentation/index.html": page(table, identity).encode(),
+        "documentation/index.html": page(table, identity, made_by).encode(),
         "documentation/diagram.svg": diagram(table).encode(),
         "documentation/diagram.png": picture(512),
-        "documentation/licenses/license.txt": licence(table).encode(),
+        "documentation/licenses/license.txt": licence(table, made_by).encode(),
     }
     if fmi == "2.0":
         return files | {"model.png": picture(128)}
@@ -39,7 +40,7 @@ ICON_PLACE = b"""<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-def page(table: Table, identity: str) -> str:
+def page(table: Table, identity: str, made_by: Project) -> str:
     """documentation/index.html: what the unit is, how it connects, every variable."""
     sections = {"Inputs": "input", "Outputs": "output", "Parameters": "parameter"}
     parts = [
@@ -48,7 +49,8 @@ def page(table: Table, identity: str) -> str:
         "<p>Steps may vary in size. The state can be saved, restored and serialised whole. Within a communication point"
         " no output depends on an input. A value out of its bounds, an impossible call or step is refused with a message,"
         " and the state stays what it was.</p>",
-        f"<p>Identity {escape(identity)}.</p>",
+        f"<p>Identity {escape(identity)}. Version {escape(made_by.version)}, {escape(made_by.author)};"
+        f" licence {escape(made_by.licence)} (<a href=licenses/license.txt>text</a>).</p>",
     ]
     for title, role in sections.items():
         parts += [f"<h2>{title}</h2>", variable_table(table.of_role(role))]
@@ -130,11 +132,11 @@ def picture(size: int) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
 
 
-def licence(table: Table) -> str:
+def licence(table: Table, made_by: Project) -> str:
     """Whose the parts are; the FMI headers ask for their notice in binaries."""
     header = (FMI_HEADERS / "fmi3Functions.h").read_text(encoding="utf-8")
     notice = re.search(r"Copyright \(C\).*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL).group()
     return (
-        f"{table.name}, made with rvwear. Its makers have stated no licence: ask them before you pass it on.\n\n"
+        f"{table.name}, made with rvwear. {made_by.terms()}\n"
         f"It contains the headers of the FMI standard:\n\n{notice}\n"
     )

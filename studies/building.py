@@ -5,7 +5,6 @@ import zipfile
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 
 import fmpy
@@ -14,6 +13,7 @@ from fmu_src.description import guid
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
+from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from reducers.reducer import Reducer
@@ -38,7 +38,7 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy:
     """
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
-    tool = f"rvwear {version('rvwear')}"
+    tool = f"{NAME} {project().version}"
     native = native_versions(wanted)
     built = []
     for name, unit in UNITS.items():
@@ -80,12 +80,15 @@ def native_versions(wanted: Wanted) -> tuple[str, ...]:
 
 
 def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
-    """Whether an FMU of this identity, for all platforms if need be, is there already."""
+    """Whether an FMU of this identity, version and licence, for all platforms if need be, is there already."""
     if not path.exists():
         return False
     description = fmpy.read_model_description(str(path))
     known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
+    makers = project().attributes(source_hash())
+    if known != identity or any(getattr(description, name) != value for name, value in makers.items()):
+        return False
     with zipfile.ZipFile(path) as archive:
         libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return known == identity and (not all_platforms or len(libraries) >= 4)
+    return not all_platforms or len(libraries) >= 4

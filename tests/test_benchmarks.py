@@ -7,7 +7,8 @@ import pytest
 
 from benchmarks.equilibrium import FREE, compiled, start
 from benchmarks.exudyn_peer import ExudynPlant
-from benchmarks.integrators import Stretch, errors, rated, with_alpha
+from benchmarks.integrators.runs import errors, with_alpha
+from benchmarks.integrators.stretches import Stretch, rated
 from benchmarks.motion import Problem, check_right_hand_sides, cheapest
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Figure, Measured, Ratio, cost_at, exponent, machine

@@ -27,6 +27,7 @@ from benchmarks.blind_trial.generator.strength import Ruler  # noqa: E402
 from benchmarks.blind_trial.generator.truth import Bench  # noqa: E402
 from benchmarks.blind_trial.plan import plan, reduced_plan  # noqa: E402
 from benchmarks.blind_trial.publish import publish  # noqa: E402
+from benchmarks.blind_trial.results import RESULTS, SEALS, finished  # noqa: E402
 from benchmarks.blind_trial.score import cases_of, misses, score  # noqa: E402
 from discrepancy.campaign.check import check_campaign  # noqa: E402
 from discrepancy.campaign.load import load_campaign  # noqa: E402
@@ -100,7 +101,7 @@ def test_page_lists_every_miss(results, tmp_path):
 
 
 def test_generator_shares_no_effect_code():
-    for file in (ROOT / "benchmarks" / "blind_trial" / "generator").glob("*.py"):
+    for file in (ROOT / "benchmarks" / "blind_trial" / "generator").rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             names = []
             if isinstance(node, ast.ImportFrom):
@@ -186,11 +187,11 @@ def test_trial_goes_on_where_it_was_stopped(tmp_path, monkeypatch, capsys):
 
     monkeypatch.setattr("benchmarks.blind_trial.tool.answer_of", answer)
     trial_run.trial(tasks[:2], tmp_path, jobs=1)
-    with (tmp_path / trial_run.RESULTS).open("a", encoding="utf-8") as lines:
+    with (tmp_path / RESULTS).open("a", encoding="utf-8") as lines:
         lines.write('{"number": 2, "cut')
     done = trial_run.trial(tasks, tmp_path, jobs=1)
     assert asked == [t.name for t in tasks]
-    assert sorted(done) == [t.number for t in tasks] == sorted(trial_run.finished(tmp_path))
-    sealed = (tmp_path / trial_run.SEALS).read_text(encoding="utf-8").split()
+    assert sorted(done) == [t.number for t in tasks] == sorted(finished(tmp_path))
+    sealed = (tmp_path / SEALS).read_text(encoding="utf-8").split()
     assert sealed[::2] == [done[t.number]["seal"] for t in tasks]
     assert done[tasks[0].number]["seal"] in capsys.readouterr().out

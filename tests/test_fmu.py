@@ -15,6 +15,7 @@ from conftest import UNITS
 from fmu_src.description import guid
 from fmu_src.native import host_triple
 from fmu_src.package import build_fmu
+from fmu_src.project import project
 from fmu_src.source_hash import source_hash
 from fmu_src.units import fmi_base_unit
 from fmu_src.faults import InputFault, RunFault
@@ -38,6 +39,12 @@ def description(path):
 
 def test_validation_finds_no_problem(path):
     assert fmpy.validation.validate_fmu(str(path)) == []
+
+
+def test_description_follows_the_project(path):
+    root = description(path)
+    assert (root.get("author"), root.get("license")) == (project().author, project().licence)
+    assert root.get("version") == f"{project().version}+{source_hash()[:16]}"
 
 
 def test_every_quantity_has_a_unit_that_is_defined(path):

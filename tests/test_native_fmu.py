@@ -20,6 +20,7 @@ from fmu_src import audit
 from fmu_src.link import FMI_HEADERS
 from fmu_src.compiler.loading import LIBM
 from fmu_src.package import build_native
+from fmu_src.project import project
 from orchestrator.component import InProcess
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.opening import open_fmu
@@ -70,6 +71,15 @@ def test_archive_holds_what_a_person_looks_for(path):
     icon = "model.png" if path.parent.name == "fmi2" else "terminalsAndIcons/icon.png"
     assert {icon, "documentation/diagram.png", "documentation/licenses/license.txt"} <= names
     assert "temperature" in page and "<svg" in page
+
+
+def test_description_and_licence_text_follow_the_project(path):
+    description = fmpy.read_model_description(str(path))
+    with zipfile.ZipFile(path) as archive:
+        text = archive.read("documentation/licenses/license.txt").decode()
+    assert (description.author, description.license) == (project().author, project().licence)
+    assert description.version.startswith(f"{project().version}+")
+    assert project().terms() in text and "FMI standard" in text
 
 
 def test_every_variable_has_bounds_and_reals_a_nominal_value(path):

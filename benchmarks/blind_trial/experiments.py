@@ -22,10 +22,9 @@ from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
 from benchmarks.blind_trial.generator.noise import noise_for, round_to
 from benchmarks.blind_trial.generator.reducer import Setting
-from benchmarks.blind_trial.run import finished
-from benchmarks.blind_trial.score import ONE, SET, Case, counted
+from benchmarks.blind_trial.results import EXPERIMENTS, finished, resolved
+from benchmarks.blind_trial.score import ONE, SET, Case
 
-RESULTS = "experiments.jsonl"
 RIG = """[rig]
 input_speed = ["300 rpm", "2500 rpm"]
 load_torque = ["20 N.m", "250 N.m"]
@@ -112,13 +111,6 @@ def one(result: dict, folder: Path) -> dict:
     return found | {"verdict": proposed.verdict, "rivals": proposed.rivals, "choices": len(proposals)}
 
 
-def resolved(folder: Path) -> dict[str, dict]:
-    """Shares of campaigns that were resolved, with 95 % intervals."""
-    lines = [json.loads(line) for line in (folder / RESULTS).read_text(encoding="utf-8").splitlines()]
-    both = [line for line in lines if "proposed" in line]
-    return {kind: counted(both, lambda line, kind=kind: line[kind]["resolved"]) for kind in ("proposed", "random")}
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=Path, required=True, help="folder of a trial")
@@ -129,7 +121,7 @@ def main() -> int:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     from joblib import Parallel, delayed
 
-    path = arguments.folder / RESULTS
+    path = arguments.folder / EXPERIMENTS
     done = {json.loads(line)["number"] for line in path.read_text(encoding="utf-8").splitlines()} if path.is_file() else set()
     left = [r for r in chosen(arguments.folder, arguments.cases) if r["number"] not in done]
     folder = arguments.folder.resolve()

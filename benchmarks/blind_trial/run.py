@@ -20,8 +20,7 @@ from pathlib import Path
 
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
-
-RESULTS, SEALS, ABOUT = "results.jsonl", "seals.txt", "about.json"
+from benchmarks.blind_trial.results import ABOUT, EXPERIMENTS, RESULTS, SEALS, end_line, finished, resolved
 
 
 def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
@@ -60,27 +59,6 @@ def shortened(answer: dict) -> dict:
     keys = ("verdict", "effects", "confusable", "alternatives", "captured", "held_out", "p_screen", "p_localise", "warnings", "reason",
             "error", "times", "calls")
     return {k: answer[k] for k in keys if k in answer} | {"rejected": answer.get("rejected", [])[:4]}
-
-
-def finished(folder: Path) -> dict[int, dict]:
-    """Results so far; a last line that was cut off is ignored."""
-    found = {}
-    path = folder / RESULTS
-    if path.is_file():
-        for line in path.read_text(encoding="utf-8").splitlines():
-            try:
-                result = json.loads(line)
-            except json.JSONDecodeError:
-                continue
-            found[result["number"]] = result
-    return found
-
-
-def end_line(path: Path) -> None:
-    """Ends a last line that was cut off, so that the next one stands alone."""
-    if path.is_file() and (text := path.read_bytes()) and not text.endswith(b"\n"):
-        with path.open("ab") as lines:
-            lines.write(b"\n")
 
 
 def results_of(tasks: list[Task], folder: Path, keep: bool, peers: set[int], jobs: int, scheduler: str) -> Iterator[dict]:
@@ -166,12 +144,11 @@ def main() -> int:
         tasks = [t for t in tasks if t.number in arguments.numbers]
     arguments.folder.mkdir(parents=True, exist_ok=True)
     if arguments.publish:
-        from benchmarks.blind_trial import experiments
         from benchmarks.blind_trial.publish import publish
 
         about = json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8"))
-        if (arguments.folder / experiments.RESULTS).is_file():
-            about["experiments"] = experiments.resolved(arguments.folder)
+        if (arguments.folder / EXPERIMENTS).is_file():
+            about["experiments"] = resolved(arguments.folder)
         publish(finished(arguments.folder), Path("docs/blind_trial.md"), about)
         return 0
     (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "campaigns": arguments.campaigns}), encoding="utf-8")

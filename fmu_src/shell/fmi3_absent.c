@@ -1,31 +1,15 @@
 /* What FMI 3.0 wants exported and this unit does not offer: each call is refused with a message. */
 #include "fmi3Functions.h"
-#include "instance.h"
 
-static fmi3Status refuse(fmi3Instance c, const char *function, const char *what)
-{
-    return c ? (fmi3Status)report(c, ERROR, "%s: the unit has no %s", function, what) : fmi3Error;
-}
+#define FMI(name) fmi3##name
+#include "calls.h"
 
-#define REFUSE(name, parameters, what)                                                                                           \
-    fmi3Status fmi3##name parameters                                                                                             \
-    {                                                                                                                            \
-        return refuse(c, __func__, what);                                                                                        \
-    }
-
-/* Asking for no value at all is no error. */
-#define REFUSE_SOME(name, parameters, what)                                                                                      \
-    fmi3Status fmi3##name parameters                                                                                             \
-    {                                                                                                                            \
-        return c && !count ? fmi3OK : refuse(c, __func__, what);                                                                 \
-    }
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define REFERENCES fmi3Instance c, const fmi3ValueReference references[], size_t count
 #define REFUSE_TYPE(type)                                                                                                        \
-    REFUSE_SOME(Get##type, (REFERENCES, fmi3##type values[], size_t value_count), #type " variables")                            \
-    REFUSE_SOME(Set##type, (REFERENCES, const fmi3##type values[], size_t value_count), #type " variables")
-
-#pragma GCC diagnostic ignored "-Wunused-parameter"
+    REFUSE_SOME(Get##type, (REFERENCES, fmi3##type values[], size_t value_count), count, #type " variables")                     \
+    REFUSE_SOME(Set##type, (REFERENCES, const fmi3##type values[], size_t value_count), count, #type " variables")
 
 REFUSE_TYPE(Float32)
 REFUSE_TYPE(Int8)
@@ -37,20 +21,21 @@ REFUSE_TYPE(UInt32)
 REFUSE_TYPE(UInt64)
 REFUSE_TYPE(Boolean)
 REFUSE_TYPE(String)
-REFUSE_SOME(GetBinary, (REFERENCES, size_t sizes[], fmi3Binary values[], size_t value_count), "Binary variables")
-REFUSE_SOME(SetBinary, (REFERENCES, const size_t sizes[], const fmi3Binary values[], size_t value_count), "Binary variables")
-REFUSE_SOME(GetClock, (REFERENCES, fmi3Clock values[]), "clocks")
-REFUSE_SOME(SetClock, (REFERENCES, const fmi3Clock values[]), "clocks")
-REFUSE_SOME(GetIntervalDecimal, (REFERENCES, fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[]), "clocks")
+REFUSE_SOME(GetBinary, (REFERENCES, size_t sizes[], fmi3Binary values[], size_t value_count), count, "Binary variables")
+REFUSE_SOME(SetBinary, (REFERENCES, const size_t sizes[], const fmi3Binary values[], size_t value_count), count,
+            "Binary variables")
+REFUSE_SOME(GetClock, (REFERENCES, fmi3Clock values[]), count, "clocks")
+REFUSE_SOME(SetClock, (REFERENCES, const fmi3Clock values[]), count, "clocks")
+REFUSE_SOME(GetIntervalDecimal, (REFERENCES, fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[]), count, "clocks")
 REFUSE_SOME(GetIntervalFraction,
-            (REFERENCES, fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]), "clocks")
-REFUSE_SOME(GetShiftDecimal, (REFERENCES, fmi3Float64 shifts[]), "clocks")
-REFUSE_SOME(GetShiftFraction, (REFERENCES, fmi3UInt64 counters[], fmi3UInt64 resolutions[]), "clocks")
-REFUSE_SOME(SetIntervalDecimal, (REFERENCES, const fmi3Float64 intervals[]), "clocks")
-REFUSE_SOME(SetIntervalFraction, (REFERENCES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]), "clocks")
-REFUSE_SOME(SetShiftDecimal, (REFERENCES, const fmi3Float64 shifts[]), "clocks")
-REFUSE_SOME(SetShiftFraction, (REFERENCES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]), "clocks")
-REFUSE_SOME(GetOutputDerivatives, (REFERENCES, const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count),
+            (REFERENCES, fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]), count, "clocks")
+REFUSE_SOME(GetShiftDecimal, (REFERENCES, fmi3Float64 shifts[]), count, "clocks")
+REFUSE_SOME(GetShiftFraction, (REFERENCES, fmi3UInt64 counters[], fmi3UInt64 resolutions[]), count, "clocks")
+REFUSE_SOME(SetIntervalDecimal, (REFERENCES, const fmi3Float64 intervals[]), count, "clocks")
+REFUSE_SOME(SetIntervalFraction, (REFERENCES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]), count, "clocks")
+REFUSE_SOME(SetShiftDecimal, (REFERENCES, const fmi3Float64 shifts[]), count, "clocks")
+REFUSE_SOME(SetShiftFraction, (REFERENCES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]), count, "clocks")
+REFUSE_SOME(GetOutputDerivatives, (REFERENCES, const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count), count,
             "output derivatives")
 
 #define DERIVATIVE                                                                                                               \

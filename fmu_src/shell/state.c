@@ -1,5 +1,5 @@
 /* The complete state as one block: a header, then the record's cells.  fmu_src/state.py has the same layout. */
-#include "instance.h"
+#include "state.h"
 
 #include <math.h>
 #include <stdlib.h>

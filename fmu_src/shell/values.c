@@ -1,5 +1,7 @@
 /* Getting and setting values, with the checks of fmu_src/variables.py. */
-#include "instance.h"
+#include "values.h"
+
+#include "computation.h"
 
 #include <math.h>
 #include <stdio.h>

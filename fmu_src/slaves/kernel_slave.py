@@ -98,10 +98,11 @@ class KernelSlave(Fmi2Slave):
     def to_xml(self, model_options=None):
         # Only a build describes the unit; an importer needs no unit library.
         from fmu_src.description import model_description
+        from fmu_src.project import Project
 
-        return model_description(
-            self.table, self.stamp["guid"], self.stamp["source_hash"], self.stamp["step_size"], self.stamp["tool"]
-        )
+        stamp = self.stamp
+        made_by = Project(**stamp["made_by"])
+        return model_description(self.table, stamp["guid"], stamp["source_hash"], stamp["step_size"], stamp["tool"], made_by)
 
     def fail(self, text: str) -> None:
         """Log and raise: pythonfmu turns an exception into an FMI error status.

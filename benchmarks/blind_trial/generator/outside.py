@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.laws import ARCSEC, BOTH, PINS, UM, Wearing
+from benchmarks.blind_trial.generator.laws.shared import ARCSEC, BOTH, PINS, UM
+from benchmarks.blind_trial.generator.laws.wearing import Wearing
 from benchmarks.blind_trial.generator.truth import Truth
 
 

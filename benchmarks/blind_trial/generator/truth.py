@@ -185,4 +185,3 @@ def worn_places() -> tuple[float, float]:
         angle, depth = bench.print_of(w, surface)
         found.append(float(angle[bench.rounded(depth, 0.1).argmax()]))
     return tuple(found)
-

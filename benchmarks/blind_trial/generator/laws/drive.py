@@ -1,0 +1,87 @@
+"""What stands around the mesh: first stage, flange, cranks' masses, the rollers' cage."""
+
+import math
+
+import numpy as np
+
+from benchmarks.blind_trial.generator.laws.shared import LEVER, LOBES, UM
+from benchmarks.blind_trial.generator.truth import Truth
+
+
+class Flange(Truth):
+    """Bolted flange in series: a spring that settles by a few percent under torque."""
+
+    name, effect, blocks, quantities = "soft flange", "support_compliance", ("loops",), ("hysteresis",)
+    typical, low, high = 5e-8, 1e-9, 1e-5
+
+    def draw(self, rng):
+        self.settle = float(rng.uniform(0.0, 0.05))
+
+    def post(self, series, y, rows):
+        torque = series.axes["torque"]
+        change = self.a * torque * (1.0 - self.settle * np.abs(torque) / 250.0)
+        return y + change - change.mean()
+
+
+class PlanetRunout(Truth):
+    """A planet off its centre: once per turn of the planet against the carrier, with a tenth of second harmonic."""
+
+    name, effect, blocks, quantities = "planet off centre", "first_stage_error", ("te",), ("transmission_error",)
+    typical, low, high = 3 * UM, 0.05 * UM, 60 * UM
+
+    def draw(self, rng):
+        self.phase = float(rng.uniform(0.0, 2.0 * math.pi))
+        self.second = float(rng.uniform(0.02, 0.1))
+
+    def post(self, series, y, rows):
+        angle = series.axes["angle"]
+        size = self.a / (2.0 * LEVER * LOBES)
+        return y - size * (np.cos(40.0 * angle + self.phase) + self.second * np.cos(80.0 * angle + 2.0 * self.phase))
+
+
+class TeethPlay(Truth):
+    """Play of the sun's teeth, crossed smoothly within a newton metre or two (oil and friction)."""
+
+    name, effect, blocks, quantities = "play of the first stage", "first_stage_error", ("loops",), ("hysteresis",)
+    typical, low, high = 5 * UM, 0.1 * UM, 200 * UM
+
+    def draw(self, rng):
+        self.width = float(rng.uniform(0.3, 1.5))
+
+    def post(self, series, y, rows):
+        change = 0.5 * self.a / (LEVER * LOBES) * np.tanh(series.axes["torque"] / self.width)
+        return y + change - change.mean()
+
+    def parameters(self):
+        return {"backlash": self.a}
+
+
+class Unbalance(Truth):
+    """Centrifugal force of the cranks on soft mounts, with a trace of second harmonic."""
+
+    name, effect, blocks, quantities = "unbalance", "unbalance", ("vibration",), ("vibration_order",)
+    typical, low, high = 1e-5, 1e-8, 1e-2
+
+    def draw(self, rng):
+        self.second = float(rng.uniform(0.0, 0.06))
+
+    def post(self, series, y, rows):
+        omega = rows[0].speed * LOBES / 121.0
+        size = self.a * omega**2 / 10.0
+        orders = series.axes["order"]
+        line = size * (np.abs(orders - 39.0) < 0.5) + self.second * size * (np.abs(orders - 78.0) < 0.5)
+        return np.hypot(y, line)
+
+
+class Skidding(Truth):
+    """Cage that lags at low load: a rational fall with the square of the rollers' load."""
+
+    name, effect, blocks, quantities = "skidding rollers", "roller_skidding", ("cage",), ("cage_speed",)
+    typical, low, high = 0.01, 1e-5, 0.4
+
+    def draw(self, rng):
+        self.load = float(rng.uniform(10.0, 50.0))
+
+    def post(self, series, y, rows):
+        load = np.array([abs(s.load) for s in rows])
+        return y * (1.0 - self.a / (1.0 + (load / self.load) ** 2))

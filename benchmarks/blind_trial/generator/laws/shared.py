@@ -1,0 +1,12 @@
+"""Units, and the sizes of the true reducer that laws reckon with."""
+
+import math
+
+UM = 1e-6
+ARCSEC = math.pi / 648000.0
+# Quantities that a law touches, for several laws.
+BOTH = ("transmission_error", "hysteresis", "vibration_order")
+WEAR = ("wear_depth", "wear_profile")
+PINS, LOBES = 40, 39
+# Lever of a tooth force of the first stage [m].
+LEVER = 21e-3 * math.cos(math.radians(20.0))

@@ -1,0 +1,127 @@
+"""Laws of the wear rate, and of where the pins wear."""
+
+import math
+
+import numpy as np
+
+from benchmarks.blind_trial.generator.laws.shared import UM, WEAR
+from benchmarks.blind_trial.generator.reducer import HOUR
+from benchmarks.blind_trial.generator.truth import Truth
+
+
+class Wearing(Truth):
+    """Base of the laws that act on the wear rate."""
+
+    blocks, quantities = ("wear",), WEAR
+
+
+class RunIn(Wearing):
+    """Running-in by a power law of the way: 1 + a/(1 + s/s0)^p, or two exponentials."""
+
+    name, effect = "running-in by a power law", "running_in"
+    typical, low, high = 1.0, 0.005, 12.0
+
+    def draw(self, rng):
+        self.travel = 67.5 * HOUR * float(np.exp(rng.uniform(math.log(60.0), math.log(350.0))))
+        self.power = float(rng.uniform(1.5, 2.5))
+        self.double = bool(rng.random() < 0.5)
+
+    def rate(self, surface, life, setting):
+        s = life["travel"] / self.travel
+        if self.double:
+            return 1.0 + self.a * (0.6 * math.exp(-1.6 * s) + 0.4 * math.exp(-0.6 * s))
+        return 1.0 + self.a / (1.0 + s / self.power) ** (self.power + 1.0)
+
+
+class Debris(Wearing):
+    """Abrasion by debris: grows like a logistic curve of the iron that is worn off."""
+
+    name, effect = "abrasion by debris, logistic", "debris_abrasion"
+    typical, low, high = 1.0, 0.01, 30.0
+
+    def draw(self, rng):
+        self.middle = float(rng.uniform(3e-5, 1e-4))
+
+    def rate(self, surface, life, setting):
+        share = life["iron"] / self.middle
+        return 1.0 + self.a * share / (1.0 + 0.15 * share)
+
+
+class Film(Wearing):
+    """Film by Hamrock and Dowson's exponents (speed 0.68, load -0.073), wear by a Gaussian of film over roughness."""
+
+    name, effect = "lubricant film after Hamrock and Dowson", "lubrication_regime"
+    typical, low, high = 0.3, 0.005, 0.95
+
+    def draw(self, rng):
+        self.half = float(rng.uniform(0.7, 1.5))
+
+    def rate(self, surface, life, setting):
+        warm = setting.temperature - 273.15
+        viscosity = math.exp(880.0 / (warm + 105.0) - 880.0 / 145.0)
+        film = (viscosity * setting.speed / 209.4) ** 0.68 * (setting.load / 167.0) ** -0.073
+        return 1.0 - self.a * (1.0 - math.exp(-((film / self.half) ** 1.5)))
+
+
+class LoadPower(Wearing):
+    """Wear that grows as a power of the mean load of the test."""
+
+    name, effect = "wear by a power of the load", "load_exponent"
+    typical, low, high = 0.2, 0.003, 1.5
+
+    def draw(self, rng):
+        self.sign = float(rng.choice([-1.0, 1.0, 1.0]))
+
+    def rate(self, surface, life, setting):
+        return (setting.load / 140.0) ** (self.sign * self.a)
+
+
+class SoftCore(Wearing):
+    """Hardness that falls in proportion to the depth."""
+
+    name, effect = "hardness falling with depth", "hardness_gradient"
+    typical, low, high = 0.1, 0.002, 0.9
+
+    def draw(self, rng):
+        self.depth = float(rng.uniform(4.0, 8.0)) * UM
+
+    def rate(self, surface, life, setting):
+        return 1.0 / (1.0 - self.a * min(1.0, life[surface] / self.depth))
+
+
+class Tilt(Wearing):
+    """Tilted contacts wear more at the edge, the more the lower the load."""
+
+    name, effect = "tilted contacts", "edge_loading"
+    typical, low, high = 0.5, 0.005, 5.0
+
+    def rate(self, surface, life, setting):
+        return 1.0 + self.a * (100.0 / setting.load) ** 0.8
+
+
+class OldGrease(Wearing):
+    """Grease that ages: wear grows as a power of the time since it was filled."""
+
+    name, effect = "ageing grease", "grease_ageing"
+    typical, low, high = 0.3, 0.005, 8.0
+
+    def draw(self, rng):
+        self.life = float(rng.uniform(2000.0, 5000.0))
+
+    def rate(self, surface, life, setting):
+        t = life["hours"] / self.life
+        return 1.0 + self.a * t / (1.0 + t)
+
+
+class StuckPins(Wearing):
+    """Pins that stand for a share of the time: two bands in their print."""
+
+    name, effect = "pins that stand", "pin_rotation"
+    blocks, quantities = ("wear", "prints"), ("wear_profile",)
+    typical, low, high = 0.1, 0.001, 1.0
+
+    def standing(self, setting):
+        return self.a
+
+    def parameters(self):
+        return {"pin_standing_share": self.a}

@@ -1,0 +1,36 @@
+"""What a trial and its experiments leave in their folder."""
+
+import json
+from pathlib import Path
+
+from benchmarks.blind_trial.score import counted
+
+RESULTS, SEALS, ABOUT, EXPERIMENTS = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl"
+
+
+def finished(folder: Path) -> dict[int, dict]:
+    """Results so far; a last line that was cut off is ignored."""
+    found = {}
+    path = folder / RESULTS
+    if path.is_file():
+        for line in path.read_text(encoding="utf-8").splitlines():
+            try:
+                result = json.loads(line)
+            except json.JSONDecodeError:
+                continue
+            found[result["number"]] = result
+    return found
+
+
+def end_line(path: Path) -> None:
+    """Ends a last line that was cut off, so that the next one stands alone."""
+    if path.is_file() and (text := path.read_bytes()) and not text.endswith(b"\n"):
+        with path.open("ab") as lines:
+            lines.write(b"\n")
+
+
+def resolved(folder: Path) -> dict[str, dict]:
+    """Shares of campaigns that were resolved, with 95 % intervals."""
+    lines = [json.loads(line) for line in (folder / EXPERIMENTS).read_text(encoding="utf-8").splitlines()]
+    both = [line for line in lines if "proposed" in line]
+    return {kind: counted(both, lambda line, kind=kind: line[kind]["resolved"]) for kind in ("proposed", "random")}

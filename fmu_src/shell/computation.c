@@ -1,0 +1,132 @@
+/* The kernels' initialisation and steps; one that fails leaves the state as it was. */
+#include "computation.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STATE_BYTES (unit.state_cells * sizeof(union cell))
+
+static int append(char *text, int used, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int more = vsnprintf(text + used, TEXT_SIZE - (size_t)used, format, arguments);
+    va_end(arguments);
+    return used + more < TEXT_SIZE ? used + more : TEXT_SIZE - 1;
+}
+
+/* A fault's message with the numbers that the cells hold now. */
+static void report_fault(struct instance *i, enum status status, int64_t code, double time)
+{
+    char text[TEXT_SIZE] = "";
+    int used = 0;
+    const struct fault *fault = NULL;
+    for (int f = 0; f < unit.fault_count; f++)
+        if (unit.faults[f].code == code)
+            fault = &unit.faults[f];
+    if (!fault)
+        used = append(text, used, "the kernels failed with code %lld; check the values set", (long long)code);
+    for (int p = 0; fault && p < fault->piece_count; p++) {
+        const struct piece *piece = &fault->pieces[p];
+        used = append(text, used, "%s", piece->literal);
+        if (piece->cell < 0)
+            continue;
+        if (piece->is_integer)
+            used = append(text, used, piece->format, (long long)i->cells[piece->cell].integer);
+        else
+            used = append(text, used, piece->format, i->cells[piece->cell].real);
+    }
+    report(i, status, "at time %.9g s: %s", time, text);
+}
+
+/* The first output that is not finite, or NULL. */
+static const struct variable *spoilt_output(const struct instance *i)
+{
+    for (const struct variable *v = unit.variables; v < unit.variables + unit.variable_count; v++)
+        if (v->role == OUTPUT && !v->is_integer)
+            for (uint32_t k = 0; k < v->size; k++)
+                if (!isfinite(i->cells[v->first + k].real))
+                    return v;
+    return NULL;
+}
+
+enum status compute_start(struct instance *i)
+{
+    union cell *before = malloc(STATE_BYTES);
+    if (!before)
+        return report(i, ERROR, "out of memory");
+    memcpy(before, i->cells, STATE_BYTES);
+    int64_t code = initialise(i->cells);
+    const struct variable *spoilt = code ? NULL : spoilt_output(i);
+    if (code)
+        report_fault(i, ERROR, code, i->time);
+    else if (spoilt)
+        report(i, ERROR, "at time %.9g s: %s is not finite after initialisation; check the parameters", i->time, spoilt->name);
+    if (code || spoilt)
+        memcpy(i->cells, before, STATE_BYTES);
+    free(before);
+    return code || spoilt ? ERROR : OK;
+}
+
+enum status refresh_outputs(struct instance *i)
+{
+    union cell *before = malloc(STATE_BYTES);
+    if (!before)
+        return report(i, ERROR, "out of memory");
+    memcpy(before, i->cells, STATE_BYTES);
+    enum status status = compute_start(i);
+    for (const struct variable *v = unit.variables; v < unit.variables + unit.variable_count; v++)
+        if (status == OK && v->role == OUTPUT)
+            memcpy(before + v->first, i->cells + v->first, v->size * sizeof *before);
+    memcpy(i->cells, before, STATE_BYTES);
+    free(before);
+    i->is_stale = status != OK;
+    return status;
+}
+
+static enum status check_step(struct instance *i, const char *function, double time, double duration)
+{
+    if (require_phase(i, 1 << STEPPING, function))
+        return ERROR;
+    if (!isfinite(time))
+        return report(i, ERROR, "%s: communication point of %g s is not a finite number", function, time);
+    if (!(duration > 0.0 && duration <= unit.longest_step))
+        return report(i, ERROR, "at time %.9g s: communication step of %g s: give a positive one of at most %g s", time,
+                      duration, unit.longest_step);
+    double slack = 1e-9 * (fabs(time) + duration);
+    if (time + duration > i->stop_time + slack)
+        return report(i, ERROR, "at time %.9g s: a step of %g s goes beyond the stop time of %.9g s; set it later or not at all",
+                      time, duration, i->stop_time);
+    if (fabs(time - i->time) > slack)
+        return report(i, WARNING, "step from %.9g s, but the last one ended at %.9g s; it starts from the present state", time,
+                      i->time);
+    return OK;
+}
+
+enum status do_step(struct instance *i, const char *function, double time, double duration)
+{
+    enum status status = check_step(i, function, time, duration);
+    i->last_step = status;
+    if (status > WARNING)
+        return status;
+    if (i->backup)
+        memcpy(i->backup, i->cells, GUARDED_BYTES);
+    int64_t code = step(i->cells, time, duration);
+    const struct variable *spoilt = code ? NULL : spoilt_output(i);
+    if (!code && !spoilt) {
+        i->time = time + duration;
+        return status;
+    }
+    if (code)
+        report_fault(i, DISCARD, code, time);
+    else
+        report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs", time, spoilt->name);
+    if (i->backup)
+        memcpy(i->cells, i->backup, GUARDED_BYTES);
+    if (spoilt && unit.guarded_cells < unit.state_cells)
+        i->phase = TERMINATED;
+    return i->last_step = DISCARD;
+}
