@@ -14,13 +14,13 @@ import json
 import sys
 from pathlib import Path
 
-from orchestrator.coupled_master import CoupledMaster
-from orchestrator.hysteresis import hysteresis
-from orchestrator.life import Life, LifeSettings, live, wear_figures
-from orchestrator.modes import modes
-from orchestrator.pair import make_pair
-from orchestrator.reducer import load_reducer
-from orchestrator.solve import measure
+from studies.coupled_master import CoupledMaster
+from studies.hysteresis import hysteresis
+from studies.life import Life, LifeSettings, live, wear_figures
+from studies.modes import modes
+from studies.pair import make_pair
+from reducers.reducer import load_reducer
+from studies.solve import measure
 
 DESIGNS = ("RV20E-121", "BX-40E")
 HOURS = 10_000.0

@@ -7,7 +7,7 @@ from pathlib import Path
 from benchmarks.integrators import __doc__ as about
 from benchmarks.integrators.comparison import compare, show
 from benchmarks.integrators.stretches import rated, reversal
-from orchestrator.reducer import load_reducer
+from reducers.reducer import load_reducer
 
 REDUCERS = ("RV20E-121", "BX-40E")
 
