@@ -14,35 +14,70 @@ import hashlib
 import os
 import subprocess
 import sys
+import time
 import venv
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ENVIRONMENT = HERE / ".venv"
 SCRIPTS = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
-REQUIREMENTS = HERE / "requirements.txt"
+# What runs the product, and what tests and measurements need besides.
+REQUIREMENTS, FOR_TESTS = HERE / "requirements.txt", HERE / "requirements-test.txt"
 # What the measurements compare with, and what spreads ensembles.
 PEERS = ("scikit-sundae==1.2.0", "exudyn==1.13.6", "joblib==1.6.0", "SALib==1.6.0", "dask==2026.8.0", "distributed==2026.8.0")
-STAMP = ENVIRONMENT / "set-up-done"
+PIP = ("-m", "pip", "--disable-pip-version-check", "install", "--no-compile", "--no-deps")
 
 
-def set_up() -> None:
+def set_up(for_tests: bool = False) -> None:
     """A virtual environment with the pinned packages and this project; kept while they stay the same."""
+    stamp = ENVIRONMENT / "set-up-done"
     parts = (sys.version.encode(), str(HERE).encode(), REQUIREMENTS.read_bytes(), (HERE / "pyproject.toml").read_bytes())
-    wanted = hashlib.sha256(b"\0".join(parts)).hexdigest()
-    if STAMP.exists() and STAMP.read_text() == wanted:
-        return
-    print("setting up .venv (once; about a minute)", flush=True)
-    try:
-        venv.create(ENVIRONMENT, with_pip=True, clear=not STAMP.exists())
-    except subprocess.CalledProcessError:
-        sys.exit("build.py: this Python has no ensurepip; on Debian and Ubuntu install the package python3-venv")
-    python = SCRIPTS / "python"
-    pip = [str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
-    for arguments in (["-r", str(REQUIREMENTS)], ["--no-deps", "-e", str(HERE)]):
-        if subprocess.run(pip + arguments).returncode != 0:
-            sys.exit("build.py: pip could not install the packages; its message stands above")
-    STAMP.write_text(wanted)
+    if not is_done(stamp, *parts):
+        say("setting up .venv, once: about half a minute")
+        try:
+            venv.create(ENVIRONMENT, with_pip=True, clear=not stamp.exists())
+        except subprocess.CalledProcessError:
+            sys.exit("build.py: this Python has no ensurepip; on Debian and Ubuntu install the package python3-venv")
+        install("what the product needs", "-r", str(REQUIREMENTS))
+        install("the project itself", "-e", str(HERE))
+        done(stamp, *parts)
+    stamp, parts = ENVIRONMENT / "set-up-for-tests-done", (stamp.read_bytes(), FOR_TESTS.read_bytes())
+    if for_tests and not is_done(stamp, *parts):
+        install("what the tests need besides", "-r", str(FOR_TESTS))
+        done(stamp, *parts)
+
+
+def say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def install(what: str, *arguments: str) -> None:
+    """pip, with a line every few seconds that says how far it is."""
+    count = sum(1 for line in Path(arguments[1]).read_text().splitlines() if line) if arguments[0] == "-r" else 1
+    with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, text=True) as pip:
+        told, fetched, lines = time.monotonic(), 0, []
+        for line in pip.stdout:
+            lines.append(line)
+            fetched += line.startswith("Collecting")
+            if line.startswith("Installing"):
+                say(f"  {what}: installing")
+            elif time.monotonic() - told > 3.0:
+                told = time.monotonic()
+                say(f"  {what}: fetching {fetched} of {count}")
+    if pip.returncode != 0:
+        sys.exit("".join(lines[-5:]) + "build.py: pip could not install the packages; its message stands above")
+
+
+def is_done(stamp: Path, *parts: bytes) -> bool:
+    return stamp.exists() and stamp.read_text() == digest(parts)
+
+
+def done(stamp: Path, *parts: bytes) -> None:
+    stamp.write_text(digest(parts))
+
+
+def digest(parts: tuple[bytes, ...]) -> str:
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
 def rvwear(*arguments: str) -> int:
@@ -63,7 +98,7 @@ def bench(arguments: list[str]) -> int:
 def main(arguments: list[str]) -> int:
     if sys.version_info < (3, 11):
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
-    set_up()
+    set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
     if arguments[:1] == ["test"]:
         return subprocess.run([str(SCRIPTS / "python"), "-m", "pytest", *arguments[1:]], cwd=HERE).returncode
     if arguments[:1] == ["bench"]:

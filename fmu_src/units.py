@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 from functools import cache
+from typing import TYPE_CHECKING
 
-import pint
-
-registry = pint.UnitRegistry()
+if TYPE_CHECKING:
+    import pint
 
 # FMI's base units and pint's names for them, in the order of the FMI schema.
 FMI_BASE = {
@@ -34,10 +34,18 @@ class BaseUnit:
 
 
 @cache
-def parse(text: str) -> pint.Unit:
+def registry() -> "pint.UnitRegistry":
+    """pint's units; half a second of reading, for those only who need them."""
+    import pint
+
+    return pint.UnitRegistry(cache_folder=":auto:")
+
+
+@cache
+def parse(text: str) -> "pint.Unit":
     """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
     try:
-        unit = registry.parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
+        unit = registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
     except Exception as problem:
         raise UnitError(f"unit {text!r} is not known ({problem}); write it like mm, N.m, 1/Pa, rad/s, or 1") from None
     return unit
@@ -46,10 +54,12 @@ def parse(text: str) -> pint.Unit:
 @cache
 def conversion(source: str, target: str) -> tuple[float, float]:
     """(factor, offset) with target value = factor * source value + offset."""
+    from pint import DimensionalityError
+
     try:
-        zero = registry.Quantity(0.0, parse(source)).to(parse(target)).magnitude
-        one = registry.Quantity(1.0, parse(source)).to(parse(target)).magnitude
-    except pint.DimensionalityError:
+        zero = registry().Quantity(0.0, parse(source)).to(parse(target)).magnitude
+        one = registry().Quantity(1.0, parse(source)).to(parse(target)).magnitude
+    except DimensionalityError:
         raise UnitError(f"unit {source!r} does not fit: a unit of the same kind as {target!r} is needed") from None
     return one - zero, zero
 
@@ -57,7 +67,7 @@ def conversion(source: str, target: str) -> tuple[float, float]:
 @cache
 def fmi_base_unit(text: str) -> dict[str, float]:
     """Exponents and factor of FMI's ``BaseUnit`` element, defaults left out."""
-    base = registry.Quantity(1.0, parse(text)).to_base_units()
+    base = registry().Quantity(1.0, parse(text)).to_base_units()
     exponents = dict(base.unit_items())
     attributes = {
         fmi_name: int(exponents[pint_name]) for fmi_name, pint_name in FMI_BASE.items() if pint_name in exponents

@@ -10,7 +10,7 @@ import xarray as xr
 
 from fmu_src.source_hash import source_hash
 
-LIBRARIES = ("numba", "llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu")
+LIBRARIES = ("llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu")
 
 
 def provenance(inputs: dict) -> dict[str, str]:

@@ -17,7 +17,8 @@ from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from reducers.reducer import Reducer
-from studies.pair import POSITIONS_PER_TURN, crank_turn_time, export_pair
+from orchestrator.ssp.exporter import Experiment, export_ssp
+from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
@@ -92,3 +93,13 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
         libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
     return not all_platforms or len(libraries) >= 4
+
+
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+    return export_ssp(
+        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
+        # Tools exchange values at the step's start: each unit sees the other one step later.
+        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", tool,
+    )  # fmt: skip

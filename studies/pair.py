@@ -3,18 +3,19 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fmu_src.faults import InputFault
 from orchestrator.component import Component, InProcess
-from orchestrator.fmu import Fmu
 from orchestrator.master import Master
-from orchestrator.opening import open_fmu
 from orchestrator.settings import Setting, apply
-from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
 from studies.duty import Segment
+
+if TYPE_CHECKING:
+    from orchestrator.fmu import Fmu
 
 # Everything that the two units exchange.
 CONNECTIONS = [
@@ -69,7 +70,7 @@ def crank_turn_time(reducer: Reducer, plant: Component) -> float:
     return 2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes)
 
 
-def require_built_from(reducer: Reducer, fmu: Fmu, unit: str) -> None:
+def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
     """An FMU has its sizes and start values from one reducer file: it must be this one."""
     if fmu.specification() != reducer.specification(unit):
         raise InputFault(
@@ -92,6 +93,9 @@ def make_pair(
         plant = InProcess("plant", reducer.specification("rv_plant"))
         wear = InProcess("wear", reducer.specification("wear_fmu"))
     else:
+        # FMUs need more of a reader than a pair in this process.
+        from orchestrator.opening import open_fmu
+
         plant, wear = open_fmu("plant", fmus / "RvPlant.fmu"), open_fmu("wear", fmus / "RvWear.fmu")
         require_built_from(reducer, plant, "rv_plant")
         require_built_from(reducer, wear, "wear_fmu")
@@ -111,13 +115,3 @@ def make_pair(
     if duty:
         pair.set_operation(duty[0].speed, duty[0].torque)
     return pair
-
-
-def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
-    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
-    return export_ssp(
-        folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
-        # Tools exchange values at the step's start: each unit sees the other one step later.
-        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", tool,
-    )  # fmt: skip

@@ -22,7 +22,8 @@ from orchestrator.fmu import Fmu
 from orchestrator.master import Master
 from orchestrator.model_description import Described
 from orchestrator.system import load
-from studies.pair import CONNECTIONS, export_pair
+from studies.building import export_pair
+from studies.pair import CONNECTIONS
 
 STEP, STEPS = 1.3e-3, 100
 WATCHED = ["plant.output_angle", "plant.lag", "plant.largest_pin_force", "plant.mesh_force[1,7]", "plant.mesh_force[2,30]",

@@ -193,7 +193,7 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
     unit = next((t.by_name[name].unit for t in tables if name in t.by_name), None)
     if unit is None:
         to_si(entry.unit, entry.unit, f"{place}.unit = {entry.unit!r}")
-        unit = f"{registry.Quantity(1.0, parse(entry.unit)).to_base_units().units:~C}" or "1"
+        unit = f"{registry().Quantity(1.0, parse(entry.unit)).to_base_units().units:~C}" or "1"
     factor, offset = to_si(entry.unit, unit, f"{place}.unit = {entry.unit!r}")
     if not entry.lower < entry.upper or not entry.lower <= entry.start <= entry.upper:
         raise InputFault(

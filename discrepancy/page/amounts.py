@@ -109,7 +109,7 @@ def fitting(size: float, unit: str) -> tuple[float, str]:
     if unit in USUAL:
         return scale(unit)
     try:
-        quantity = registry.Quantity(size, parse(unit))
+        quantity = registry().Quantity(size, parse(unit))
     except UnitError:
         return 1.0, pretty(unit)
     if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):

@@ -10,8 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
@@ -176,8 +174,13 @@ def order_of_dependence(
         for cause in through[link.source_name].get(link.source.elements[0], ())
         if (link.source_name, cause) in by_target
     ]
-    rows, columns = zip(*edges) if edges else ((), ())
-    graph = coo_matrix((np.ones(len(edges)), (rows, columns)), shape=(len(links),) * 2)
+    if not edges:
+        return [[([i], False) for i in range(len(links))]] if links else []
+    # Here, because few systems have such chains and SciPy takes its time to load.
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_matrix((np.ones(len(edges)), tuple(zip(*edges))), shape=(len(links),) * 2)
     count, label = connected_components(graph, directed=True, connection="strong")
     members: list[list[int]] = [[] for _ in range(count)]
     for i, group in enumerate(label.tolist()):

@@ -91,8 +91,8 @@ class PowerBond:
 def watts(first: str, second: str) -> float | None:
     """Factor from the product of two units to watts; None if it is no power."""
     try:
-        product = registry.Quantity(1.0, parse(first) * parse(second)).to_base_units()
-        watt = registry.Quantity(1.0, "watt").to_base_units()
+        product = registry().Quantity(1.0, parse(first) * parse(second)).to_base_units()
+        watt = registry().Quantity(1.0, "watt").to_base_units()
     except UnitError:
         return None
     # The radian has no dimension for pint, so that N m rad/s is a power.
