@@ -2,12 +2,25 @@
 
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, state
 
 from rv_plant.contact import hertz_peak_pressure
 from rv_plant.effects import HOOKS
 
 effects = compose("rv_plant.effects", HOOKS)
 before_effects, after_effects = effects.before, effects.after
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    return [
+        output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9),
+        output("largest_pin_force", "N", "largest force between a disc and a pin at the present angle", nominal=100.0),
+        output("largest_roller_force", "N", "largest force on a roller at the present angle", nominal=100.0),
+        output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
+        output("power_loss", "W", "power lost: friction and drag, and in motion damping (mean of the last step)"),
+        state("grease_thinning", "1", "viscosity of the grease over that of new grease"),
+        state("friction_power", "W", "power lost by friction and drag at the last equilibrium"),
+    ]
 
 
 @kernel
