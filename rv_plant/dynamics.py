@@ -133,8 +133,8 @@ def bearing_in_motion(r, d, c, cage_speed, rate_weight):
 
 
 @kernel
-def crank_support(r, c, compliance, rate_weight):
-    """Bearings of crank c in the carrier: the same spring along x and y."""
+def crank_support(r, c, soft, rate_weight):
+    """Bearings of crank c in the carrier: springs along x and y; ``soft`` 0 makes them as good as rigid."""
     carrier = 3 * r.roller_force.shape[0]
     crank = carrier + 3 + 3 * c
     q = r.q
@@ -143,10 +143,10 @@ def crank_support(r, c, compliance, rate_weight):
     # Carrier turning, x or y, crank x or y.
     index[0], index[1], index[2] = carrier, carrier + 1, crank
     gradient[0], gradient[1], gradient[2] = ay, -1.0, 1.0
-    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, compliance, rate_weight)
+    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, soft * r.compliance[crank], rate_weight)
     index[1], index[2] = carrier + 2, crank + 1
     gradient[0] = -ax
-    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, compliance, rate_weight)
+    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, soft * r.compliance[crank + 1], rate_weight)
     r.tangent[carrier, carrier] += pull_x * ax + pull_y * ay
 
 
@@ -221,13 +221,13 @@ def joint_springs(r, rate_weight):
     # Constraints start from where joints stand that are as good as rigid.
     soft = 0.0 if r.joints == SETTLING else 1.0
     for c in range(cranks):
-        crank_support(r, c, soft * r.crank_support_compliance, rate_weight)
+        crank_support(r, c, soft, rate_weight)
     gradient[0] = 1.0
     for i in range(2):
         index[0] = carrier + 1 + i
-        spring(r, index, gradient, 1, q[carrier + 1 + i], soft * r.main_bearing_compliance, rate_weight)
+        spring(r, index, gradient, 1, q[carrier + 1 + i], soft * r.compliance[carrier + 1 + i], rate_weight)
     index[0] = ring
-    spring(r, index, gradient, 1, q[ring], soft * r.housing_compliance, rate_weight)
+    spring(r, index, gradient, 1, q[ring], soft * r.compliance[ring], rate_weight)
     index[0], index[1], gradient[1] = carrier, load, -1.0
     spring(r, index, gradient, 2, q[carrier] - q[load], soft * r.carrier_compliance, rate_weight)
 

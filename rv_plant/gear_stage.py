@@ -40,6 +40,13 @@ def variables(sizes: Sizes) -> list[Variable]:
 
 
 @kernel
+def clear_teeth(r):
+    """Teeth of sun and planets lack nothing."""
+    for c in range(r.tooth_gap.shape[0]):
+        r.tooth_gap[c] = r.tooth_gap_rate[c] = r.crank_turn_added[c] = r.crank_turn_rate[c] = 0.0
+
+
+@kernel
 def total_ratio(first_stage_ratio, pins, lobes):
     """Input turns per output turn: sun, or crank if there is no first stage."""
     if first_stage_ratio == 0.0:

@@ -62,6 +62,17 @@ def variables(sizes: Sizes) -> list[Variable]:
 
 
 @kernel
+def clear_flanks(r):
+    """No effect adds anything to flanks and pins."""
+    for d in range(r.lobe_gap_added.shape[0]):
+        for lobe in range(r.lobe_gap_added.shape[1]):
+            r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
+    for j in range(r.pin_radius_added.shape[0]):
+        r.pin_radius_added[j] = 0.0
+    r.profile_radius_added = r.profile_circle_added = 0.0
+
+
+@kernel
 def ring_coordinate(r):
     """Index of the pin ring's turning among the coordinates, after discs, carrier and cranks."""
     discs, cranks = r.roller_force.shape[:2]

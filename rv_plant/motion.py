@@ -263,7 +263,7 @@ def publish_motion(r):
         r.reaction_torque = -r.multiplier[2 * cranks + 2]
         r.constraint_drift = largest_drift(r)
     else:
-        r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.housing_compliance, RIGID)
+        r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.compliance[ring], RIGID)
     r.cage_speed = r.cage_share * cage_rate(crank_speed, r.v[carrier], r.inner_race_radius, r.outer_race_radius)
     r.friction_load = abs(publish_losses(r, r.v[sun]))
     stored = r.potential + kinetic_energy(r) - r.stored_energy

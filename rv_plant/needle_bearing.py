@@ -56,6 +56,26 @@ def variables(sizes: Sizes) -> list[Variable]:
 
 
 @kernel
+def clear_clearances(r):
+    """No effect adds to a bearing's clearance."""
+    discs, cranks, rollers = r.roller_gap_added.shape
+    for d in range(discs):
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_gap_added[d, c, k] = 0.0
+
+
+@kernel
+def take_clearances(r):
+    """Clearances at the present angle start from those that hold at every angle."""
+    discs, cranks, rollers = r.roller_gap_now.shape
+    for d in range(discs):
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_gap_now[d, c, k] = r.roller_gap_added[d, c, k]
+
+
+@kernel
 def cage_rate(crank_speed, disc_speed, inner_radius, outer_radius):
     """Speed of the cage against the disc [rad/s], rollers rolling without slip."""
     return (crank_speed - disc_speed) * inner_radius / (inner_radius + outer_radius)

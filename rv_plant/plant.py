@@ -21,13 +21,14 @@ from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI
 from rv_plant.faults import FAULTS as FAULTS  # callers look up the status of an entry point here
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
+from rv_plant.mesh import clear_flanks
 from rv_plant.motion import advance, publish_motion, start_motion
-from rv_plant.needle_bearing import cage_rate
+from rv_plant.needle_bearing import cage_rate, clear_clearances
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
-from rv_plant.poses import crank_position
+from rv_plant.poses import clear_places, crank_position
 
 effects = compose("rv_plant.effects", HOOKS)
-prepare_effects, advance_effects = effects.prepare, effects.advance
+prepare_effects, advance_states, heat_effects = effects.prepare, effects.advance, effects.heat
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -98,23 +99,22 @@ def prepare(r):
 
 @kernel
 def clear_added(r):
-    """No effect adds anything to the ideal parts."""
-    discs, cranks, rollers = r.roller_gap_added.shape
-    for d in range(discs):
-        for c in range(cranks):
-            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = r.hole_radial_added[d, c] = 0.0
-            for k in range(rollers):
-                r.roller_gap_added[d, c, k] = 0.0
-        for lobe in range(r.lobe_gap_added.shape[1]):
-            r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
-    for c in range(cranks):
-        r.seat_tangential_added[c] = r.seat_radial_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
-        r.tooth_gap_rate[c] = r.crank_turn_rate[c] = 0.0
-    for j in range(r.pin_x.shape[0]):
-        r.pin_radius_added[j] = 0.0
-    r.profile_radius_added = r.profile_circle_added = r.output_gap_added = 0.0
-    r.ring_scale = r.grease_thinning = r.cage_share = 1.0
-    r.friction_power = 0.0
+    """No effect adds anything to the ideal parts, whose supports are rigid, nor to what it is asked for later."""
+    clear_flanks(r)
+    clear_places(r)
+    clear_clearances(r)
+    for i in range(r.compliance.shape[0]):
+        r.compliance[i] = 0.0
+    r.output_gap_added = r.friction_power = 0.0
+    r.cage_share = 1.0
+    r.reducer_temperature = r.temperature
+
+
+@kernel
+def advance_effects(r, duration):
+    """States of the effects move on through ``duration`` [s], then the temperature."""
+    advance_states(r, duration)
+    heat_effects(r, duration)
 
 
 @kernel

@@ -31,6 +31,16 @@ def variables(sizes: Sizes) -> list[Variable]:
 
 
 @kernel
+def clear_places(r):
+    """No effect displaces a part."""
+    discs, cranks = r.throw_added.shape
+    for c in range(cranks):
+        r.seat_tangential_added[c] = r.seat_radial_added[c] = 0.0
+        for d in range(discs):
+            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = r.hole_radial_added[d, c] = 0.0
+
+
+@kernel
 def crank_position(r, c):
     """Direction of crank c on the carrier [rad]."""
     return 2.0 * math.pi * c / r.carrier_hole_error_radial.shape[0]

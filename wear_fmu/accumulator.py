@@ -130,7 +130,9 @@ def initialise(records):
         return fault
     prepare(r)
     r.effects_on = 0
+    r.standing = 1.0 if r.pins == 1 else 0.0
     prepare_effects(r)
+    r.standing = min(1.0, r.standing)
     r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
     return 0
 
