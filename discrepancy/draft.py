@@ -64,7 +64,7 @@ def text_of(name: str, law, unit: str, x: str) -> str:
         ]  # fmt: skip
     else:
         lines += [
-            "def prepare(r):", f"    if r.{name}_size != 0.0:", "        r.effects_on = 1", "", "", "@kernel",
+            "def prepare(r):", f"    if r.{name}_size != 0.0:", "        r.effects_on += 1", "", "", "@kernel",
             "def factor(r, surface, line_load, radius, speed, depth):", f"    if r.{name}_size == 0.0:", "        return 1.0",
             f"    x = {x}", f"    return max(0.0, 1.0 + r.{name}_size * ({body}))",
         ]  # fmt: skip

@@ -23,6 +23,10 @@ from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
 
+# In a unit's ``ALLOWED``, for hooks that may set the effect's own states.
+OWN_STATES = {"own states": "="}
+
+
 @dataclass(frozen=True)
 class EffectParameter:
     """A parameter of an effect and how one looks for it.

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -99,6 +100,30 @@ class Variable:
             return
         for index in product(*(range(1, n + 1) for n in self.shape)):
             yield f"{self.name}[{','.join(map(str, index))}]"
+
+
+def output(name: str, unit: str, text: str, **more: Any) -> Variable:
+    return Variable(name, "output", unit, text, 0.0, **more)
+
+
+def state(name: str, unit: str, text: str, **more: Any) -> Variable:
+    return Variable(name, "state", unit, text, 0.0, **more)
+
+
+def scratch(name: str, shape: tuple[int, ...] = (), integer: bool = False) -> Variable:
+    """Work space of the kernels."""
+    return Variable(name, "scratch", "1", "", 0.0, shape, ("",) * len(shape), integer=integer)
+
+
+class Sizes(dict[str, int]):
+    """How many of each part there are, by the axis that counts them.
+
+    What a unit is made of declares its variables by functions ``variables(sizes)``, each beside its kernels.
+    """
+
+    def over(self, *parts: str, **lengths: int) -> dict[str, Any]:
+        """Shape and axes of an array over these parts; ``lengths`` are of axes that count no parts."""
+        return {"shape": (*(self[part] for part in parts), *lengths.values()), "axes": (*parts, *lengths)}
 
 
 class Table:

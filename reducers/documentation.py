@@ -8,8 +8,8 @@ from reducers.reducer import load_reducer
 
 HEAD = """# Variables of the units
 
-Made from the tables in `rv_plant/variables.py`, `wear_fmu/variables.py` and `rv_reducer/variables.py` with the numbers of
-RV20E-121: `python -m reducers.documentation > docs/variables.md`. Arrays are scalars named `mesh_force[1,7]` in FMI 2.0,
+Each stands beside the kernels that need it; `rv_plant/variables.py`, `wear_fmu/variables.py` and `rv_reducer/variables.py`
+gather them. With the numbers of RV20E-121: `python -m reducers.documentation > docs/variables.md`. Arrays are scalars named `mesh_force[1,7]` in FMI 2.0,
 counted from 1; a scalar given for an array fills it.
 """
 

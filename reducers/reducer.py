@@ -18,7 +18,9 @@ from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
-from rv_plant.variables import FILE, Topology, plant_table
+from rv_plant.dimension import FILE
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 from rv_reducer.variables import reducer_table
 from wear_fmu.variables import Resolution, wear_table
 

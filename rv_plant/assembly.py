@@ -19,7 +19,9 @@ import math
 
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, scratch, state
 
+from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift
 from rv_plant.mesh import mesh_contacts
@@ -30,9 +32,21 @@ from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
 hold_effects = compose("rv_plant.effects", HOOKS).hold
 
 
-def coordinate_count(discs: int, cranks: int) -> int:
-    """Length of z."""
-    return 3 * discs + 3 + 3 * cranks + 1
+def variables(sizes: Sizes) -> list[Variable]:
+    z, n, crank = coordinate_count(sizes), moving_count(sizes), sizes["crank"]
+    return [
+        output("housing_force_x", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        output("housing_force_y", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        state("z", "1", "departures from ideal kinematics, see assembly", **sizes.over(coordinate=z)),
+        state("compliance", "1", "compliance of each coordinate of z", **sizes.over(coordinate=z)),
+        state("potential", "J", "energy of deformation"),
+        state("dissipation", "W", "power lost in damping"),
+        # Large enough for the bodies in motion too.
+        scratch("residual_vector", (n,)), scratch("tangent", (n, n)),
+        scratch("crank_force", (crank, 2)), scratch("crank_moment", (crank,)),
+        # Gradient of a bearing's shift, see bearing_contacts.
+        scratch("bearing_columns", (9, 4)),
+    ]
 
 
 @kernel

@@ -10,7 +10,9 @@ beta: critically damped).  (Baumgarte 1972; Garcia de Jalon and Bayo 1994)
 """
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, scratch, state
 
+from rv_plant.coordinates import moving_count
 from rv_plant.linear import cholesky_apply, cholesky_factor
 from rv_plant.mesh import ring_coordinate
 from rv_plant.poses import seat
@@ -18,9 +20,20 @@ from rv_plant.poses import seat
 COMPLIANT, CONSTRAINED, SETTLING = range(3)
 
 
-def constraint_count(cranks: int) -> int:
-    """Two per crank's seat, two of the main bearing, ring, shaft."""
-    return 2 * cranks + 4
+def variables(sizes: Sizes) -> list[Variable]:
+    # Two per crank's seat, two of the main bearing, ring, shaft.
+    m, n = 2 * sizes["crank"] + 4, moving_count(sizes)
+    each = ("constraint", "constraint_rate", "constraint_bias", "multiplier_step", "multiplier_start", "schur_scale")
+    return [
+        Variable("joints", "parameter", "1", "joints in motion: springs, or constraints with multipliers (then rigid)", 0,
+                 choices=("compliant", "constrained"), source="needle-bearing document has constraints"),
+        Variable("baumgarte_rate", "parameter", "1/s", "rate at which drift of a constraint is pulled back", 1e4,
+                 minimum=0.0, maximum=1e8, nominal=1e4, source="assumed: faster than the cranks, slower than a step"),
+        output("constraint_drift", "m", "largest violation of a joint's constraint (turnings in rad)"),
+        state("multiplier", "N", "forces of the joints' constraints (moments in N m)", **sizes.over(constraint=m)),
+        *(scratch(name, (m,)) for name in each),
+        scratch("constraint_jacobian", (m, n)), scratch("schur", (m, m)), scratch("schur_columns", (m, n)),
+    ]
 
 
 @kernel

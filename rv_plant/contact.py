@@ -26,6 +26,9 @@ The needle-bearing document prints "3.2e8 N/m": read "literally" that is the for
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable
+
+from rv_plant.dimension import FILE
 
 LINE, LANKARANI, PALMGREN = 0, 1, 2
 LAWS = ("line", "lankarani-nikravesh", "palmgren")
@@ -35,6 +38,31 @@ DAMPINGS = ("none", "step", "lankarani-nikravesh", "modal")
 SLOWEST_IMPACT = 1e-3
 SI, LITERAL = 0, 1
 READINGS = ("SI", "literal")
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    """What all contacts share; each has its own stiffness and damping."""
+    return [
+        Variable("elastic_modulus", "parameter", "Pa", "Young's modulus of all parts", 207e9, minimum=1e6,
+                 nominal=1e11, source=FILE),
+        Variable("poisson_ratio", "parameter", "1", "Poisson's ratio of all parts", 0.3, minimum=0.0, maximum=0.5,
+                 source=FILE),
+        Variable("contact_law", "parameter", "1", "law of force against penetration", 0, choices=LAWS,
+                 source="both sources"),
+        Variable("stiffness_reading", "parameter", "1",
+                 "force at 1 mm, or the same digits in N/m as force at 1 m per thousand", 0, choices=READINGS,
+                 source="assumed: Palmgren's constant for the printed length gives the SI reading"),
+        Variable("exponent_lankarani", "parameter", "1", "exponent of the Lankarani-Nikravesh law", 1.5, minimum=1.0,
+                 maximum=2.0, source="BX-40E document"),
+        Variable("damping_law", "parameter", "1", "damping of the contacts in motion", STEP, choices=DAMPINGS,
+                 source="needle-bearing document: C c_c v"),
+        Variable("damping_depth", "parameter", "m", "penetration at which damping is full (law step)", 1e-6,
+                 minimum=1e-9, maximum=1e-3, nominal=1e-6, source="assumed: a third of the usual penetration"),
+        Variable("restitution", "parameter", "1", "coefficient of restitution (law lankarani-nikravesh)", 0.8,
+                 minimum=0.0, maximum=1.0, source="assumed: 0.7 to 0.9"),
+        Variable("modal_damping_time", "parameter", "s", "time tau of the law modal: damping ratio omega tau/2", 4e-6,
+                 minimum=0.0, maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+    ]
 
 
 @kernel

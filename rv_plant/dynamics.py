@@ -18,9 +18,11 @@ compliance RIGID here.
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, scratch, state
 
 from rv_plant.assembly import clear
 from rv_plant.constraints import CONSTRAINED, SETTLING
+from rv_plant.coordinates import moving_count
 from rv_plant.gear_stage import planet_radius
 from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import cage_rate, roller_contacts
@@ -32,6 +34,35 @@ RIGID = 1e-12
 RIGID_TOOTH = 1e-10
 # Input speed below which friction fades [rad/s].
 STANDSTILL = 0.1
+
+
+def mass(name: str, unit: str, text: str, start: float) -> Variable:
+    return Variable(name, "parameter", unit, f"mass or inertia of {text}", start, minimum=1e-9,
+                    source="assumed: plausible from geometry")
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    bodies = sizes.over(coordinate=moving_count(sizes))
+    return [
+        mass("disc_mass", "kg", "one disc", 0.387), mass("disc_inertia", "kg.m^2", "one disc", 5.7e-4),
+        mass("crank_mass", "kg", "one crank with its planet", 0.131),
+        mass("crank_inertia", "kg.m^2", "one crank with its planet", 1.26e-5),
+        mass("carrier_mass", "kg", "the carrier", 0.715), mass("carrier_inertia", "kg.m^2", "the carrier", 7.8e-4),
+        mass("sun_inertia", "kg.m^2", "sun with what is fixed to it", 3.6e-6),
+        mass("ring_inertia", "kg.m^2", "pin ring on its housing", 1e-3),
+        mass("load_inertia", "kg.m^2", "what the output flange carries", 5.0),
+        Variable("tooth_stiffness_variation", "parameter", "1", "first-stage tooth stiffness over its mean, amplitude"
+                 " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant"),
+        Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
+                 maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+        state("q", "1", "places of the bodies, see dynamics", **bodies),
+        state("v", "1", "velocities of the coordinates, sun and load", **bodies),
+        state("acceleration", "1", "accelerations of the bodies", **bodies),
+        state("mass", "1", "mass or inertia of each coordinate", **bodies),
+        state("friction_load", "N.m", "torque of friction and drag at the input, in motion"),
+        # One joint, see add_gradient.
+        scratch("joint_index", (5,), integer=True), scratch("joint_gradient", (5,)),
+    ]
 
 
 @kernel
@@ -102,8 +133,8 @@ def bearing_in_motion(r, d, c, cage_speed, rate_weight):
 
 
 @kernel
-def crank_support(r, c, compliance, rate_weight):
-    """Bearings of crank c in the carrier: the same spring along x and y."""
+def crank_support(r, c, soft, rate_weight):
+    """Bearings of crank c in the carrier: springs along x and y; ``soft`` 0 makes them as good as rigid."""
     carrier = 3 * r.roller_force.shape[0]
     crank = carrier + 3 + 3 * c
     q = r.q
@@ -112,10 +143,10 @@ def crank_support(r, c, compliance, rate_weight):
     # Carrier turning, x or y, crank x or y.
     index[0], index[1], index[2] = carrier, carrier + 1, crank
     gradient[0], gradient[1], gradient[2] = ay, -1.0, 1.0
-    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, compliance, rate_weight)
+    pull_x = spring(r, index, gradient, 3, q[crank] - q[carrier + 1] - ax, soft * r.compliance[crank], rate_weight)
     index[1], index[2] = carrier + 2, crank + 1
     gradient[0] = -ax
-    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, compliance, rate_weight)
+    pull_y = spring(r, index, gradient, 3, q[crank + 1] - q[carrier + 2] - ay, soft * r.compliance[crank + 1], rate_weight)
     r.tangent[carrier, carrier] += pull_x * ax + pull_y * ay
 
 
@@ -190,13 +221,13 @@ def joint_springs(r, rate_weight):
     # Constraints start from where joints stand that are as good as rigid.
     soft = 0.0 if r.joints == SETTLING else 1.0
     for c in range(cranks):
-        crank_support(r, c, soft * r.crank_support_compliance, rate_weight)
+        crank_support(r, c, soft, rate_weight)
     gradient[0] = 1.0
     for i in range(2):
         index[0] = carrier + 1 + i
-        spring(r, index, gradient, 1, q[carrier + 1 + i], soft * r.main_bearing_compliance, rate_weight)
+        spring(r, index, gradient, 1, q[carrier + 1 + i], soft * r.compliance[carrier + 1 + i], rate_weight)
     index[0] = ring
-    spring(r, index, gradient, 1, q[ring], soft * r.housing_compliance, rate_weight)
+    spring(r, index, gradient, 1, q[ring], soft * r.compliance[ring], rate_weight)
     index[0], index[1], gradient[1] = carrier, load, -1.0
     spring(r, index, gradient, 2, q[carrier] - q[load], soft * r.carrier_compliance, rate_weight)
 

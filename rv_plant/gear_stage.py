@@ -16,6 +16,34 @@ A reducer without this stage has i1 = 0: its cranks are turned directly.
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, state
+
+from rv_plant.dimension import FILE
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    crank = sizes.over("crank")
+    return [
+        Variable("first_stage_ratio", "parameter", "1", "teeth of planet over teeth of sun (0: no first stage)",
+                 3.0, minimum=0.0, maximum=100.0, source=FILE),
+        Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
+                 minimum=0.0, maximum=0.7, source="assumed: standard gearing"),
+        Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
+                 source="assumed: usual for a ratio of 3"),
+        output("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0),
+        state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
+        state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
+        state("crank_turn_added", "rad", "a crank's turning by what its teeth lack", **crank),
+        state("crank_turn_rate", "1", "its growth with the sun's turning against the carrier", **crank),
+        state("pressure_cosine", "1", "cosine of the first stage's pressure angle"),
+    ]
+
+
+@kernel
+def clear_teeth(r):
+    """Teeth of sun and planets lack nothing."""
+    for c in range(r.tooth_gap.shape[0]):
+        r.tooth_gap[c] = r.tooth_gap_rate[c] = r.crank_turn_added[c] = r.crank_turn_rate[c] = 0.0
 
 
 @kernel

@@ -9,10 +9,11 @@ the assembled tangent; its local error is taken from the change of acceleration
 error and is repeated shorter.
 """
 
-
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, scratch, state
 
 from rv_plant.constraints import CONSTRAINED, SETTLING, constrained_direction, start_multipliers
+from rv_plant.coordinates import moving_count
 from rv_plant.dynamics import RIGID, assemble_motion
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import ring_coordinate
@@ -23,6 +24,24 @@ MOST_SUBSTEPS = 100_000
 MOST_ITERATIONS = 1_000_000
 # Square of the frequency that stands in where nothing holds a body [1/s^2].
 FLOATING = 1e8
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    n = moving_count(sizes)
+    bodies = sizes.over(coordinate=n)
+    return [
+        Variable("spectral_radius", "parameter", "1", "what the integrator leaves of frequencies far above its step",
+                 0.5, minimum=0.0, maximum=1.0, source="assumed: between none and all"),
+        Variable("dynamic_tolerance", "parameter", "1", "local error of a step over a deflection of 1 um", 3e-3,
+                 minimum=1e-9, maximum=1.0, source="measured: forces within 1 %"),
+        Variable("max_newton", "parameter", "1", "Newton iterations before a step is repeated shorter", 8,
+                 integer=True, minimum=2, maximum=100, source="assumed"),
+        state("smooth", "1", "the integrator's acceleration", **bodies),
+        state("length_scale", "1", "small change of each coordinate", **bodies),
+        state("assemblies", "1", "evaluations of all forces in the last communication step", integer=True),
+        scratch("unknown", (n,), integer=True),
+        *(scratch(name, (n,)) for name in ("q_start", "v_start", "acceleration_start", "smooth_start")),
+    ]
 
 
 @kernel

@@ -3,12 +3,73 @@
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, scratch, state
 
 from rv_plant.contact import contact_force, damped_force, impact_speed
+from rv_plant.dimension import FILE, deviation, length
 from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
 
 # Pins nearer than this have their distance and phase computed, touching or not [m].
 APART = 1e-9
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    contact, pin, lobe = sizes.over("disc", "pin"), sizes.over("pin"), sizes.over("disc", "lobe")
+    return [
+        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their present contact", **contact, nominal=1e-6),
+        length("pin_radius", "radius of the pins", 1e-5, 2e-3),
+        length("pin_circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
+        length("mesh_width", "width of one disc", 1e-5, 8.82e-3),
+        length("equidistant_modification", "added to the pin radius when the disc is generated (positive: gap)",
+               -1e-3, maximum=1e-3),
+        length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
+               -1e-3, maximum=1e-3),
+        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
+                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none"),
+        Variable("mesh_stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
+                 3.2e5, minimum=1.0, nominal=1e5, source=FILE),
+        Variable("mesh_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 3.2e6,
+                 minimum=1.0, nominal=1e6, source=FILE),
+        Variable("mesh_damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
+                 nominal=100.0, source="assumed: 50 to 500 N s/m per tooth"),
+        deviation("pin_position_error_radial", "pin centre outwards", **pin),
+        deviation("pin_position_error_tangential", "pin centre along the circle", **pin),
+        deviation("pin_radius_error", "pin radius above nominal", **pin),
+        deviation("lobe_profile_error", "material missing on a lobe", **lobe),
+        deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe),
+        output("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0),
+        output("mesh_force", "N", "force between disc and pin, mean over the communication step", **contact, nominal=100.0),
+        # What effects add to the ideal parts.
+        state("pin_radius_added", "m", "added to the pins' radius", **pin),
+        state("lobe_gap_added", "m", "material missing on a lobe", **lobe),
+        state("lobe_pitch_added", "m", "lobe displaced along the pitch", **lobe),
+        state("profile_radius_added", "m", "added to the pin radius that generates the profile"),
+        state("profile_circle_added", "m", "added to the circle radius that generates the profile"),
+        state("ring_scale", "1", "pin circle radius over that at the reference temperature"),
+        state("pin_angle", "rad", "nominal direction of a pin", **pin),
+        state("pin_x", "m", "centre of a pin", **pin),
+        state("pin_y", "m", "centre of a pin", **pin),
+        state("pin_cos", "1", "nominal direction of a pin", **pin),
+        state("pin_sin", "1", "nominal direction of a pin", **pin),
+        state("mesh_constant", "1", "K of disc and pin in N/m^n"),
+        state("mesh_exponent", "1", "n of disc and pin"),
+        state("mesh_damping_now", "1", "coefficient of the chosen law for disc and pin"),
+        state("phase_shift", "rad", "contact phase less the ideal one", **contact),
+        state("mesh_force_now", "N", "force of the last equilibrium", **contact),
+        state("mesh_impact_speed", "m/s", "speed of penetration at first touch", **contact),
+        *(scratch(name, contact["shape"]) for name in ("mesh_phase", "centre_curvature", "mesh_rate")),
+    ]
+
+
+@kernel
+def clear_flanks(r):
+    """No effect adds anything to flanks and pins."""
+    for d in range(r.lobe_gap_added.shape[0]):
+        for lobe in range(r.lobe_gap_added.shape[1]):
+            r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
+    for j in range(r.pin_radius_added.shape[0]):
+        r.pin_radius_added[j] = 0.0
+    r.profile_radius_added = r.profile_circle_added = 0.0
 
 
 @kernel

@@ -7,6 +7,7 @@ stored in motion and deformation.
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, scratch, state
 
 from rv_plant.constraints import CONSTRAINED, largest_drift
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
@@ -29,6 +30,24 @@ from rv_plant.poses import disc_offset, seat
 
 # Deflection that tolerances are relative to [m].
 TYPICAL_DEFLECTION = 1e-6
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
+    return [
+        output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
+        state("mesh_error_start", "m", "profile error at the last communication point", **contact),
+        state("roller_error_start", "m", "profile error at the last communication point", **roller),
+        state("drive_speed", "rad/s", "input speed at the last communication point"),
+        state("internal_step", "s", "next step of the integrator"),
+        state("rejected", "1", "internal steps repeated shorter", integer=True),
+        state("mesh_force_before", "N", "force one internal step earlier", **contact),
+        state("roller_force_before", "N", "force one internal step earlier", **roller),
+        state("input_energy", "J", "work of the input"), state("output_energy", "J", "work done on the load"),
+        state("lost_energy", "J", "energy lost in damping"), state("cage_energy", "J", "work of the cages"),
+        state("stored_energy", "J", "energy of motion and deformation at the start"),
+        scratch("mesh_error_end", contact["shape"]), scratch("roller_error_end", roller["shape"]),
+    ]
 
 
 @kernel
@@ -244,7 +263,7 @@ def publish_motion(r):
         r.reaction_torque = -r.multiplier[2 * cranks + 2]
         r.constraint_drift = largest_drift(r)
     else:
-        r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.housing_compliance, RIGID)
+        r.reaction_torque = -(r.q[ring] + r.joint_damping_time * r.v[ring]) / max(r.compliance[ring], RIGID)
     r.cage_speed = r.cage_share * cage_rate(crank_speed, r.v[carrier], r.inner_race_radius, r.outer_race_radius)
     r.friction_load = abs(publish_losses(r, r.v[sun]))
     stored = r.potential + kinetic_energy(r) - r.stored_energy

@@ -12,8 +12,67 @@ rings along one line through the lobe's centre, so that force and moment balance
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, scratch, state
 
 from rv_plant.contact import contact_force, damped_force, impact_speed
+from rv_plant.dimension import FILE, length
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    roller = sizes.over("disc", "crank", "roller")
+    return [
+        Variable("roller_profile_error", "input", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
+        length("outer_race_radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
+        length("roller_radius", "radius of the needle rollers", 1e-5, 1.5e-3),
+        length("roller_length", "length of the needle rollers", 1e-5, 8e-3),
+        length("bearing_clearance", "radial clearance of the needle bearings (half the diametral one)", -1e-4,
+               maximum=1e-3),
+        Variable("roller_stiffness", "parameter", "N",
+                 "force of a roller between both races at 1 mm of approach, exponent 10/9", 5.1e5, minimum=1.0,
+                 nominal=1e5, source=FILE),
+        Variable("roller_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 5.1e6,
+                 minimum=1.0, nominal=1e6, source=FILE),
+        Variable("roller_damping", "parameter", "N.s/m", "coefficient C of a roller (law step)", 200.0, minimum=0.0,
+                 nominal=100.0, source="assumed: as disc and pin"),
+        output("cage_angle", "rad", "angle of the roller cages against the discs"),
+        output("cage_speed", "rad/s", "speed of the roller cages against the discs"),
+        output("roller_force", "N", "force on a roller, mean over the communication step", **roller, nominal=100.0),
+        # What effects add to the ideal parts.
+        state("roller_gap_added", "m", "added to a bearing's clearance", **roller),
+        state("roller_gap_now", "m", "the same at the present angle, with what depends on it", **roller),
+        state("cage_share", "1", "speed of the cages over that of pure rolling"),
+        state("cage", "rad", "angle of the cages"),
+        state("cage_power", "W", "power of the cages' prescribed motion"),
+        state("roller_constant", "1", "K of a roller in N/m^n"),
+        state("roller_exponent", "1", "n of a roller"),
+        state("roller_damping_now", "1", "coefficient of the chosen law for a roller"),
+        state("roller_force_now", "N", "force of the last equilibrium", **roller),
+        state("roller_impact_speed", "m/s", "speed of approach at first touch", **roller),
+        scratch("roller_rate", roller["shape"]),
+        # Sum and tangent of one bearing, see roller_contacts.
+        scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)),
+    ]
+
+
+@kernel
+def clear_clearances(r):
+    """No effect adds to a bearing's clearance."""
+    discs, cranks, rollers = r.roller_gap_added.shape
+    for d in range(discs):
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_gap_added[d, c, k] = 0.0
+
+
+@kernel
+def take_clearances(r):
+    """Clearances at the present angle start from those that hold at every angle."""
+    discs, cranks, rollers = r.roller_gap_now.shape
+    for d in range(discs):
+        for c in range(cranks):
+            for k in range(rollers):
+                r.roller_gap_now[d, c, k] = r.roller_gap_added[d, c, k]
 
 
 @kernel

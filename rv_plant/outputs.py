@@ -2,22 +2,37 @@
 
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, state
 
 from rv_plant.contact import hertz_peak_pressure
 from rv_plant.effects import HOOKS
+from rv_plant.gear_stage import clear_teeth
+from rv_plant.needle_bearing import take_clearances
 
 effects = compose("rv_plant.effects", HOOKS)
-before_effects, after_effects = effects.before, effects.after
+warm_effects, before_effects, after_effects = effects.warm, effects.before, effects.after
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    return [
+        output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9),
+        output("largest_pin_force", "N", "largest force between a disc and a pin at the present angle", nominal=100.0),
+        output("largest_roller_force", "N", "largest force on a roller at the present angle", nominal=100.0),
+        output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
+        output("power_loss", "W", "power lost: friction and drag, and in motion damping (mean of the last step)"),
+        state("grease_thinning", "1", "viscosity of the grease over that of new grease"),
+        state("friction_power", "W", "power lost by friction and drag at the last equilibrium"),
+    ]
 
 
 @kernel
 def prepare_position(r):
-    """What effects add at the present angle."""
-    discs, cranks, rollers = r.roller_gap_now.shape
-    for d in range(discs):
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_gap_now[d, c, k] = r.roller_gap_added[d, c, k]
+    """What effects add at the present angle: first to the temperature, then to what may follow from it."""
+    r.reducer_temperature = r.temperature
+    warm_effects(r)
+    r.ring_scale = r.grease_thinning = 1.0
+    take_clearances(r)
+    clear_teeth(r)
     before_effects(r)
 
 
@@ -25,6 +40,7 @@ def prepare_position(r):
 def publish_losses(r, input_speed):
     """Power of friction and drag; returns the torque that they ask of the input turning so [rad/s]."""
     r.friction_power = 0.0
+    r.cage_share = 1.0
     after_effects(r)
     return r.friction_power / input_speed if abs(input_speed) > 1e-6 else 0.0
 

@@ -1,117 +1,68 @@
 """The plant as a unit: initialise it, step it through time.
 
 Quasi-static, the input turns and at each angle every part is in equilibrium; dynamic, the
-bodies move (``motion``).  All
-entry points take a one-element record array of ``plant_table`` and return a status
-code, 0 or a key of ``FAULTS``.
+bodies move (``motion``).  All entry points take a one-element record array of
+``plant_table`` and return a status code, 0 or a key of ``FAULTS``.
 """
 
 import math
 
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
+from fmu_src.variables import Sizes, Variable, output, state
 
 from rv_plant.assembly import assemble
 from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
+from rv_plant.coordinates import coordinate_count
+from rv_plant.dimension import FILE
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
+from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
+from rv_plant.faults import FAULTS as FAULTS  # callers look up the status of an entry point here
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
-from rv_plant.geometry import centre_curve_curvature
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
+from rv_plant.mesh import clear_flanks
 from rv_plant.motion import advance, publish_motion, start_motion
-from rv_plant.needle_bearing import cage_rate
-from rv_plant.output_pins import has_output_pins
+from rv_plant.needle_bearing import cage_rate, clear_clearances
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
-from rv_plant.poses import crank_position
-
-QUASI_STATIC, DYNAMIC = 0, 1
+from rv_plant.poses import clear_places, crank_position
 
 effects = compose("rv_plant.effects", HOOKS)
-prepare_effects, advance_effects = effects.prepare, effects.advance
-
-NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
-NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
-OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
-FAULTS = {
-    NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
-    " {residual:.3g} of the load after {iterations} iterations."
-    " Lower the load, or check clearances and profile errors (they are in m, not um)",
-    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
-    " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
-    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m plus equidistant_modification exceeds the"
-    " smallest convex radius of the centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
-    PINS_OVERLAP: "neighbouring pins overlap: pin_radius {pin_radius:.6g} m is too large for"
-    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce pin_radius or the number of pins",
-    ROLLERS_OVERLAP: "neighbouring rollers overlap: roller_radius {roller_radius:.6g} m is too large for the number of"
-    " rollers between the races. Reduce roller_radius or the number of rollers",
-    RING_OPEN: "the pins do not close the ring: a cycloid disc needs one pin more than it has lobes."
-    " Correct pins or lobes in [topology]",
-    NO_MOTION: "the integrator's step fell below 1e-10 s (crank angle {crank_angle:.6g} rad, {rejected} rejected steps)."
-    " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
-    TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
-    " Set fidelity to dynamic, or drive to speed",
-    OUTPUT_HOLES_OVERLAP: "holes for the output pins overlap each other or the bearing: output_pin_radius {output_pin_radius:.6g} m"
-    " plus eccentricity {eccentricity:.6g} m is too large on output_circle_radius {output_circle_radius:.6g} m beside"
-    " outer_race_radius {outer_race_radius:.6g} m. Reduce output_pin_radius, outer_race_radius or the number of output pins",
-    OUTPUT_HOLES_OPEN: "holes for the output pins cut the flanks: output_circle_radius {output_circle_radius:.6g} m plus"
-    " output_pin_radius {output_pin_radius:.6g} m and eccentricity reaches the disc's roots."
-    " Reduce output_circle_radius or output_pin_radius",
-    OUTPUT_PINS_AT_REST: "fidelity = dynamic is not there for output through pins in holes of the disc."
-    " Set fidelity to quasi-static",
-    CRANKS_ON_AXIS: "crank_circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
-    " crank_circle_radius, or give the reducer output_pins in [topology]",
-    LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
-    " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
-    " or in motion a looser dynamic_tolerance",
-    RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
-    " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
-    " the clearance is bearing_clearance",
-}
+prepare_effects, advance_states, heat_effects = effects.prepare, effects.advance, effects.heat
 
 
-@kernel
-def geometry_fault(r):
-    """0, or the fault that makes this geometry impossible."""
-    pins, lobes, rollers = r.pin_x.shape[0], r.lobe_pitch_error.shape[1], r.roller_force.shape[2]
-    if pins != lobes + 1:
-        return RING_OPEN
-    if not r.pin_radius < r.pin_circle_radius * math.sin(math.pi / pins):
-        return PINS_OVERLAP
-    fit = r.outer_race_radius - r.inner_race_radius - 2.0 * r.roller_radius
-    if not abs(fit) < 1e-4:
-        return RACES_DO_NOT_FIT
-    if not r.roller_radius < (r.inner_race_radius + r.roller_radius) * math.sin(math.pi / rollers):
-        return ROLLERS_OVERLAP
-    fault = output_fault(r)
-    if fault != 0:
-        return fault
-    circle = r.pin_circle_radius + r.shift_modification
-    k1 = r.eccentricity * pins / circle
-    if not k1 < 1.0:
-        return PRIMED
-    radius = r.pin_radius + r.equidistant_modification
-    for i in range(721):
-        if not radius * centre_curve_curvature(math.pi * i / 720.0, lobes, circle, k1) < 1.0:
-            return UNDERCUT
-    return 0
-
-
-@kernel
-def output_fault(r):
-    """0, or the fault that keeps the load from reaching the discs."""
-    if not has_output_pins(r):
-        return CRANKS_ON_AXIS if r.crank_circle_radius == 0.0 else 0
-    if r.fidelity == DYNAMIC:
-        return OUTPUT_PINS_AT_REST
-    pins = r.output_pin_force.shape[1]
-    hole = r.output_pin_radius + r.eccentricity + r.output_clearance
-    bearing = r.outer_race_radius + r.crank_circle_radius
-    if not hole < r.output_circle_radius * math.sin(math.pi / pins) or not hole + bearing < r.output_circle_radius:
-        return OUTPUT_HOLES_OVERLAP
-    root = r.pin_circle_radius - r.eccentricity - r.pin_radius - r.equidistant_modification
-    if not hole + r.output_circle_radius < root:
-        return OUTPUT_HOLES_OPEN
-    return 0
+def variables(sizes: Sizes) -> list[Variable]:
+    return [
+        Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
+                 1.0, source=FILE),
+        Variable("input_torque", "input", "N.m", "torque on the sun if drive is torque", 0.0,
+                 source="as the system model has it"),
+        Variable("load_torque", "input", "N.m", "torque on the carrier, positive against positive rotation",
+                 0.0, nominal=100.0, source=FILE),
+        Variable("temperature", "input", "K", "temperature of the reducer's surroundings", 293.15,
+                 minimum=200.0, maximum=500.0, nominal=300.0, source="assumed: room temperature"),
+        Variable("fidelity", "parameter", "1", "equilibrium at each angle, or bodies in motion", 0,
+                 choices=("quasi-static", "dynamic"), source="as the system model needs it"),
+        Variable("drive", "parameter", "1", "what moves the input in motion", 0, choices=("speed", "torque"),
+                 source="as the system model needs it"),
+        Variable("largest_crank_step", "parameter", "rad", "a communication step is divided so that no crank"
+                 " turns further between two equilibria", math.radians(5.0), minimum=1e-6, maximum=1.0,
+                 source="assumed: 72 positions a turn"),
+        output("input_angle", "rad", "angle of the sun"),
+        output("crank_angle", "rad", "angle of the cranks in the housing (mean of all cranks)"),
+        output("crank_speed", "rad/s", "speed of the cranks in the housing"),
+        output("output_angle", "rad", "angle of the output flange"),
+        output("output_speed", "rad/s", "speed of the output flange"),
+        output("drive_torque", "N.m", "torque that holds or drives the input"),
+        output("reaction_torque", "N.m", "torque with which the housing holds the pin ring"),
+        output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4),
+        output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
+               nominal=1e-4),
+        output("substeps", "1", "equilibria in the last communication step", integer=True),
+        state("ideal_output", "rad", "output angle of ideal kinematics"),
+        state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
+        state("advance_before", "rad", "turning of the ideal output between z_before and z"),
+    ]
 
 
 @kernel
@@ -148,23 +99,22 @@ def prepare(r):
 
 @kernel
 def clear_added(r):
-    """No effect adds anything to the ideal parts."""
-    discs, cranks, rollers = r.roller_gap_added.shape
-    for d in range(discs):
-        for c in range(cranks):
-            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = r.hole_radial_added[d, c] = 0.0
-            for k in range(rollers):
-                r.roller_gap_added[d, c, k] = 0.0
-        for lobe in range(r.lobe_gap_added.shape[1]):
-            r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
-    for c in range(cranks):
-        r.seat_tangential_added[c] = r.seat_radial_added[c] = r.tooth_gap[c] = r.crank_turn_added[c] = 0.0
-        r.tooth_gap_rate[c] = r.crank_turn_rate[c] = 0.0
-    for j in range(r.pin_x.shape[0]):
-        r.pin_radius_added[j] = 0.0
-    r.profile_radius_added = r.profile_circle_added = r.output_gap_added = 0.0
-    r.ring_scale = r.grease_thinning = r.cage_share = 1.0
-    r.friction_power = 0.0
+    """No effect adds anything to the ideal parts, whose supports are rigid, nor to what it is asked for later."""
+    clear_flanks(r)
+    clear_places(r)
+    clear_clearances(r)
+    for i in range(r.compliance.shape[0]):
+        r.compliance[i] = 0.0
+    r.output_gap_added = r.friction_power = 0.0
+    r.cage_share = 1.0
+    r.reducer_temperature = r.temperature
+
+
+@kernel
+def advance_effects(r, duration):
+    """States of the effects move on through ``duration`` [s], then the temperature."""
+    advance_states(r, duration)
+    heat_effects(r, duration)
 
 
 @kernel

@@ -3,6 +3,41 @@
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, state
+
+from rv_plant.dimension import deviation, length
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    bearing, crank = sizes.over("disc", "crank"), sizes.over("crank")
+    return [
+        length("eccentricity", "throw of the cranks", 1e-6, 0.9e-3),
+        length("crank_circle_radius", "radius of the circle of the cranks' centres (0: one central eccentric)", 0.0, 28e-3),
+        deviation("crank_eccentricity_error", "throw of a crank's lobe above nominal", **bearing),
+        Variable("crank_phase_error", "parameter", "rad", "turning of a crank's lobe against nominal", 0.0, **bearing,
+                 minimum=-0.1, maximum=0.1, source="ideal part"),
+        deviation("disc_hole_error_radial", "hole in the disc outwards", **bearing),
+        deviation("disc_hole_error_tangential", "hole in the disc along its circle", **bearing),
+        deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", **crank),
+        deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", **crank),
+        # What effects add to the ideal parts.
+        state("throw_added", "m", "added to a lobe's throw", **bearing),
+        state("lobe_turn_added", "rad", "added to a lobe's direction", **bearing),
+        state("hole_tangential_added", "m", "hole in the disc displaced along its circle", **bearing),
+        state("hole_radial_added", "m", "hole in the disc displaced outwards", **bearing),
+        state("seat_radial_added", "m", "crank's seat displaced outwards", **crank),
+        state("seat_tangential_added", "m", "crank's seat displaced along its circle", **crank),
+    ]
+
+
+@kernel
+def clear_places(r):
+    """No effect displaces a part."""
+    discs, cranks = r.throw_added.shape
+    for c in range(cranks):
+        r.seat_tangential_added[c] = r.seat_radial_added[c] = 0.0
+        for d in range(discs):
+            r.throw_added[d, c] = r.lobe_turn_added[d, c] = r.hole_tangential_added[d, c] = r.hole_radial_added[d, c] = 0.0
 
 
 @kernel

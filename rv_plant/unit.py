@@ -3,7 +3,8 @@
 from fmu_src.unit import Unit
 
 from rv_plant.plant import FAULTS, initialise, step
-from rv_plant.variables import Topology, plant_table
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 
 
 def make_unit(specification: dict) -> Unit:

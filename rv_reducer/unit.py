@@ -1,7 +1,7 @@
 """Plant and wear as one unit."""
 
 from fmu_src.unit import Unit
-from rv_plant.variables import Topology
+from rv_plant.topology import Topology
 from wear_fmu.variables import Resolution
 
 from rv_reducer.reducer import FAULTS, initialise, step

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from rv_plant.assembly import assemble
-from rv_plant.variables import Topology, plant_table
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 from stand import gradient, imperfect, in_equilibrium
 from twin import Twin
 

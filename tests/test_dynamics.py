@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from rv_plant.dynamics import assemble_motion
-from rv_plant.variables import Topology, plant_table
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 from stand import gradient, imperfect, in_motion, only
 
 NONE, STEP, HYSTERETIC, MODAL = range(4)

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from rv_plant import plant
+from rv_plant import faults, plant
 from rv_plant.equilibrium import equilibrium
-from rv_plant.variables import Topology, plant_table
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 from stand import imperfect, in_equilibrium, only, records_of
 from twin import Twin
 
@@ -205,18 +206,18 @@ def test_negative_load_mirrors_everything(rv20e):
 
 
 @pytest.mark.parametrize("fault, values", [
-    (plant.PRIMED, {"eccentricity": 1.31e-3}),
-    (plant.PRIMED, {"shift_modification": -1e-3, "pin_circle_radius": 36.9e-3}),
-    (plant.UNDERCUT, {"pin_radius": 3.9e-3, "equidistant_modification": 0.8e-3}),
-    (plant.UNDERCUT, {"eccentricity": 1.27e-3}),
-    (plant.PINS_OVERLAP, {"pin_radius": 4.09e-3}),
-    (plant.ROLLERS_OVERLAP, {"roller_radius": 2.5e-3, "outer_race_radius": 15.25e-3}),
-    (plant.RACES_DO_NOT_FIT, {"outer_race_radius": 13.36e-3}),
-    (plant.NO_EQUILIBRIUM, {"max_iterations": 1}),
-    (plant.NO_EQUILIBRIUM, {"load_torque": np.nan}),
-    (plant.NO_EQUILIBRIUM, {"load_torque": np.nan, "housing_compliance": 1e-7}),
-    (plant.NO_EQUILIBRIUM, {"mesh_profile_error": np.nan}),
-    (plant.NO_EQUILIBRIUM, {"load_torque": 0.0, "mesh_profile_error": [[np.nan], [0.0]]}),
+    (faults.PRIMED, {"eccentricity": 1.31e-3}),
+    (faults.PRIMED, {"shift_modification": -1e-3, "pin_circle_radius": 36.9e-3}),
+    (faults.UNDERCUT, {"pin_radius": 3.9e-3, "equidistant_modification": 0.8e-3}),
+    (faults.UNDERCUT, {"eccentricity": 1.27e-3}),
+    (faults.PINS_OVERLAP, {"pin_radius": 4.09e-3}),
+    (faults.ROLLERS_OVERLAP, {"roller_radius": 2.5e-3, "outer_race_radius": 15.25e-3}),
+    (faults.RACES_DO_NOT_FIT, {"outer_race_radius": 13.36e-3}),
+    (faults.NO_EQUILIBRIUM, {"max_iterations": 1}),
+    (faults.NO_EQUILIBRIUM, {"load_torque": np.nan}),
+    (faults.NO_EQUILIBRIUM, {"load_torque": np.nan, "housing_compliance": 1e-7}),
+    (faults.NO_EQUILIBRIUM, {"mesh_profile_error": np.nan}),
+    (faults.NO_EQUILIBRIUM, {"load_torque": 0.0, "mesh_profile_error": [[np.nan], [0.0]]}),
 ], ids=str)
 def test_impossible_values_give_their_fault(rv20e, fault, values):
     status = plant.initialise(records_of(rv20e.plant, **values))
@@ -228,9 +229,9 @@ def test_impossible_values_give_their_fault(rv20e, fault, values):
     {"roller_radius": 2.4e-3, "outer_race_radius": 15.05e-3}, {"outer_race_radius": 13.34e-3},
 ], ids=str)
 def test_possible_values_near_those_limits_pass(rv20e, values):
-    assert plant.geometry_fault(only(records_of(rv20e.plant, **values))) == 0
+    assert faults.geometry_fault(only(records_of(rv20e.plant, **values))) == 0
 
 
 def test_ring_that_is_not_closed_gives_its_fault():
     records = records_of(plant_table(Topology(2, 2, 40, 38, 16)))
-    assert plant.geometry_fault.function(only(records)) == plant.RING_OPEN
+    assert faults.geometry_fault.function(only(records)) == faults.RING_OPEN

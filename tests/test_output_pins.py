@@ -7,10 +7,11 @@ import pytest
 
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
-from rv_plant import plant
+from rv_plant import faults, plant
 from rv_plant.assembly import assemble
 from rv_plant.equilibrium import equilibrium
-from rv_plant.variables import Topology, plant_table
+from rv_plant.topology import Topology
+from rv_plant.variables import plant_table
 from stand import gradient, in_equilibrium, only, records_of
 from twin import Twin, cross, directions
 
@@ -133,8 +134,8 @@ def test_play_of_the_pins_is_their_clearance_over_their_circle(drive):
 
 
 @pytest.mark.parametrize("values, fault", [
-    ({"output_pin_radius": 9e-3}, plant.OUTPUT_HOLES_OVERLAP), ({"output_circle_radius": 24e-3}, plant.OUTPUT_HOLES_OPEN),
-    ({"fidelity": 1}, plant.OUTPUT_PINS_AT_REST),
+    ({"output_pin_radius": 9e-3}, faults.OUTPUT_HOLES_OVERLAP), ({"output_circle_radius": 24e-3}, faults.OUTPUT_HOLES_OPEN),
+    ({"fidelity": 1}, faults.OUTPUT_PINS_AT_REST),
 ])  # fmt: skip
 def test_impossible_holes_are_refused(drive, values, fault):
     assert plant.initialise(records_of(drive.plant, **values)) == fault
@@ -143,7 +144,7 @@ def test_impossible_holes_are_refused(drive, values, fault):
 
 
 def test_cranks_on_the_axis_need_output_pins(rv20e):
-    assert plant.initialise(records_of(rv20e.plant, crank_circle_radius=0.0)) == plant.CRANKS_ON_AXIS
+    assert plant.initialise(records_of(rv20e.plant, crank_circle_radius=0.0)) == faults.CRANKS_ON_AXIS
 
 
 @pytest.mark.parametrize("old, new, text", [

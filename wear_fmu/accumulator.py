@@ -9,7 +9,9 @@ import math
 
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
+from fmu_src.variables import Sizes, Variable, output, state
 
+from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
     PRINTED,
@@ -45,6 +47,39 @@ FAULTS = {
     " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect both angles, or use"
     " a shorter communication step",
 }
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
+    return [
+        Variable("crank_angle", "input", "rad", "angle of the cranks in the housing"),
+        Variable("crank_speed", "input", "rad/s", "speed of the cranks in the housing"),
+        Variable("output_angle", "input", "rad", "angle of the carrier"),
+        Variable("cage_angle", "input", "rad", "angle of the roller cages against the discs"),
+        Variable("temperature", "input", "K", "temperature of the contacts", 293.15, minimum=200.0, maximum=500.0,
+                 nominal=300.0, source="assumed: room temperature"),
+        Variable("mesh_force", "input", "N", "force between disc and pin, mean over the communication step",
+                 **contact, nominal=100.0),
+        Variable("roller_force", "input", "N", "force on a roller, mean over the communication step",
+                 **roller, nominal=100.0),
+        parameter("pins", "1", "whether the pins turn in their grooves and wear all round, or stand", 0,
+                  choices=("turn", "stand"), source="assumed: they turn, which agrees with ten times less wear than"
+                  " the disc"),
+        parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
+                  source="chosen by the master"),
+        parameter("contact_lead", "1", "profile errors are given for the contact this many communication steps"
+                  " ahead; 0 gives the present contact", 1.0, 0.0, 10.0, tunable=True,
+                  source="1 makes the exchange of plant and wear second order in the step"),
+        output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
+        output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        output("operating_time", "s", "time that the wear stands for", nominal=1e6),
+        output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
+        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
+        state("standing", "1", "share of a pin's wear that stays in place"),
+        state("crank_angle_before", "rad", "crank angle at the last step"),
+        state("output_angle_before", "rad", "carrier angle at the last step"),
+        state("cage_angle_before", "rad", "cage angle at the last step"),
+    ]
 
 
 @kernel
@@ -95,7 +130,9 @@ def initialise(records):
         return fault
     prepare(r)
     r.effects_on = 0
+    r.standing = 1.0 if r.pins == 1 else 0.0
     prepare_effects(r)
+    r.standing = min(1.0, r.standing)
     r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
     return 0
 

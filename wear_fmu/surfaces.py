@@ -7,6 +7,41 @@ A surface is a closed or open row of bins; positions are counted in bins, bin i 
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable, output, state
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    disc, contact, bearing = sizes.over("disc"), sizes.over("disc", "pin"), sizes.over("disc", "crank")
+    flank_bins, lobes = sizes["flank bin"], sizes["lobe"]
+    race, lobe_bin = sizes.over("disc", "crank", bin=sizes["raceway bin"]), sizes.over(bin=flank_bins)
+
+    def surface(name: str, text: str, over: dict) -> Variable:
+        return state(name, "m", text, **over, nominal=1e-6, profile=True)
+
+    return [
+        output("flank_depth", "m", "deepest wear on a disc's flanks", **disc, nominal=1e-6),
+        output("flank_phase", "rad", "its place: 0 root, pi tip, 2 pi next root", **disc),
+        output("flank_lobe", "1", "its lobe, from 1", **disc, integer=True),
+        output("pin_depth", "m", "deepest wear on a pin", **contact, nominal=1e-6),
+        output("inner_race_depth", "m", "deepest wear of the crank's raceway", **bearing, nominal=1e-6),
+        output("inner_race_angle", "rad", "its place, from the lobe's eccentric direction", **bearing),
+        output("outer_race_depth", "m", "deepest wear of the disc's raceway", **bearing, nominal=1e-6),
+        output("outer_race_angle", "rad", "its place, from the hole's outward radial", **bearing),
+        output("flank_volume", "m^3", "material lost by the flanks: integral of K F ds/H", nominal=1e-9),
+        output("pin_volume", "m^3", "material lost by the pins", nominal=1e-9),
+        output("inner_race_volume", "m^3", "material lost by the cranks' raceways", nominal=1e-9),
+        output("outer_race_volume", "m^3", "material lost by the discs' raceways", nominal=1e-9),
+        surface("disc_wear", "depth on a disc's circumference, lobe after lobe, each from root over tip to root",
+                sizes.over("disc", bin=lobes * flank_bins)),
+        surface("pin_wear", "depth on a standing pin, from -90 to +90 degrees of its inward radial, per disc",
+                sizes.over("disc", "pin", bin=sizes["pin bin"])),
+        surface("pin_even_wear", "depth all round a turning pin, per disc", contact),
+        surface("inner_race_wear", "depth on a crank's lobe", race),
+        surface("outer_race_wear", "depth in a disc's hole", race),
+        state("slide", "m", "sliding length of a contact within a bin of a lobe", **lobe_bin),
+        state("slide_before", "m", "its sum up to the bin", **lobe_bin),
+        state("arc", "m", "flank length of a bin", **lobe_bin),
+    ]
 
 
 @kernel

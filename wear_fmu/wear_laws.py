@@ -17,9 +17,42 @@ Janakiraman printed  k = 3.981e-29 C G S^-1.589 E'/H as the needle-bearing docum
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.variables import Sizes, Variable
+
+from wear_fmu.dimension import parameter
 
 CONSTANT, RUN_IN_LOAD, JANAKIRAMAN, JANAKIRAMAN_PRINTED = 0, 1, 2, 3
 LAWS = ("constant", "run-in and load", "janakiraman", "janakiraman printed")
+
+
+def variables(sizes: Sizes) -> list[Variable]:
+    return [
+        parameter("elastic_modulus", "Pa", "Young's modulus of all parts", 207e9, 1e6, nominal=1e11),
+        parameter("poisson_ratio", "1", "Poisson's ratio of all parts", 0.3, 0.0, 0.5),
+        parameter("hardness", "Pa", "hardness of the worn surfaces", 7e9, 1e6, nominal=1e9),
+        parameter("mesh_wear_law", "1", "wear law of flanks and pins", 1, choices=LAWS, source="BX-40E document"),
+        parameter("raceway_wear_law", "1", "wear law of the raceways", 2, choices=LAWS,
+                  source="needle-bearing document, law restored after Janakiraman et al. 2014"),
+        parameter("mesh_wear_coefficient", "1", "dimensionless wear coefficient of flanks and pins, run in",
+                  5e-9, 0.0, 1.0, nominal=1e-8),
+        parameter("raceway_wear_coefficient", "1", "the same for the raceways (laws other than Janakiraman)",
+                  3e-9, 0.0, 1.0, nominal=1e-8),
+        parameter("run_in_ratio", "1", "wear coefficient when new over run in", 5.0, 0.0, 1e3),
+        parameter("run_in_time", "s", "decay time of running-in at run_in_crank_speed (it goes by distance slid)",
+                  300 * 3600.0, 1.0, nominal=1e6),
+        parameter("run_in_crank_speed", "rad/s", "speed of the cranks that run_in_time holds for", 67.5, 1e-6),
+        parameter("load_exponent", "1", "exponent of the load dependence", 0.3, -1.0, 5.0),
+        parameter("reference_line_load", "N/m", "load per width at which the coefficient holds", 5e4, 1e-3,
+                  nominal=1e4),
+        parameter("roughness", "m", "composite roughness Rq of roller and raceway, and of disc and pin", 0.4e-6,
+                  1e-9, 1e-4, nominal=1e-6),
+        parameter("pressure_viscosity", "1/Pa", "pressure-viscosity coefficient of the grease at its reference"
+                  " temperature", 1.8e-8, 1e-10, 1e-6, nominal=1e-8),
+        parameter("pressure_viscosity_slope", "1/K", "relative fall of it with temperature", 0.005, 0.0, 0.1,
+                  source="assumed: about 0.5 % per kelvin"),
+        parameter("reference_temperature", "K", "temperature that pressure_viscosity holds for", 293.15, 200.0,
+                  500.0, source="assumed: room temperature"),
+    ]
 
 
 @kernel

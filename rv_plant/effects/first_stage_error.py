@@ -60,6 +60,7 @@ def before(r):
             planet = sun / r.first_stage_ratio
             gap += r.planet_runout * math.cos(planet)
             rate -= r.planet_runout * math.sin(planet) / r.first_stage_ratio
-        r.tooth_gap[c], r.tooth_gap_rate[c] = gap, rate
-        r.crank_turn_added[c] = (gap + flank) / lever
-        r.crank_turn_rate[c] = (rate + flank_rate) / lever
+        r.tooth_gap[c] += gap
+        r.tooth_gap_rate[c] += rate
+        r.crank_turn_added[c] += (gap + flank) / lever
+        r.crank_turn_rate[c] += (rate + flank_rate) / lever

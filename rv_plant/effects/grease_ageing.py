@@ -30,4 +30,4 @@ EFFECT = Effect(
 
 @kernel
 def before(r):
-    r.grease_thinning = math.exp(r.grease_ageing * r.grease_age / r.grease_life)
+    r.grease_thinning *= math.exp(r.grease_ageing * r.grease_age / r.grease_life)

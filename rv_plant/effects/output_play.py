@@ -24,4 +24,4 @@ EFFECT = Effect(
 
 @kernel
 def prepare(r):
-    r.output_gap_added = r.output_play
+    r.output_gap_added += r.output_play

@@ -37,4 +37,4 @@ def after(r):
         for c in range(cranks):
             for k in range(rollers):
                 total += r.roller_force_now[d, c, k]
-    r.cage_share = 1.0 - r.skid_share * math.exp(-total / (discs * cranks) / r.skid_load)
+    r.cage_share *= 1.0 - r.skid_share * math.exp(-total / (discs * cranks) / r.skid_load)

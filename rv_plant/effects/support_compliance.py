@@ -37,11 +37,14 @@ EFFECT = Effect(
 def prepare(r):
     discs, cranks = r.throw_added.shape
     carrier = 3 * discs
-    r.compliance[carrier + 1] = r.compliance[carrier + 2] = r.main_bearing_compliance
+    r.compliance[carrier + 1] += r.main_bearing_compliance
+    r.compliance[carrier + 2] += r.main_bearing_compliance
     for c in range(cranks):
         crank = carrier + 3 + 3 * c
-        r.compliance[crank] = r.compliance[crank + 1] = r.crank_support_compliance
+        r.compliance[crank] += r.crank_support_compliance
+        r.compliance[crank + 1] += r.crank_support_compliance
         # A tooth contact of compliance c along its normal turns the crank by c M/(r2 cos alpha)^2.
         lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
-        r.compliance[crank + 2] = r.first_stage_compliance / (lever * lever) if lever > 0.0 else 0.0
-    r.compliance[r.z.shape[0] - 1] = r.housing_compliance
+        if lever > 0.0:
+            r.compliance[crank + 2] += r.first_stage_compliance / (lever * lever)
+    r.compliance[r.z.shape[0] - 1] += r.housing_compliance

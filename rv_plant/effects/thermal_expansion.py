@@ -14,6 +14,7 @@ import math
 
 from fmu_src.effect import Effect, amplitude, shape
 from fmu_src.kernel import kernel
+from fmu_src.variables import Variable
 
 EFFECT = Effect(
     6, "thermal expansion",
@@ -28,24 +29,33 @@ EFFECT = Effect(
         shape("thermal_reference", "K", "temperature at which the gaps are those of the file", 293.15, 200.0, 500.0,
               "assumed: room temperature"),
     ),
+    states=(Variable("housing_temperature", "state", "K", "temperature reached with the time constant of warming"),),
     signals=("lost_motion", "hysteresis", "transmission_error", "torsional_stiffness", "temperature"),
 )
 
 
 @kernel
 def prepare(r):
-    r.reducer_temperature = r.temperature
+    r.housing_temperature = r.temperature
+
+
+@kernel
+def warm(r):
+    if r.thermal_time > 0.0:
+        r.reducer_temperature += r.housing_temperature - r.temperature
+    else:
+        r.reducer_temperature += r.thermal_resistance * r.friction_power
 
 
 @kernel
 def before(r):
-    if r.thermal_time == 0.0:
-        r.reducer_temperature = r.temperature + r.thermal_resistance * r.friction_power
-    r.ring_scale = 1.0 + r.thermal_expansion * (r.reducer_temperature - r.thermal_reference)
+    r.ring_scale *= 1.0 + r.thermal_expansion * (r.reducer_temperature - r.thermal_reference)
 
 
 @kernel
-def advance(r, duration):
+def heat(r, duration):
     if r.thermal_time > 0.0:
         target = r.temperature + r.thermal_resistance * r.friction_power
-        r.reducer_temperature += (target - r.reducer_temperature) * -math.expm1(-duration / r.thermal_time)
+        change = (target - r.housing_temperature) * -math.expm1(-duration / r.thermal_time)
+        r.housing_temperature += change
+        r.reducer_temperature += change

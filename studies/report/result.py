@@ -11,7 +11,7 @@ import xarray as xr
 from fmu_src.faults import InputFault
 from rv_plant.gear_stage import total_ratio
 from rv_plant.geometry import shortening
-from rv_plant.variables import Topology
+from rv_plant.topology import Topology
 
 MICRON = 1e6
 ARCSEC = math.degrees(1.0) * 3600.0

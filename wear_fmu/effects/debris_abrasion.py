@@ -38,7 +38,7 @@ EFFECT = Effect(
 @kernel
 def prepare(r):
     if r.debris_gain != 0.0:
-        r.effects_on = 1
+        r.effects_on += 1
 
 
 @kernel

@@ -32,7 +32,7 @@ EFFECT = Effect(
 @kernel
 def prepare(r):
     if r.misalignment != 0.0 or r.roller_misalignment != 0.0:
-        r.effects_on = 1
+        r.effects_on += 1
 
 
 @kernel

@@ -22,7 +22,7 @@ EFFECT = Effect(
 @kernel
 def prepare(r):
     if r.load_exponent_added != 0.0:
-        r.effects_on = 1
+        r.effects_on += 1
 
 
 @kernel

@@ -21,4 +21,5 @@ EFFECT = Effect(
 
 @kernel
 def prepare(r):
-    r.standing = 1.0 if r.pins == 1 else r.pin_standing_share
+    if r.pins == 0:
+        r.standing += r.pin_standing_share

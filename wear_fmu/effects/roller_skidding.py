@@ -33,7 +33,7 @@ EFFECT = Effect(
 @kernel
 def prepare(r):
     if r.skid_share != 0.0:
-        r.effects_on = 1
+        r.effects_on += 1
 
 
 @kernel

@@ -1,0 +1,293 @@
+"""Effects of one's own, looked at before anything is compiled: what is wrong is said with file and line.
+
+A unit takes an effect only if its hooks change nothing but what the unit's ``ALLOWED`` gives them, by adding or
+multiplying, and read nothing that others change at the same time: then the order of the effects cannot matter.
+"""
+
+import ast
+import importlib
+import importlib.util
+import os
+import sys
+import traceback
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, nearest, source_of
+from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, user_effect_files
+from fmu_src.variables import Variable
+
+# Units that take effects.
+UNITS = tuple(name for name in KERNEL_PACKAGES if (ROOT / name / "effects").is_dir())
+WHERE = " or ".join(f"DIR/{unit}/" for unit in UNITS)
+OWN = "own states"
+# What an operator of ALLOWED stands for.
+SAME = {"+=": ("+=", "-="), "*=": ("*=", "/=")}
+
+
+class EffectFault(ValueError):
+    """Effects that a unit does not take: one line each, with file and line."""
+
+
+@dataclass(frozen=True, order=True)
+class Finding:
+    """One thing that is wrong."""
+
+    file: Path
+    line: int
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.text}" if self.line else f"{self.file}: {self.text}"
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What a unit offers its effects, see ``rv_plant.effects``; ``effects`` are all others, each with its file."""
+
+    hooks: Mapping[str, tuple[str, str]]
+    allowed: Mapping[str, Mapping[str, str]]
+    own: tuple[Variable, ...]
+    effects: Mapping[str, tuple[Any, Path]]
+
+
+def require_sound_effects(package: str) -> None:
+    """EffectFault if anything is wrong with the user's effects of a unit, or with their folder."""
+    folder = None if (ROOT / STAMP).is_file() else os.environ.get(USER_EFFECTS)
+    findings = findings_of(package, folder) if folder else ()
+    if findings:
+        raise EffectFault("\n".join(map(str, findings)))
+
+
+@cache
+def findings_of(package: str, folder: str) -> tuple[Finding, ...]:
+    files = [file for _, file in user_effect_files(package) if file.stem != "__init__"]
+    return (*folder_findings(Path(folder)), *(found for file in files for found in check_file(file, package)))
+
+
+def folder_findings(folder: Path) -> list[Finding]:
+    """Of the folder named by RVWEAR_EFFECTS: that it is there, and that no effect lies where no unit looks."""
+    folder = folder.resolve()
+    if not folder.is_dir():
+        return [Finding(folder, 0, f"{USER_EFFECTS} names this folder, and there is none; effects lie in {WHERE}")]
+    findings = [
+        Finding(file, 1, f"no unit looks here for effects; put it into {WHERE}")
+        for file in sorted([*folder.glob("*.py"), *folder.glob("*/*.py")])
+        if file.parent.name not in KERNEL_PACKAGES and "fmu_src.effect" in file.read_text(encoding="utf-8", errors="replace")
+    ]
+    if not any((folder / unit).is_dir() for unit in UNITS):
+        findings.append(Finding(folder, 0, f"{USER_EFFECTS} names this folder, which has neither {' nor '.join(UNITS)} in it"))
+    return findings
+
+
+def check_any_file(file: Path) -> list[Finding]:
+    """Everything that is wrong with an effect's file; its folder says which unit it is for."""
+    file = file.resolve()
+    if not file.is_file():
+        return [Finding(file, 0, "there is no such file")]
+    if file.parent.name in UNITS:
+        return check_file(file, file.parent.name)
+    text = f"no unit would look for it in this folder; put it into {WHERE}, and name DIR by {USER_EFFECTS}"
+    return [Finding(file, 1, text), *check_file(file, likely_unit(file))]
+
+
+def likely_unit(file: Path) -> str:
+    """The unit most of whose hooks a file has."""
+    text = file.read_text(encoding="utf-8", errors="replace")
+    return max(UNITS, key=lambda unit: sum(f"def {hook}({a})" in text for hook, (a, _) in frame_of(unit, file).hooks.items()))
+
+
+def check_file(file: Path, package: str) -> list[Finding]:
+    """Everything that is wrong with the file of an effect of a unit, in the order of its lines."""
+    frame = frame_of(package, file)
+    try:
+        tree = ast.parse(file.read_bytes(), str(file))
+    except SyntaxError as error:
+        return [Finding(file, error.lineno or 1, f"syntax error: {error.msg}")]
+    source = source_of(file, tree)
+    findings = [*of_name(file, frame), *of_hooks(source, frame)]
+    if "EFFECT" not in source.names:
+        findings.append(Finding(file, 1, "no EFFECT: the file must say EFFECT = Effect(...), see docs/effects.md"))
+    module, faults = imported(file, package)
+    findings += faults
+    effect = getattr(module, "EFFECT", None)
+    if hasattr(effect, "variables") and hasattr(effect, "states"):
+        findings += of_variables(tree, file, effect, frame)
+        findings += of_kernels(source, effect, frame)
+    elif module is not None and effect is not None:
+        findings.append(Finding(file, line_of(tree, "EFFECT"), "EFFECT is no Effect of fmu_src.effect"))
+    return sorted(set(findings))
+
+
+def frame_of(package: str, file: Path) -> Frame:
+    """The unit's frame as an effect in ``file`` meets it."""
+    effects = importlib.import_module(f"{package}.effects")
+    variables = importlib.import_module(f"{package}.variables")
+    others = {name: (effect, Path(sys.modules[f"{package}.effects.{name}"].__file__ or "")) for name, effect in effects.EFFECTS.items()}
+    others = {name: other for name, other in others.items() if other[1].resolve() != file.resolve()}
+    return Frame(effects.HOOKS, effects.ALLOWED, tuple(variables.own_variables()), others)
+
+
+def imported(file: Path, package: str) -> tuple[ModuleType | None, list[Finding]]:
+    """The file's module, run anew unless it is loaded; or what went wrong and where."""
+    name = f"{package}.effects.{file.stem}"
+    loaded = sys.modules.get(name)
+    if loaded is not None and Path(loaded.__file__ or "").resolve() == file.resolve():
+        return loaded, []
+    paths = sys.modules[f"{package}.effects"].__path__
+    if str(file.parent) not in paths:
+        paths.append(str(file.parent))
+    specification = importlib.util.spec_from_file_location(name, file)
+    if specification is None or specification.loader is None:
+        return None, [Finding(file, 1, "Python cannot load this file")]
+    module = importlib.util.module_from_spec(specification)
+    try:
+        specification.loader.exec_module(module)
+    except Exception as error:  # noqa: BLE001: whatever the file does when it is imported
+        lines = [f.lineno or 1 for f in traceback.extract_tb(error.__traceback__) if f.filename == str(file)]
+        return None, [Finding(file, lines[-1] if lines else 1, f"{type(error).__name__}: {error}")]
+    return module, []
+
+
+def of_name(file: Path, frame: Frame) -> list[Finding]:
+    if not file.stem.isidentifier():
+        return [Finding(file, 1, "the file's name must be a Python name: letters, digits and _")]
+    if file.stem in frame.effects or file.stem == "composed":
+        return [Finding(file, 1, f"there is an effect {file.stem} already; rename the file")]
+    return []
+
+
+def of_hooks(source: Source, frame: Frame) -> list[Finding]:
+    """Hooks with other arguments than the unit gives, or that are no kernels; kernels that nobody calls; no hook at all."""
+    findings, kernels = [], source.kernels()
+    for name, function in source.functions.items():
+        arguments = ", ".join(a.arg for a in function.args.args)
+        if name not in frame.hooks:
+            continue
+        wanted, operation = frame.hooks[name]
+        if len(arguments.split(",")) != len(wanted.split(",")) or not arguments:
+            findings.append(Finding(source.file, function.lineno, f"the unit calls {name}({wanted}), here it is {name}({arguments})"))
+        if not is_kernel(function):
+            findings.append(Finding(source.file, function.lineno, f"{name} is a hook and must be a kernel: write @kernel above it"))
+        if operation == "*" and not always_returns(function.body):
+            findings.append(Finding(source.file, function.lineno, f"{name} must return a factor on every way through it (1.0 where it is off)"))
+    hooks = [name for name in source.functions if name in frame.hooks]
+    called = reached(source, hooks)
+    for name, function in kernels.items():
+        if name not in called:
+            close = nearest(name, frame.hooks) or f"; hooks are {', '.join(frame.hooks)}"
+            findings.append(Finding(source.file, function.lineno, f"{name} is no hook and no hook calls it{close}"))
+    if not hooks and not kernels:
+        findings.append(Finding(source.file, 1, f"no hook, so that the effect does nothing; hooks are {', '.join(frame.hooks)}"))
+    return findings
+
+
+def reached(source: Source, names: Iterable[str]) -> set[str]:
+    """The file's functions that are met from these."""
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        name = left.pop()
+        if name not in found:
+            found.add(name)
+            left += [n.id for n in ast.walk(source.functions[name]) if isinstance(n, ast.Name) and n.id in source.functions]
+    return found
+
+
+def always_returns(body: list[ast.stmt]) -> bool:
+    last = body[-1]
+    if isinstance(last, ast.If):
+        return always_returns(last.body) and bool(last.orelse) and always_returns(last.orelse)
+    return isinstance(last, ast.Return) and last.value is not None
+
+
+def of_variables(tree: ast.Module, file: Path, effect: Any, frame: Frame) -> list[Finding]:
+    """Names that the unit or another effect has already, or that the effect itself has twice."""
+    taken = {v.name: f"the unit has a {v.role}" for v in frame.own}
+    for name, (other, _) in frame.effects.items():
+        taken |= {v.name: f"the effect {name} has a {v.role}" for v in other.variables()}
+    findings = []
+    for v in effect.variables():
+        if v.name in taken:
+            findings.append(Finding(file, line_of(tree, v.name), f"{taken[v.name]} {v.name} already; choose another name"))
+        taken[v.name] = "the effect itself has"
+    return findings
+
+
+def line_of(tree: ast.Module, name: str) -> int:
+    """The line that writes a name as text, or else that of EFFECT."""
+    texts = [n.lineno for n in ast.walk(tree) if isinstance(n, ast.Constant) and n.value == name]
+    effects = [n.lineno for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == "EFFECT"]
+    return texts[-1] if texts else effects[0] if effects else 1
+
+
+def of_kernels(source: Source, effect: Any, frame: Frame) -> list[Finding]:
+    """What the hooks read and change, held against what they may."""
+    states = {v.name for v in effect.states}
+    known = {v.name: v for v in [*frame.own, *(v for other, _ in frame.effects.values() for v in other.variables()), *effect.variables()]}
+    dimensions = {name: len(v.shape) for name, v in known.items()}
+    findings = []
+    for hook in frame.hooks:
+        if hook not in source.functions:
+            continue
+        reading = read_hook(source, hook, dimensions)
+        findings += [Finding(t.file, t.line, t.text) for t in reading.troubles]
+        for use in reading.uses:
+            rule = of_reading if use.action == "read" else of_change
+            text = rule(hook, use.name, use.action, states, known, frame)
+            if text:
+                findings.append(Finding(use.file, use.line, text))
+    return findings
+
+
+def read_hook(source: Source, hook: str, dimensions: Mapping[str, int]) -> Reading:
+    reading = Reading(source, dimensions)
+    others = len(source.functions[hook].args.args) - 1
+    reading.follow(source, hook, (RECORD, *(frozenset() for _ in range(others))))
+    return reading
+
+
+def of_change(hook: str, name: str, action: str, states: set[str], known: Mapping[str, Variable], frame: Frame) -> str:
+    """Why a hook may not change a field so; empty if it may."""
+    allowed = frame.allowed[hook]
+    if name in states and OWN in allowed:
+        return ""
+    if name not in allowed:
+        others = [other for other in frame.hooks if name in frame.allowed[other] or (name in states and OWN in frame.allowed[other])]
+        elsewhere = f" ({', '.join(others)} may)" if others else ""
+        may = ", ".join(f"its {field}" if field == OWN else field for field in allowed) or "nothing"
+        return f"{hook} may not change r.{name}, {meaning(known[name])}{elsewhere}; it may change {may}"
+    if action not in SAME[allowed[name]]:
+        return f"{hook} must not change r.{name} by {action}, because other effects act on it too: write {allowed[name]}"
+    return ""
+
+
+def of_reading(hook: str, name: str, action: str, states: set[str], known: Mapping[str, Variable], frame: Frame) -> str:
+    """Why a hook may not read a field: other effects change it at the same stage."""
+    by = "effects" if name in frame.allowed[hook] else owner_that_changes(hook, name, frame) if name not in states else ""
+    if not by:
+        return ""
+    later = [other for other in list(frame.hooks)[list(frame.hooks).index(hook) + 1 :] if name not in frame.allowed[other]]
+    hint = f"; {', '.join(later)} may read it" if later and by == "effects" else ""
+    return f"{hook} reads r.{name}, {meaning(known[name])}, which other {by} changes in the same stage{hint}".replace(
+        "other effects changes", "effects change"
+    )
+
+
+def owner_that_changes(hook: str, name: str, frame: Frame) -> str:
+    """The effect whose state this is, if its own hook of this name changes it."""
+    for owner, (other, file) in frame.effects.items():
+        if name in {v.name for v in other.states}:
+            source = source_of(file, ast.parse(file.read_bytes()))
+            fields = {v.name: len(v.shape) for v in [*frame.own, *(v for o, _ in frame.effects.values() for v in o.variables())]}
+            if hook in source.functions and any(u.name == name and u.action != "read" for u in read_hook(source, hook, fields).uses):
+                return f"effect {owner}"
+    return ""
+
+
+def meaning(v: Variable) -> str:
+    return f"{'an' if v.role[0] in 'aeiou' else 'a'} {v.role} ({v.description})" if v.description else f"a {v.role}"

@@ -1,0 +1,97 @@
+"""What can be wrong with a reducer or a run, and the look at its geometry before the first step.
+
+The codes are the status of the plant's entry points; the texts name variables of the record.
+"""
+
+import math
+
+from fmu_src.kernel import kernel
+
+from rv_plant.geometry import centre_curve_curvature
+from rv_plant.output_pins import has_output_pins
+
+QUASI_STATIC, DYNAMIC = 0, 1
+
+NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
+NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
+OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
+FAULTS = {
+    NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
+    " {residual:.3g} of the load after {iterations} iterations."
+    " Lower the load, or check clearances and profile errors (they are in m, not um)",
+    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
+    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m plus equidistant_modification exceeds the"
+    " smallest convex radius of the centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
+    PINS_OVERLAP: "neighbouring pins overlap: pin_radius {pin_radius:.6g} m is too large for"
+    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce pin_radius or the number of pins",
+    ROLLERS_OVERLAP: "neighbouring rollers overlap: roller_radius {roller_radius:.6g} m is too large for the number of"
+    " rollers between the races. Reduce roller_radius or the number of rollers",
+    RING_OPEN: "the pins do not close the ring: a cycloid disc needs one pin more than it has lobes."
+    " Correct pins or lobes in [topology]",
+    NO_MOTION: "the integrator's step fell below 1e-10 s (crank angle {crank_angle:.6g} rad, {rejected} rejected steps)."
+    " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
+    TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
+    " Set fidelity to dynamic, or drive to speed",
+    OUTPUT_HOLES_OVERLAP: "holes for the output pins overlap each other or the bearing: output_pin_radius {output_pin_radius:.6g} m"
+    " plus eccentricity {eccentricity:.6g} m is too large on output_circle_radius {output_circle_radius:.6g} m beside"
+    " outer_race_radius {outer_race_radius:.6g} m. Reduce output_pin_radius, outer_race_radius or the number of output pins",
+    OUTPUT_HOLES_OPEN: "holes for the output pins cut the flanks: output_circle_radius {output_circle_radius:.6g} m plus"
+    " output_pin_radius {output_pin_radius:.6g} m and eccentricity reaches the disc's roots."
+    " Reduce output_circle_radius or output_pin_radius",
+    OUTPUT_PINS_AT_REST: "fidelity = dynamic is not there for output through pins in holes of the disc."
+    " Set fidelity to quasi-static",
+    CRANKS_ON_AXIS: "crank_circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
+    " crank_circle_radius, or give the reducer output_pins in [topology]",
+    LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
+    " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
+    " or in motion a looser dynamic_tolerance",
+    RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
+    " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
+    " the clearance is bearing_clearance",
+}
+
+
+@kernel
+def geometry_fault(r):
+    """0, or the fault that makes this geometry impossible."""
+    pins, lobes, rollers = r.pin_x.shape[0], r.lobe_pitch_error.shape[1], r.roller_force.shape[2]
+    if pins != lobes + 1:
+        return RING_OPEN
+    if not r.pin_radius < r.pin_circle_radius * math.sin(math.pi / pins):
+        return PINS_OVERLAP
+    fit = r.outer_race_radius - r.inner_race_radius - 2.0 * r.roller_radius
+    if not abs(fit) < 1e-4:
+        return RACES_DO_NOT_FIT
+    if not r.roller_radius < (r.inner_race_radius + r.roller_radius) * math.sin(math.pi / rollers):
+        return ROLLERS_OVERLAP
+    fault = output_fault(r)
+    if fault != 0:
+        return fault
+    circle = r.pin_circle_radius + r.shift_modification
+    k1 = r.eccentricity * pins / circle
+    if not k1 < 1.0:
+        return PRIMED
+    radius = r.pin_radius + r.equidistant_modification
+    for i in range(721):
+        if not radius * centre_curve_curvature(math.pi * i / 720.0, lobes, circle, k1) < 1.0:
+            return UNDERCUT
+    return 0
+
+
+@kernel
+def output_fault(r):
+    """0, or the fault that keeps the load from reaching the discs."""
+    if not has_output_pins(r):
+        return CRANKS_ON_AXIS if r.crank_circle_radius == 0.0 else 0
+    if r.fidelity == DYNAMIC:
+        return OUTPUT_PINS_AT_REST
+    pins = r.output_pin_force.shape[1]
+    hole = r.output_pin_radius + r.eccentricity + r.output_clearance
+    bearing = r.outer_race_radius + r.crank_circle_radius
+    if not hole < r.output_circle_radius * math.sin(math.pi / pins) or not hole + bearing < r.output_circle_radius:
+        return OUTPUT_HOLES_OVERLAP
+    root = r.pin_circle_radius - r.eccentricity - r.pin_radius - r.equidistant_modification
+    if not hole + r.output_circle_radius < root:
+        return OUTPUT_HOLES_OPEN
+    return 0

@@ -1,0 +1,25 @@
+"""The counts that fix the sizes of a unit's arrays."""
+
+from dataclasses import dataclass
+
+from fmu_src.variables import Sizes
+
+
+@dataclass(frozen=True)
+class Topology:
+    """How many of each part a reducer has."""
+
+    discs: int
+    cranks: int
+    pins: int
+    lobes: int
+    rollers: int
+    # Pins with rollers in holes of the discs; 0: the output goes through the cranks, as in an RV reducer.
+    output_pins: int = 0
+
+    def sizes(self) -> Sizes:
+        """The same by axis; arrays over output pins are never empty."""
+        return Sizes({
+            "disc": self.discs, "crank": self.cranks, "pin": self.pins, "lobe": self.lobes, "roller": self.rollers,
+            "output pin": max(1, self.output_pins),
+        })  # fmt: skip
