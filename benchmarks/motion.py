@@ -101,6 +101,17 @@ def scipy_states(problem: Problem, function, jac, method: str, tolerance: float,
     return states
 
 
+def sundials_states(problem: Problem, solver):
+    """States at the communication points of a solver that was given the start, or None."""
+    states = []
+    for time in problem.times:
+        found = solver.step(time, method="normal", tstop=time)
+        if not found.success:
+            return None
+        states.append(np.array(found.y).ravel())
+    return states
+
+
 def cvode_states(problem: Problem, tolerance: float, jac: bool, order: int = 5):
     """SUNDIALS CVODE, BDF, dense, stopping at the communication points without a new start."""
     from sksundae.cvode import CVODE
@@ -117,13 +128,7 @@ def cvode_states(problem: Problem, tolerance: float, jac: bool, order: int = 5):
     solver = CVODE(function, rtol=1e-12, atol=tolerance * problem.scale, max_num_steps=100_000, first_step=1e-6,
                    max_order=order, **options)
     solver.init_step(0.0, problem.start)
-    states = []
-    for time in problem.times:
-        found = solver.step(time, method="normal", tstop=time)
-        if not found.success:
-            return None
-        states.append(np.array(found.y).ravel())
-    return states
+    return sundials_states(problem, solver)
 
 
 def ida_states(problem: Problem, tolerance: float, jac: bool):
@@ -144,13 +149,7 @@ def ida_states(problem: Problem, tolerance: float, jac: bool):
     options = {"jacfn": tangent} if jac else {}
     solver = IDA(residual, rtol=1e-12, atol=tolerance * problem.scale, max_num_steps=100_000, first_step=1e-6, **options)
     solver.init_step(0.0, problem.start, problem.ours(0.0, problem.start))
-    states = []
-    for time in problem.times:
-        found = solver.step(time, method="normal", tstop=time)
-        if not found.success:
-            return None
-        states.append(np.array(found.y).ravel())
-    return states
+    return sundials_states(problem, solver)
 
 
 def run(problem: Problem, reference, states: Callable, runs: int) -> tuple[Point, int]:

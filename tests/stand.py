@@ -63,12 +63,24 @@ def run_coupled(reducer, hours, turns=39, steps_per_turn=72, **values):
 
     ``values`` go to each of the two units that has a variable of the name.
     """
-    ours = [{k: v for k, v in values.items() if k in t.by_name} for t in (reducer.plant, reducer.wear)]
-    machine, surface = (records_of(t, **v) for t, v in zip((reducer.plant, reducer.wear), ours))
+    machine, surface = pair_of(reducer, **values)
     assert plant.initialise(machine) == 0
     step = crank_period(machine) / steps_per_turn
     count = turns * steps_per_turn
     surface["acceleration"] = hours * 3600.0 / (count * step)
+    for _ in steps_together(machine, surface, step, count):
+        pass
+    return only(machine), only(surface)
+
+
+def pair_of(reducer, **values):
+    """Records of plant and wear; ``values`` go to each of the two that has a variable of the name."""
+    ours = [{k: v for k, v in values.items() if k in t.by_name} for t in (reducer.plant, reducer.wear)]
+    return tuple(records_of(t, **v) for t, v in zip((reducer.plant, reducer.wear), ours))
+
+
+def steps_together(machine, surface, step, count):
+    """Initialises the wear unit of an initialised plant and steps both; yields after each step [s]."""
     exchange(machine, surface, SHARED)
     assert accumulator.initialise(surface) == 0
     for i in range(count):
@@ -76,7 +88,7 @@ def run_coupled(reducer, hours, turns=39, steps_per_turn=72, **values):
         exchange(machine, surface, SHARED)
         assert accumulator.step(surface, i * step, step) == 0
         exchange(surface, machine, BACK)
-    return only(machine), only(surface)
+        yield
 
 
 def exchange(source, target, names):

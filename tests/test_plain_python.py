@@ -10,8 +10,7 @@ import pytest
 
 from reducers.reducer import load_reducer
 from rv_plant import plant
-from stand import BACK, SHARED, crank_period, exchange, records_of
-from wear_fmu import accumulator
+from stand import crank_period, pair_of, steps_together
 
 STEPS, HOURS_PER_STEP = 4, 20.0
 # What each case asks of the kernels beyond the ideal reducer.
@@ -29,20 +28,12 @@ def trajectory(case):
     """State cells of both units after each of some coupled steps."""
     reducer = load_reducer("RV20E-121")
     tables = reducer.plant, reducer.wear
-    machine, surface = (
-        records_of(t, **{k: v for k, v in CASES[case].items() if k in t.by_name}).view(np.recarray) for t in tables
-    )
+    machine, surface = (records.view(np.recarray) for records in pair_of(reducer, **CASES[case]))
     rows = []
     assert plant.initialise(machine) == 0
     step = crank_period(machine) / 40
     surface["acceleration"] = HOURS_PER_STEP * 3600 / step
-    exchange(machine, surface, SHARED)
-    assert accumulator.initialise(surface) == 0
-    for i in range(STEPS):
-        assert plant.step(machine, i * step, step) == 0
-        exchange(machine, surface, SHARED)
-        assert accumulator.step(surface, i * step, step) == 0
-        exchange(surface, machine, BACK)
+    for _ in steps_together(machine, surface, step, STEPS):
         rows.append([{v.name: np.array(r[v.name][0]) for v in t.of_role("output", "state")}
                      for t, r in zip(tables, (machine, surface))])
     return rows
