@@ -37,6 +37,11 @@ class Kernel:
         return f"<kernel {self.module}.{self.name}>"
 
     @property
+    def origin(self) -> str:
+        """Where in its module it stands; nested functions of one name may be several."""
+        return f"{self.module}:{self.function.__qualname__}:{self.function.__code__.co_firstlineno}"
+
+    @property
     def file(self) -> str:
         return self.function.__code__.co_filename
 

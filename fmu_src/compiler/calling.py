@@ -141,17 +141,17 @@ def tuple_caller(address: int, c_arguments: list, given: list, result: Group) ->
 
 def unit_caller(kernel: "Kernel", layout: Layout) -> Callable:
     """An entry point's caller: ``f(records, ...)``."""
-    function = unit_function(kernel, layout)
+    function = entry_function(loading.module_addresses(kernel, layout), kernel.name)
     return lambda records, *more: function(row_of(records)[0], *more)
 
 
-def unit_function(kernel: "Kernel", layout: Layout) -> Callable:
-    numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[kernel.name])
-    return loading.c_function(loading.unit_addresses(kernel, layout)[kernel.name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
+def entry_function(addresses: dict[str, int], name: str) -> Callable:
+    numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[name])
+    return loading.c_function(addresses[name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
 
 
 def bound_unit(initialise: "Kernel", step: "Kernel", records: np.ndarray) -> tuple[Callable, Callable]:
     """Both entry points for one record, without a look at the arguments of each call."""
-    layout, cells = layout_of(records.dtype), ctypes.c_void_p(row_of(records)[0])
-    first, following = unit_function(initialise, layout), unit_function(step, layout)
+    addresses, cells = loading.unit_addresses(initialise, step, layout_of(records.dtype)), ctypes.c_void_p(row_of(records)[0])
+    first, following = entry_function(addresses, "initialise"), entry_function(addresses, "step")
     return lambda: first(cells), lambda time, duration: following(cells, time, duration)

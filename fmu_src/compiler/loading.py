@@ -14,6 +14,7 @@ import llvmlite.binding as llvm
 
 from fmu_src.compiler import store
 from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
+from fmu_src.progress import task
 from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Record, Records, Type
 
 if TYPE_CHECKING:
@@ -26,6 +27,9 @@ LIBM = {
     "sincos", "memcpy", "memmove", "memset",
 }  # fmt: skip
 
+# A plant takes that long [s], all else less.
+USUAL_TIME = 3.0
+
 # Arguments of a unit's entry points after its records, all numbers.
 ENTRY_POINTS = {"initialise": (), "step": (FLOAT, FLOAT)}
 
@@ -37,10 +41,6 @@ class Code:
     objects: dict[str, bytes]
     results: dict[str, str]
     needs: list[list[str]] = field(default_factory=list)
-
-
-# Called with a sentence before something is compiled; the command line shows it.
-announce: Callable[[str], None] = lambda text: None
 
 
 def entry_symbol(kernel: "Kernel", layout: Layout) -> str:
@@ -61,7 +61,7 @@ def unit_code(initialise: "Kernel", step: "Kernel", layout: Layout, triples: tup
         return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
 
     what = f"{initialise.module.partition('.')[0]} ({layout.dtype.itemsize // 1024} kB a record)"
-    return compiled(what, ("unit", initialise.module, layout.digest), Module(), fill, triples).objects
+    return compiled(what, ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
 
 
 def call_code(kernel: "Kernel", arguments: tuple[Type, ...]) -> Code:
@@ -71,7 +71,7 @@ def call_code(kernel: "Kernel", arguments: tuple[Type, ...]) -> Code:
 
     signature = "".join(kind.code for kind in arguments)
     triples = (host_triple(),)
-    return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.module, kernel.name, signature), Module(separate), fill, triples)
+    return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.origin, signature), Module(separate), fill, triples)
 
 
 def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dict[str, Type]], triples: tuple[str, ...]) -> Code:
@@ -81,9 +81,9 @@ def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dic
     found = {triple: entry for triple, name in names.items() if (entry := store.read(name)) and is_current(entry[0])}
     missing = [triple for triple in triples if triple not in found]
     if missing:
-        announce(f"compiling {what}")
-        results = fill(module)
-        optimised_module = optimised(module.text(host_triple()), list(results))
+        with task(f"compiling {what}, once", about=USUAL_TIME):
+            results = fill(module)
+            optimised_module = optimised(module.text(host_triple()), list(results))
         foreign = external_symbols(optimised_module) - LIBM - set(module.needs)
         if foreign:
             raise KernelFault(f"{what}: the kernels need {', '.join(sorted(foreign))}, which the C library does not have")
@@ -137,15 +137,20 @@ def load_object(code: bytes, symbols: tuple[str, ...]) -> tuple[int, ...]:
     return tuple(engine.get_function_address(symbol) for symbol in symbols)
 
 
-_units: dict[tuple[str, str], dict[str, int]] = {}
+_units: dict[tuple["Kernel", "Kernel", str], dict[str, int]] = {}
 
 
-def unit_addresses(kernel: "Kernel", layout: Layout) -> dict[str, int]:
-    """Addresses of the entry points of a kernel's module for records of this layout."""
-    key = (kernel.module, layout.digest)
+def module_addresses(kernel: "Kernel", layout: Layout) -> dict[str, int]:
+    """Addresses of the entry points of the module that an entry point stands in."""
+    beside = kernel.function.__globals__
+    initialise, step = (beside[name] for name in ENTRY_POINTS)
+    return unit_addresses(initialise, step, layout)
+
+
+def unit_addresses(initialise: "Kernel", step: "Kernel", layout: Layout) -> dict[str, int]:
+    """Addresses of a unit's entry points for records of this layout."""
+    key = (initialise, step, layout.digest)
     if key not in _units:
-        beside = kernel.function.__globals__
-        initialise, step = (beside[name] for name in ENTRY_POINTS)
         triple = host_triple()
         code = unit_code(initialise, step, layout, (triple,))[triple]
         _units[key] = dict(zip(ENTRY_POINTS, load_object(code, tuple(ENTRY_POINTS))))
@@ -158,7 +163,7 @@ def call_address(kernel: "Kernel", arguments: tuple[Type, ...]) -> tuple[int, st
     known = {layout.digest: layout for kind in arguments for layout in layouts_in(kind)}
     for symbol, module, name, digest in code.needs:
         needed = getattr(sys.modules[module], name)
-        llvm.add_symbol(symbol, unit_addresses(needed, known[digest])[name])
+        llvm.add_symbol(symbol, module_addresses(needed, known[digest])[name])
     (address,) = load_object(code.objects[host_triple()], ("call",))
     return address, code.results["call"]
 
