@@ -57,14 +57,14 @@ def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, li
     from discrepancy.catalogue.page import page_of
     from discrepancy.catalogue.plots import figure
     from discrepancy.catalogue.signature import new_bench, signature
+    from pages.render import written
 
     bench, shown = new_bench(reducer), []
     with Progress(len(chosen), "effects") as progress:
         for e in chosen:
             shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
             progress.advance()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page_of(shown), encoding="utf-8")
+    written(page_of(shown), path)
     return {e.name: found for e, found, _ in shown}
 
 

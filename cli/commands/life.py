@@ -20,7 +20,7 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
     hours.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
     hours.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
     hours.add_argument("--tolerance", type=float, default=0.01,
-                      help="error of the depths over those at the end (default 0.01)")
+                       help="error of the depths over those at the end (default 0.01)")
     hours.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
     hours.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
     hours.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
