@@ -7,6 +7,7 @@ import argparse
 import os
 import sys
 
+from fmu_src.effect_check import EffectFault
 from fmu_src.native import NativeFault
 from fmu_src.package import PackageFault
 from orchestrator import commands, system_commands
@@ -21,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser().parse_args(arguments)
     try:
         return options.run(options)
-    except InputFault as fault:
+    except (InputFault, EffectFault) as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
     except (RunFault, PackageFault, NativeFault) as fault:

@@ -11,7 +11,7 @@ from discrepancy.problem import Record
 from orchestrator.coupled import COLUMNS
 from orchestrator.hysteresis import LOST_MOTION_SHARE, torque_way
 from orchestrator.life import peak_of_circle
-from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
+from rv_plant.locked_output import ELEMENTS, locked_output_loop
 
 Values = Mapping[str, float]
 STEEL = 7850.0
