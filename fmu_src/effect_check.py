@@ -111,6 +111,8 @@ def check_file(file: Path, package: str) -> list[Finding]:
         tree = ast.parse(file.read_bytes(), str(file))
     except SyntaxError as error:
         return [Finding(file, error.lineno or 1, f"syntax error: {error.msg}")]
+    except ValueError as error:
+        return [Finding(file, 1, f"no text of a Python file: {error}")]
     source = source_of(file, tree)
     findings = [*of_name(file, frame), *of_hooks(source, frame)]
     if "EFFECT" not in source.names:
@@ -118,7 +120,7 @@ def check_file(file: Path, package: str) -> list[Finding]:
     module, faults = imported(file, package)
     findings += faults
     effect = getattr(module, "EFFECT", None)
-    if hasattr(effect, "variables") and hasattr(effect, "states"):
+    if is_effect(effect):
         findings += of_variables(tree, file, effect, frame)
         findings += of_kernels(source, effect, frame)
     elif module is not None and effect is not None:
@@ -126,11 +128,20 @@ def check_file(file: Path, package: str) -> list[Finding]:
     return sorted(set(findings))
 
 
+def is_effect(found: Any) -> bool:
+    """By what it has: the class stands above this module."""
+    return hasattr(found, "variables") and hasattr(found, "states")
+
+
 def frame_of(package: str, file: Path) -> Frame:
-    """The unit's frame as an effect in ``file`` meets it."""
+    """The unit's frame as an effect in ``file`` meets it, with the effects that are loaded and those beside it."""
     effects = importlib.import_module(f"{package}.effects")
     variables = importlib.import_module(f"{package}.variables")
     others = {name: (effect, Path(sys.modules[f"{package}.effects.{name}"].__file__ or "")) for name, effect in effects.EFFECTS.items()}
+    for beside in file.parent.glob("*.py") if file.parent.name == package else ():
+        effect = getattr(imported(beside, package)[0], "EFFECT", None)
+        if beside.stem not in others and is_effect(effect):
+            others[beside.stem] = effect, beside
     others = {name: other for name, other in others.items() if other[1].resolve() != file.resolve()}
     return Frame(effects.HOOKS, effects.ALLOWED, getattr(effects, "NEEDS", {}), tuple(variables.own_variables()), others)
 

@@ -114,6 +114,12 @@ def test_kernels_that_a_hook_calls_are_followed(tmp_path):
     ]  # fmt: skip
 
 
+def test_what_a_hook_calls_must_be_a_kernel(tmp_path):
+    assert told(tmp_path, hook("x = twice(r.my_size)") + "\n\ndef twice(x):\n    return 2.0 * x\n") == [
+        (FIRST + 2, "twice is no kernel: write @kernel above it")
+    ]
+
+
 def test_kernels_that_are_imported_are_followed(tmp_path):
     text = hook("clear_flanks(r)").replace("rv_plant.gear_stage import planet_radius", "rv_plant.mesh import clear_flanks")
     found = check_any_file(written(tmp_path, text))
@@ -169,6 +175,11 @@ def test_a_wrong_declaration_is_told(tmp_path, old, new, line, message):
     assert any(found[0] == line and message in found[1] for found in told(tmp_path, HEAD.replace(old, new, 1) + hook("return")[len(HEAD) :]))
 
 
+def test_names_of_a_neighbour_are_told(tmp_path):
+    written(tmp_path, HEAD + GOOD, name="neighbour")
+    assert (9, "the effect neighbour has a parameter my_size already; choose another name") in told(tmp_path, HEAD + GOOD)
+
+
 def test_wrong_places_are_told(tmp_path):
     assert "there is an effect drag already" in told(tmp_path, hook("return"), name="drag")[0][1]
     assert "must be a Python name" in told(tmp_path, hook("return"), name="my-effect")[0][1]
@@ -182,7 +193,7 @@ def test_wrong_places_are_told(tmp_path):
 
 
 def test_command_says_what_it_finds(tmp_path, capsys):
-    good, bad = written(tmp_path, HEAD + GOOD), written(tmp_path, hook("r.z[0] = 0.0"), name="other")
+    good, bad = written(tmp_path, HEAD + GOOD), written(tmp_path, hook("r.z[0] = 0.0").replace("my_", "other_"), name="other")
     assert main(["effects", "--check", str(good)]) == 0
     assert main(["effects", "--check", str(good), str(bad)]) == 2
     assert f"{bad}:{FIRST + 2}: before may not change r.z" in capsys.readouterr().out
