@@ -26,7 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
-    except run_faults() as fault:
+    except RunFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 1
     except BrokenPipeError:
@@ -39,12 +39,6 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f"rvwear {options.command}: interrupted", file=sys.stderr)
         return 130
-
-
-def run_faults() -> tuple[type[Exception], ...]:
-    """What ends a run with a message; the compiler's is known only where the compiler is loaded."""
-    native = sys.modules.get("fmu_src.native")
-    return (RunFault,) if native is None else (RunFault, native.NativeFault)
 
 
 def parser() -> argparse.ArgumentParser:

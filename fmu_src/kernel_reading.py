@@ -289,6 +289,8 @@ class Call:
                 if Part() in parts:
                     self.trouble(node, f"{ast.unparse(node.func)} gets the whole record and cannot be looked into")
             return NOTHING
+        if not is_kernel(source.functions[name]):
+            self.trouble(node, f"{name} is no kernel: write @kernel above it")
         parameters = [a.arg for a in source.functions[name].args.args]
         if len(arguments) + len(named) != len(parameters):
             self.trouble(node, f"{name} takes {len(parameters)} arguments ({', '.join(parameters)}), not {len(arguments) + len(named)}")
