@@ -11,7 +11,9 @@ import sys
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, life, reducer, reproduce, system
 from cli.completion import answer_shell
+from cli.progress import new_screen
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (reducer, system, life, ensemble, reproduce, build, campaign, comparison, effects, completion)
@@ -22,7 +24,8 @@ def main(arguments: list[str] | None = None) -> int:
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        return options.run(options)
+        with told_to(new_screen()):
+            return options.run(options)
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2

@@ -27,7 +27,7 @@ def build(options: argparse.Namespace) -> int:
 
     reducer = load_reducer(options.reducer)
     wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
-    built, packages = build_units(reducer, Path(options.output), wanted, screen.busy)
+    built, packages = build_units(reducer, Path(options.output), wanted)
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})
     else:
