@@ -97,7 +97,7 @@ def shared_library(name: str, table: str, code: bytes, target: Platform, portabl
         file = f"{name}{target.suffix}"
         link = [flag.format(file=file) for flag in target.link_flags]
         command = [*compiler(target, portable), *FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o", "-o", file, *link]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise NativeFault(f"{name} for {target.name}: {command[0]} failed: {done.stderr.strip()[-2000:]}")
         library = (folder / file).read_bytes()

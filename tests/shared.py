@@ -14,7 +14,7 @@ except ImportError:  # Windows: every worker makes its own.
 @contextmanager
 def alone(path: Path):
     """Only one process at a time gets in here; the system lets go of a process that is gone."""
-    with path.open("w") as file:
+    with path.open("wb") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
