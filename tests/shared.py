@@ -1,6 +1,7 @@
-"""What is made once per run of the tests, whichever worker of pytest-xdist asks first."""
+"""What is made once per run of the tests, whichever worker of pytest-xdist asks first; what several tests ask."""
 
 import os
+import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
@@ -31,3 +32,15 @@ def made_once(tmp_path_factory, name: str, make: Callable[[Path], None]) -> Path
             make(folder)
             complete.touch()
     return folder
+
+
+def gone(group: int, seconds: float = 10.0) -> bool:
+    """Whether all processes of a group end soon."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False

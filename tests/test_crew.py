@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ from discrepancy.prediction.crew import HOW, WAYS, Crew, shares
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault, RunFault
+from shared import gone
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -157,15 +157,3 @@ def test_ctrl_c_ends_all_processes_with_one_traceback(way, tmp_path, heard_by, b
     errors = process.communicate(timeout=30)[1]
     assert errors.count("Traceback") == 1 and "KeyboardInterrupt" in errors
     assert gone(process.pid)
-
-
-def gone(group: int, seconds: float = 10.0) -> bool:
-    """Whether all processes of a group end soon."""
-    until = time.monotonic() + seconds
-    while time.monotonic() < until:
-        try:
-            os.killpg(group, 0)
-        except ProcessLookupError:
-            return True
-        time.sleep(0.1)
-    return False

@@ -10,8 +10,7 @@ import os
 import signal
 import sys
 import weakref
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from multiprocessing import resource_tracker
 from typing import Any
 
@@ -19,6 +18,7 @@ import numpy as np
 
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault, RunFault
+from orchestrator.interrupts import interrupts_later
 
 # Says how processes begin, before what is usual on this system.
 HOW = "RVWEAR_PROCESSES"
@@ -40,6 +40,9 @@ class Crew:
         self.rounds = 0
         way = way_to_begin()
         context = multiprocessing.get_context(way)
+        if way == "spawn":
+            # It begins with the first process, and its beginning lets Ctrl-C through.
+            resource_tracker.ensure_running()
         self.pipes, self.processes = [], []
         for _ in range(1, jobs):
             here, there = context.Pipe()
@@ -47,7 +50,7 @@ class Crew:
             copied = [here, *self.pipes] if way == "fork" else []
             process = context.Process(target=serve, args=(there, predict, copied), daemon=True)
             try:
-                with interrupts_later(way):
+                with interrupts_later():
                     process.start()
             except OSError as problem:
                 raise RunFault(
@@ -115,22 +118,6 @@ def way_to_begin() -> str:
     if chosen and chosen not in possible:
         raise InputFault(f"{HOW} = {chosen!r}: processes begin by {' or '.join(possible)} here")
     return chosen or ("spawn" if sys.platform == "darwin" else possible[0])
-
-
-@contextmanager
-def interrupts_later(way: str) -> Iterator[None]:
-    """Ctrl-C waits meanwhile; a process that begins here never hears it, not even before it serves."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    if way == "spawn":
-        # Its start would let the signal through.
-        resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def shares(records: Sequence[Record], jobs: int) -> list[int]:
