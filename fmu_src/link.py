@@ -81,7 +81,7 @@ def compiler(target: Platform, portable: bool) -> tuple[str, ...]:
                 return (name, "-nostartfiles") if target.suffix == ".so" else (name,)
     if zig() is None:
         what = "for all platforms zig is needed" if portable else "there is no C compiler (cc, gcc, clang or zig)"
-        raise NativeFault(f"{what}; install it with: pip install rvwear[build]")
+        raise NativeFault(f"{what}; install it with: pip install \"rvwear[build]\"")
     return (*zig(), "-target", target.zig_target, "-fno-sanitize=all")
 
 
