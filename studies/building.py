@@ -8,6 +8,7 @@ from pathlib import Path
 import fmpy
 
 from fmu_src.description import guid
+from fmu_src.faults import InputFault
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
@@ -70,7 +71,7 @@ def native_versions(wanted: Wanted) -> tuple[str, ...]:
         compiler(host_platform(), wanted.all_platforms)
     except NativeFault as fault:
         if wanted.flavour == "native" or wanted.all_platforms:
-            raise
+            raise InputFault(str(fault)) from None
         print(f"no native FMUs: {fault}", file=sys.stderr)
         return ()
     return tuple(VERSIONS) if wanted.fmi == "both" else (wanted.fmi,)

@@ -14,7 +14,7 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
                       " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
     fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
     fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
-                      " for this machine alone; needs zig: pip install rvwear[build]")
+                      " for this machine alone; needs zig: pip install \"rvwear[build]\"")
     add_json(fmus)
     fmus.set_defaults(run=build)
 
