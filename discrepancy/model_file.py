@@ -22,6 +22,7 @@ import tomlkit
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
 from fmu_src.faults import InputFault
+from fmu_src.effect_check import UNITS, require_sound_effects
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
@@ -50,6 +51,8 @@ class ModelFile:
 
 def every_effect() -> dict[str, Effect]:
     """All effects by name; the two halves of one effect have the union of their parameters."""
+    for unit in UNITS:
+        require_sound_effects(unit)
     found = dict(PLANT_EFFECTS)
     for name, effect in WEAR_EFFECTS.items():
         if name in found:

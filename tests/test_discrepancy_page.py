@@ -149,7 +149,7 @@ def written(result, tmp_path):
 
 
 def figures_of(page):
-    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.S)[1])
+    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.S)[1])["figures"]
 
 
 def figure(page, name):

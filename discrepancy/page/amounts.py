@@ -6,7 +6,7 @@ import numpy as np
 
 from discrepancy.scales import USUAL
 from fmu_src.units import UnitError, conversion, parse, registry
-from studies.report.result import number
+from pages.words import number
 
 # A fit moves nothing along directions that the data do not see; its interval then has no width.
 UNDETERMINED = "not determined"

@@ -2,11 +2,11 @@
 
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
 from discrepancy.page import amounts, comparison, response
-from discrepancy.page.content import Card, Page
 from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.verdict import Answer
-from studies.report.result import number
+from pages.content import Card, Page
+from pages.words import number
 
 TONES = {ONE: "good", NONE: "good", SEVERAL: "good", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 

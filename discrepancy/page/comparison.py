@@ -4,10 +4,10 @@ from dataclasses import asdict
 
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.page import amounts, maps, numbers, series
-from discrepancy.page.content import Card, Page, Section, Table
 from discrepancy.page.runs import Run, by_signal, runs_of
+from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from studies.report.result import number
+from pages.words import number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6

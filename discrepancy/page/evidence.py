@@ -4,11 +4,11 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
-from discrepancy.page.content import Section, Table
 from discrepancy.verdict import Answer
 from pages import look
+from pages.content import Section, Table
 from pages.look import Figure
-from studies.report.result import number
+from pages.words import number
 
 MOST_RIVALS = 12
 

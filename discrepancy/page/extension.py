@@ -3,9 +3,9 @@
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder
-from discrepancy.page.content import Card, Page, Section, Table
+from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from studies.report.result import number
+from pages.words import number
 
 TONES = {HELPED: "good", DID_NOT_HELP: "bad"}
 

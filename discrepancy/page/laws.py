@@ -5,11 +5,11 @@ import numpy as np
 from discrepancy.inference.law.closed_forms import Form, _forms
 from discrepancy.inference.law.recover import Recovered
 from discrepancy.page import amounts, panels
-from discrepancy.page.content import Table
 from discrepancy.page.runs import slug
 from pages import look
+from pages.content import Table
 from pages.look import Figure, short
-from studies.report.result import number
+from pages.words import number
 
 MOST_FORMS = 8
 MOST_SHARE_HIDDEN = 0.02

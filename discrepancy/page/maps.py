@@ -9,7 +9,7 @@ from discrepancy.page.amounts import chance, signal_title
 from discrepancy.page.runs import slug
 from pages import look
 from pages.look import Figure, short
-from studies.report.result import number
+from pages.words import number
 
 # Ratios from 1 (green) to this are told apart by colour.
 MOST_RATIO = 10.0

@@ -8,11 +8,11 @@ from discrepancy.inference.next_experiment import ENOUGH, Proposal
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps
 from discrepancy.page.amounts import effect_title
-from discrepancy.page.content import Card, Page, Section, Table
 from discrepancy.page.evidence import listed
 from pages import look
+from pages.content import Card, Page, Section, Table
 from pages.look import Figure, short
-from studies.report.result import number
+from pages.words import number
 
 MOST = 12
 GOOD, POOR = "#00705a", "#98a3af"

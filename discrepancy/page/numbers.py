@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from discrepancy.page import amounts, panels
-from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, slug
+from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
 CONDITION = "condition"

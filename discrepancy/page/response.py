@@ -7,9 +7,9 @@ import numpy as np
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.page import comparison, spectra
 from discrepancy.page.amounts import effect_title
-from discrepancy.page.content import Section
 from discrepancy.page.runs import Run, axis_name, by_signal, runs_of
 from discrepancy.verdict import Answer
+from pages.content import Section
 
 WORDS = ("measured − base model", "effect", "what the effect leaves")
 

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from discrepancy.page import amounts
-from discrepancy.page.content import Choice, Choosable
 from discrepancy.page.runs import Run, slug
 from discrepancy.page.series import by_condition
 from pages import look
+from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
 MOST_ORDERS = 200

@@ -7,9 +7,9 @@ from discrepancy.extend import Extension
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import answer, comparison, extension, next_experiment
-from discrepancy.page.content import Page
-from discrepancy.page.render import rendered
 from discrepancy.verdict import Answer
+from pages.content import Page
+from pages.render import rendered_sections, written
 
 MAKERS = {
     Comparison: comparison.page,
@@ -30,8 +30,4 @@ def page_of(result) -> Page:
 
 def write_page(result, path: Path) -> Path:
     """Write the page of a comparison, diagnosis, extension, ladder or proposal; equal results give equal bytes."""
-    path = Path(path)
-    text = rendered(page_of(result))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8", newline="\n")
-    return path
+    return written(rendered_sections(page_of(result)), path)

@@ -8,7 +8,7 @@ import numpy as np
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
 from discrepancy.problem import Record
-from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
+from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.life import peak_of_circle
