@@ -10,6 +10,7 @@ import builtins
 import math
 import difflib
 import types as python_types
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
