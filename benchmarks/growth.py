@@ -5,12 +5,12 @@ number of contacts and bins, so an exponent above 1 (with a margin for the fit) 
 """
 
 import math
-import resource
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from benchmarks import memory
 from benchmarks.lives import in_process, timed
 from benchmarks.many import TEXT
 from benchmarks.ratios import Curve, Figure, Measured, cost, exponent
@@ -95,7 +95,7 @@ def ensembles(found: Measured, sizes: tuple[int, ...]) -> None:
             store = Store(Path(temporary) / f"{count}.lives", {})
             seconds.append((count, timed(lambda: [store.add(run(task)) for task in tasks[:count]])))
             size.append((count, float(store.path.stat().st_size)))
-            peak.append((count, 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+            peak.append((count, memory.most()))
     note(found, "cost of an ensemble", "lives", "s", seconds, MOST)
     note(found, "file of finished lives", "lives", "byte", size, MOST)
     note(found, "most memory of the process", "lives", "byte", peak, MOST)

@@ -121,7 +121,7 @@ def count(reducer: Reducer, fidelity: int, code: bytes | None = None, steps: int
 
 def peak() -> tuple[float, float]:
     """(scalar, widest) double-precision operations a second of one core, from its clock and its instructions."""
-    info = Path("/proc/cpuinfo").read_text()
+    info = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
     clock = 1e6 * float(re.search(r"cpu MHz\s*:\s*([\d.]+)", info)[1])
     flags = re.search(r"flags\s*:\s*(.*)", info)[1].split()
     wide = next((width for flag, width in WIDEST.items() if flag in flags), 4)

@@ -4,7 +4,6 @@ Every life must arrive, once, and be the same to the last bit as in one process.
 """
 
 import json
-import resource
 import subprocess
 import sys
 import tempfile
@@ -15,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
 
+from benchmarks import memory
 from benchmarks.ratios import Figure, Measured
 from studies.ensemble.backends import through_dask, through_joblib
 from studies.ensemble.ensemble_file import load_ensemble
@@ -107,7 +107,7 @@ def clocked(task: Task) -> tuple[float, float]:
     """(processor time [s], most memory so far [byte]) of one life, taken where it runs."""
     begun = process_time()
     run(task)
-    return process_time() - begun, 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return process_time() - begun, memory.most()
 
 
 def shared(samples: int) -> Shared:

@@ -9,7 +9,6 @@ of the first step; the importer (fmpy) is loaded before.
 
 import argparse
 import json
-import resource
 import subprocess
 import sys
 import tempfile
@@ -17,6 +16,7 @@ import zipfile
 from pathlib import Path
 from time import perf_counter
 
+from benchmarks import memory
 from fmu_src.native import host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
 from orchestrator.opening import open_fmu
@@ -74,8 +74,8 @@ def step_times(pairs: dict, rounds: int = 60, steps: int = 100) -> dict[str, flo
 
 
 def memory_mb() -> float:
-    """Resident memory of this process now (Linux)."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 1e6
+    """Resident memory of this process now."""
+    return memory.present() / 1e6
 
 
 def many_instances(fmu: Path) -> dict[str, float]:
