@@ -67,7 +67,7 @@ def load_model(name_or_path: str | Path) -> ModelFile:
     path = Path(name_or_path)
     if path.suffix == ".toml" and path.is_file():
         try:
-            content = tomllib.loads(path.read_text(encoding="utf-8"))
+            content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
             raise InputFault(f"{path}: not a TOML file: {problem}") from None
         if "model" in content:

@@ -6,6 +6,7 @@ import pytest
 
 from cli.commands.example import EXAMPLES, shipped
 from cli.main import main
+from reducers.library import LIBRARY
 
 
 @pytest.fixture(autouse=True)
@@ -42,3 +43,13 @@ def test_an_unknown_example_is_refused(tmp_path, capsys):
     assert main(["example", "pear"]) == 2
     assert "give one of catalogue_stiffness" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["solve --reducer reducer.toml --positions 8", "life --duty duty.toml --hours 1 --positions 8 --no-report"])
+def test_files_of_windows_editors_are_read(tmp_path, command):
+    """They begin with a byte order mark and end their lines in their own way."""
+    sources = {"reducer.toml": LIBRARY / "BX-40E.toml", "duty.toml": shipped() / "move_and_return.toml"}
+    for name, source in sources.items():
+        lines = source.read_text(encoding="utf-8").splitlines()
+        (tmp_path / name).write_bytes("\r\n".join(lines).encode("utf-8-sig"))
+    assert main(command.split()) == 0

@@ -169,7 +169,7 @@ def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
     if not path.is_file():
         raise InputFault(f"no campaign file at {path}; rvwear campaign template FOLDER writes one")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         content = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}; see docs/campaigns.md") from None
