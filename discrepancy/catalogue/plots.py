@@ -12,6 +12,7 @@ from discrepancy.catalogue.signature import (
 )
 from discrepancy.effects import MODULES
 from discrepancy.prediction.bench import Bench
+from discrepancy.problem import Floats
 from pages import look
 from pages.look import Figure
 from pages.charts import COLOURS, Curve, chart
@@ -57,7 +58,7 @@ def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     return Figure(name, "Orders of the transmission error", "Rated speed and load, one turn of the output.", data, layout, 12, 320)
 
 
-def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tuple[np.ndarray, np.ndarray]]) -> list[Curve]:
+def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tuple[Floats, Floats]]) -> list[Curve]:
     """One curve per version; grey is the reducer without the effect."""
     found = []
     for i, (label, values) in enumerate(versions(name, cases)):

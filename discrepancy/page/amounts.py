@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from discrepancy.problem import Floats
 from discrepancy.scales import USUAL
 from fmu_src.units import UnitError, conversion, parse, registry
 from pages.words import number
@@ -57,7 +58,7 @@ def text(value: float | None, unit: str) -> str:
     return f"{number(factor * value)} {name}".rstrip()
 
 
-def axis_values(name: str, values) -> np.ndarray:
+def axis_values(name: str, values) -> Floats:
     _, factor, offset = AXES.get(name, ("", 1.0, 0.0))
     return np.asarray(values, float) * factor + offset
 

@@ -6,6 +6,7 @@ from discrepancy.inference.law.closed_forms import Form, _forms
 from discrepancy.inference.law.recover import Recovered
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
+from discrepancy.problem import Floats
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
@@ -109,7 +110,7 @@ def leading(name: str, law: Recovered, curve, factor: float, title: str, columns
     )
 
 
-def evaluated(form: Form, x: np.ndarray, grid: np.ndarray) -> np.ndarray | None:
+def evaluated(form: Form, x: Floats, grid: Floats) -> Floats | None:
     """A closed form along the curve; None where it is not finite."""
     known = _forms(x)
     if form.name not in known:

@@ -6,6 +6,7 @@ import numpy as np
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, slug
+from discrepancy.problem import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
@@ -49,7 +50,7 @@ def varying(runs: Sequence[Run]) -> list[str]:
     return found
 
 
-def places(run: Run, name: str) -> np.ndarray | None:
+def places(run: Run, name: str) -> Floats | None:
     """The factor's value at each number of a run."""
     if name in run.record.axes and np.size(run.record.axes[name]) == run.kept.size:
         return np.asarray(run.record.axes[name], float)[run.kept]
@@ -114,5 +115,5 @@ def where(runs: Sequence[Run], name: str) -> list:
     return short(amounts.axis_values(name, joined(runs, lambda r: places(r, name))), 5)
 
 
-def joined(runs: Sequence[Run], take) -> np.ndarray:
+def joined(runs: Sequence[Run], take) -> Floats:
     return np.concatenate([take(r) for r in runs]) if runs else np.zeros(0)

@@ -6,6 +6,7 @@ import numpy as np
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, axis_name, slug
+from discrepancy.problem import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
@@ -118,7 +119,7 @@ def points(trace: dict) -> dict:
     return {k: trace[k] for k in ("x", "y")}
 
 
-def thinned(run: Run, most: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def thinned(run: Run, most: int) -> tuple[Floats, Floats, Floats]:
     """(axis, measured, predicted) with at most ``most`` samples."""
     name, step = axis_name(run.record), stride(run, most)
     x = amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])

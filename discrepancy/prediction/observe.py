@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
@@ -52,7 +52,7 @@ def identity(record: Record) -> tuple:
     return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
 
 
-def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
+def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
     """Output angles [rad] of the samples."""
     condition = condition_of(bench, record)
     if "angle" in record.axes:
@@ -61,7 +61,7 @@ def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
     return condition.direction * condition.speed / abs(bench.ratio) * (time - time[0]) + zero
 
 
-def as_turned(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, Floats]:
     """The record's angles in the order in which they are passed, and the place of each sample among them."""
     angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
     order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
@@ -70,7 +70,7 @@ def as_turned(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray,
     return angles[order], place
 
 
-def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> np.ndarray:
+def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> Floats:
     """A column of the running bench at the record's angles (or times)."""
     angles, place = as_turned(bench, record, values)
     return bench.running(condition_of(bench, record), values, angles, cage)[place, COLUMNS.index(name)]
@@ -96,7 +96,7 @@ def transmission_error_beside(bench, record, values, base):
     return error - error.mean()
 
 
-def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> np.ndarray:
+def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
     """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
     return along(bench, record, values, "transmission_error", share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
@@ -113,7 +113,7 @@ def hysteresis(bench, record, values):
     return turning
 
 
-def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
+def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
     applied = np.asarray(record.axes["torque"], float)
     elastic = {name: value for name, value in values.items() if name not in DRIVE_FRICTION} | WITHOUT_FRICTION
@@ -140,7 +140,7 @@ def at_rest(bench: Bench, c: Condition) -> Condition:
     return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
 
 
-def loop(bench: Bench, condition: Condition, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def loop(bench: Bench, condition: Condition, values: Values) -> tuple[Floats, Floats]:
     """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
     way = torque_way(bench.rated_load, TORQUE_STEPS)
     quarter = len(way) // 4
@@ -201,7 +201,7 @@ def vibration(bench, record, values):
     return np.interp(angles % (2.0 * math.pi), spectrum_angles, force, period=2.0 * math.pi) / values.get("housing_mass", 10.0)
 
 
-def housing_force(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def housing_force(bench: Bench, record: Record, values: Values) -> tuple[Floats, Floats]:
     """Force of the pins on their ring along x over one output turn, less its mean."""
     condition = condition_of(bench, record)
     angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
@@ -231,17 +231,17 @@ def cage_speed(bench, record, values):
     return np.array([abs(bench.averages(c, values)["cage_speed"]) for c in row_conditions(bench, record)])
 
 
-def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Record, Values], np.ndarray]:
+def worn_difference(measure: Callable[..., Floats]) -> Callable[[Bench, Record, Values], Floats]:
     """The base model's wear from full meshing cycles, changed as short cycles change with the values.
 
     In proportion: what short cycles get wrong they get wrong alike for all values.
     """
 
-    def observed(bench: Bench, record: Record, values: Values) -> np.ndarray:
+    def observed(bench: Bench, record: Record, values: Values) -> Floats:
         full, base, share = bench.kept(("in proportion", measure.__name__, *identity(record)), lambda: in_proportion(bench, record))
         return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
 
-    def in_proportion(bench: Bench, record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def in_proportion(bench: Bench, record: Record) -> tuple[Floats, Floats, Floats]:
         full, base = (measure(bench, record, {}, turns) for turns in (bench.reducer.topology.lobes, SHORT_CYCLE))
         worn = np.abs(base) > LEAST_WORN * np.abs(base).max()
         return full, base, np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
@@ -250,19 +250,19 @@ def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Reco
     return observed
 
 
-def inspections(bench: Bench, record: Record, values: Values, turns: int) -> list[np.ndarray]:
+def inspections(bench: Bench, record: Record, values: Values, turns: int) -> list[Floats]:
     """The wear unit's record at every row's hours."""
     by_run: dict[Condition, dict[int, float]] = {}
     for row, c in enumerate(row_conditions(bench, record)):
         by_run.setdefault(replace(c, hours=0.0), {})[row] = c.hours
-    found: dict[int, np.ndarray] = {}
+    found: dict[int, Floats] = {}
     for condition, hours in by_run.items():
         worn = bench.wear_to(condition, values, sorted(set(hours.values())), turns)
         found.update((row, worn[h]) for row, h in hours.items())
     return [found[row] for row in range(len(found))]
 
 
-def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:
+def surface_of(wear: Floats, tags: Mapping[str, str]) -> Floats:
     """Profile(s) of the tagged surface; flanks and pins as the mean of those that are not told apart."""
     w = wear[0]
 
@@ -300,7 +300,7 @@ def wear_profile(bench, record, values, turns):
     return np.interp(sense * angle, bins, smooth(profile), period=2.0 * math.pi)
 
 
-def smooth(profile: np.ndarray, harmonics: int = 24) -> np.ndarray:
+def smooth(profile: Floats, harmonics: int = 24) -> Floats:
     """The profile's first harmonics: a cycle's ripple is not wear."""
     spectrum = np.fft.rfft(profile)
     spectrum[harmonics + 1 :] = 0.0
@@ -335,7 +335,7 @@ def debris_iron(bench, record, values):
     return mass_loss(bench, whole, values) / values.get("grease_mass", mass)
 
 
-OBSERVED: dict[str, Callable[[Bench, Record, Values], np.ndarray]] = {
+OBSERVED: dict[str, Callable[[Bench, Record, Values], Floats]] = {
     f.__name__: f for f in (
         transmission_error, hysteresis, lost_motion, torsional_stiffness, input_torque, no_load_torque, efficiency,
         vibration, vibration_order, temperature, wear_profile, wear_depth, mass_loss, debris_iron, cage_speed,
