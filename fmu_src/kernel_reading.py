@@ -21,7 +21,7 @@ FOREIGN = {
     ast.List: "a list", ast.Dict: "a dictionary", ast.DictComp: "a dictionary", ast.Set: "a set", ast.SetComp: "a set",
     ast.GeneratorExp: "a generator", ast.Yield: "yield", ast.YieldFrom: "yield", ast.Await: "await", ast.JoinedStr: "a text",
     ast.Global: "global", ast.Nonlocal: "nonlocal", ast.Import: "import", ast.ImportFrom: "import", ast.ClassDef: "a class",
-    ast.Delete: "del", ast.Match: "match",
+    ast.Delete: "del", ast.Match: "match", ast.FunctionDef: "a function inside",
 }  # fmt: skip
 # Attributes of an array that say nothing about its values.
 OF_ARRAYS = ("shape", "size", "ndim")

@@ -165,7 +165,7 @@ def compile_anew():
     optimised, made = loading.optimised, []
     loading.optimised = lambda *arguments: made.append(1) or optimised(*arguments)
     try:
-        steps_to_one._callers.clear()
+        steps_to_one.callers.clear()
         assert steps_to_one(27) == 111
     finally:
         loading.optimised = optimised

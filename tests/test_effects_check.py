@@ -202,7 +202,7 @@ def test_command_says_what_it_finds(tmp_path, capsys):
 def in_its_own_process(folder: Path, program: str) -> subprocess.CompletedProcess:
     """Effects are taken when the units are imported."""
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120,
-                          env={**os.environ, "RVWEAR_EFFECTS": str(folder), "NUMBA_DISABLE_JIT": "1", "XDG_CACHE_HOME": str(folder)})
+                          env={**os.environ, "RVWEAR_EFFECTS": str(folder), "RVWEAR_PLAIN_PYTHON": "1", "XDG_CACHE_HOME": str(folder)})
 
 
 def test_a_faulty_effect_ends_a_command_with_one_message(tmp_path):

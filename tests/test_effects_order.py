@@ -153,5 +153,5 @@ def test_order_of_effects_does_not_matter(tmp_path):
     root = Path(__file__).resolve().parents[1]
     search = os.pathsep.join([str(root), str(root / "tests")])
     done = subprocess.run([sys.executable, "-c", "import test_effects_order as t; t.compare_orders()"], capture_output=True, text=True,
-                          timeout=120, env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": search, "XDG_CACHE_HOME": str(tmp_path)})
+                          timeout=120, env={**os.environ, "RVWEAR_PLAIN_PYTHON": "1", "PYTHONPATH": search, "XDG_CACHE_HOME": str(tmp_path)})
     assert done.returncode == 0, done.stderr

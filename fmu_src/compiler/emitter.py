@@ -8,22 +8,49 @@ done again; two walks do.  Variables stand in memory and LLVM makes registers of
 import ast
 import builtins
 import math
+import difflib
 import types as python_types
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 import numpy as np
 
 from fmu_src.compiler import arithmetic
+from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import (
     ELEMENTS, FLOAT, INTEGER, NOTHING, TRUTH, Array, Group, KernelFault, Layout, Number, Record, Records, Type, Value, joined,
 )  # fmt: skip
 
-if TYPE_CHECKING:
-    from fmu_src.compiler.module import Instance, Module
-
 BUILTINS = ("abs", "min", "max", "int", "float", "bool", "len")
+
+
+@dataclass(eq=False)
+class Instance:
+    """A kernel for argument types; ``result`` is known once it is written.
+
+    One that is separate stands in other object code, with a C function's arguments: of
+    records the address alone.
+    """
+
+    kernel: Source
+    arguments: tuple[Type, ...]
+    symbol: str
+    result: Type | None = None
+    is_separate: bool = False
+
+
+class Surroundings(Protocol):
+    """What a function is written into."""
+
+    def instance(self, kernel: Source, arguments: tuple[Type, ...], is_called: bool = False) -> Instance:
+        """The kernel for these types, written if it is new."""
+
+    def declare(self, declaration: str, symbol: str) -> str:
+        """Gives back the symbol of what is declared."""
+
+    def note_constant(self, kernel: Source, name: str, value: Any) -> None: ...
+
+    def layout(self, dtype: np.dtype) -> Layout: ...
 
 
 class Wider(Exception):
@@ -42,8 +69,8 @@ class Loop:
 class Emitter:
     """Walks one instance; ``variables`` and ``result`` are kept from walk to walk."""
 
-    module: "Module"
-    instance: "Instance"
+    module: Surroundings
+    instance: Instance
     variables: dict[str, Type] = field(default_factory=dict)
     result: Type | None = None
 
@@ -484,7 +511,7 @@ class Emitter:
             return self.builtin(name, [self.expression(argument) for argument in node.args])
         if isinstance(function, python_types.BuiltinFunctionType) and function is getattr(math, function.__name__, None):
             return arithmetic.of_math(self, function.__name__, [self.number(self.expression(a)) for a in node.args])
-        if not self.module.is_kernel(function):
+        if not isinstance(function, Source):
             raise self.fault(f"{ast.unparse(node.func)} is no kernel; kernels call kernels, math, {', '.join(BUILTINS)}")
         return self.call_kernel(function, [self.expression(argument) for argument in node.args])
 
@@ -500,10 +527,10 @@ class Emitter:
                 raise self.fault(f"{node.value.id} has no {node.attr}{nearest(node.attr, dir(owner))}")
         raise self.fault(f"{ast.unparse(node)} cannot be called in a kernel")
 
-    def call_kernel(self, kernel: Any, values: list[Value]) -> Value:
+    def call_kernel(self, kernel: Source, values: list[Value]) -> Value:
         if kernel.is_entry:
             values = [arithmetic.converted(self, value, FLOAT) if isinstance(value.type, Number) else value for value in values]
-        callee = self.module.instance(kernel, tuple(value.type for value in values), self)
+        callee = self.module.instance(kernel, tuple(value.type for value in values), is_called=True)
         taken = 1 if callee.is_separate else None
         arguments = ", ".join(f"{kind} {part}" for value in values for kind, part in list(zip(value.type.parts, value.parts))[:taken])
         result = callee.result
@@ -704,8 +731,6 @@ def returned(kind: Type) -> str:
 
 
 def nearest(name: str, known: list[str]) -> str:
-    import difflib
-
     close = difflib.get_close_matches(name, known, 3)
     return f"; did you mean {', '.join(close)}?" if close else ""
 

@@ -7,18 +7,16 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
 
 from fmu_src.compiler import store
 from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
-from fmu_src.progress import task
+from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Record, Records, Type
-
-if TYPE_CHECKING:
-    from fmu_src.kernel import Kernel
+from fmu_src.progress import task
 
 # What object code may ask of the C library.
 LIBM = {
@@ -43,18 +41,18 @@ class Code:
     needs: list[list[str]] = field(default_factory=list)
 
 
-def entry_symbol(kernel: "Kernel", layout: Layout) -> str:
+def entry_symbol(kernel: Source, layout: Layout) -> str:
     return f"{kernel.module}.{kernel.name}/{layout.digest}"
 
 
-def separate(kernel: "Kernel", arguments: tuple[Type, ...]) -> str | None:
+def separate(kernel: Source, arguments: tuple[Type, ...]) -> str | None:
     """The symbol of an entry point that has object code of its own."""
     if kernel.is_entry and arguments and isinstance(arguments[0], Records):
         return entry_symbol(kernel, arguments[0].layout)
     return None
 
 
-def unit_code(initialise: "Kernel", step: "Kernel", layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
+def unit_code(initialise: Source, step: Source, layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
     """Object code of a unit's entry points for targets: C functions ``initialise(cells)`` and ``step(cells, time, duration)``."""
     def fill(module: Module) -> dict[str, Type]:
         records = Records(layout)
@@ -64,7 +62,7 @@ def unit_code(initialise: "Kernel", step: "Kernel", layout: Layout, triples: tup
     return compiled(what, ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
 
 
-def call_code(kernel: "Kernel", arguments: tuple[Type, ...]) -> Code:
+def call_code(kernel: Source, arguments: tuple[Type, ...]) -> Code:
     """Object code of one kernel for argument types, under the symbol ``call``."""
     def fill(module: Module) -> dict[str, Type]:
         return {"call": module.entry(kernel, arguments, "call")}
@@ -137,17 +135,17 @@ def load_object(code: bytes, symbols: tuple[str, ...]) -> tuple[int, ...]:
     return tuple(engine.get_function_address(symbol) for symbol in symbols)
 
 
-_units: dict[tuple["Kernel", "Kernel", str], dict[str, int]] = {}
+_units: dict[tuple[Source, Source, str], dict[str, int]] = {}
 
 
-def module_addresses(kernel: "Kernel", layout: Layout) -> dict[str, int]:
+def module_addresses(kernel: Source, layout: Layout) -> dict[str, int]:
     """Addresses of the entry points of the module that an entry point stands in."""
     beside = kernel.function.__globals__
     initialise, step = (beside[name] for name in ENTRY_POINTS)
     return unit_addresses(initialise, step, layout)
 
 
-def unit_addresses(initialise: "Kernel", step: "Kernel", layout: Layout) -> dict[str, int]:
+def unit_addresses(initialise: Source, step: Source, layout: Layout) -> dict[str, int]:
     """Addresses of a unit's entry points for records of this layout."""
     key = (initialise, step, layout.digest)
     if key not in _units:
@@ -157,7 +155,7 @@ def unit_addresses(initialise: "Kernel", step: "Kernel", layout: Layout) -> dict
     return _units[key]
 
 
-def call_address(kernel: "Kernel", arguments: tuple[Type, ...]) -> tuple[int, str]:
+def call_address(kernel: Source, arguments: tuple[Type, ...]) -> tuple[int, str]:
     """(address, code of the result's type) of a kernel for argument types."""
     code = call_code(kernel, arguments)
     known = {layout.digest: layout for kind in arguments for layout in layouts_in(kind)}
