@@ -62,11 +62,11 @@ class Design:
 
     def replicates(self, quantity: str) -> dict[str, int]:
         """By condition, the runs that repeat each other most often."""
-        counts: Counter = Counter(
-            (r.condition, r.mounting, r.factors["direction"], *sorted(r.tags.items())) for r in self.of(quantity)
+        counts = Counter(
+            (r.condition, (r.mounting, r.factors["direction"], *sorted(r.tags.items()))) for r in self.of(quantity)
         )
         best: dict[str, int] = {}
-        for (condition, *_), count in counts.items():
+        for (condition, _), count in counts.items():
             best[condition] = max(best.get(condition, 0), count)
         return best
 

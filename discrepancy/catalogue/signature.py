@@ -147,7 +147,7 @@ def worn(bench: Bench, condition: Condition, values: Mapping[str, float], hours:
 
 
 # figure: (unit, conditions, factor to the unit, function).
-FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable]] = {
+FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable[[Bench, Condition, Mapping[str, float]], float]]] = {
     "lost motion": ("arcsec", ("rated", "40 K warmer"), ARCSEC, lambda b, c, v: observed(b, "lost_motion", c, v)),
     "loop width at half torque": ("arcsec", ("rated",), ARCSEC, loop_width),
     "stiffness": ("N m/arcmin", ("rated", "40 K warmer"), 60.0 / ARCSEC, lambda b, c, v: observed(b, "torsional_stiffness", c, v)),
@@ -195,7 +195,7 @@ def spectrum_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, 
     return rows
 
 
-def wear_rows(bench: Bench, base, values, everywhere: bool) -> list[Row]:
+def wear_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, float], everywhere: bool) -> list[Row]:
     """Depths after as many turns; for effects of the wear unit at all conditions and with time."""
     at, rows = conditions(bench), []
     for c in ("rated", *(WEAR_AT if everywhere else ())):

@@ -8,7 +8,7 @@ import numpy as np
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Floats, Mask, Record
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,7 @@ class Run:
     """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included."""
 
     record: Record
-    kept: Floats
+    kept: Mask
     measured: Floats
     predicted: Floats
     noise: Floats
@@ -33,6 +33,14 @@ def axis_name(record: Record) -> str | None:
         if name in moving:
             return name
     return None
+
+
+def axis_of(run: Run) -> str:
+    """The axis that a series is drawn over; only series have one."""
+    name = axis_name(run.record)
+    if name is None:
+        raise ValueError(f"{run.record.name}: no axis to draw it over")
+    return name
 
 
 def runs_of(space: Workspace, predicted: list[Floats], minus: list[Floats] | None = None) -> list[Run]:

@@ -30,7 +30,8 @@ class Form:
         return {**self.__dict__, "intervals": {k: list(v) for k, v in self.intervals.items()}}
 
 
-def _forms(x: Floats) -> Laws:
+def closed_forms(x: Floats) -> Laws:
+    """The forms that can be tried over ``x``."""
     low, high = float(np.min(x)), float(np.max(x))
     span = high - low or 1.0
     middle = 0.5 * (low + high)
@@ -74,7 +75,7 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
     parts = [kinds[k::min(folds, kinds.size)] for k in range(min(folds, kinds.size))]
     levels = np.unique(np.round(x, 9)).size
     results = []
-    for name, (text, names, function, starts) in _forms(x).items():
+    for name, (text, names, function, starts) in closed_forms(x).items():
         if len(names) >= levels and name != "constant":
             continue
         if name == "periodic":
