@@ -31,7 +31,8 @@ PIP = ("-m", "pip", "--disable-pip-version-check", "install", "--no-compile", "-
 def set_up(for_tests: bool = False) -> None:
     """A virtual environment with the pinned packages and this project; kept while they stay the same."""
     stamp = ENVIRONMENT / "set-up-done"
-    parts = (sys.version.encode(), str(HERE).encode(), REQUIREMENTS.read_bytes(), (HERE / "pyproject.toml").read_bytes())
+    described = (HERE / name for name in ("requirements.txt", "pyproject.toml", "setup.py"))
+    parts = (sys.version.encode(), str(HERE).encode(), *(path.read_bytes() for path in described))
     if not is_done(stamp, *parts):
         say("setting up .venv, once: about half a minute")
         try:
@@ -53,8 +54,8 @@ def say(text: str) -> None:
 
 def install(what: str, *arguments: str) -> None:
     """pip, with a line every few seconds that says how far it is."""
-    count = sum(1 for line in Path(arguments[1]).read_text().splitlines() if line) if arguments[0] == "-r" else 1
-    with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, text=True) as pip:
+    count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
+    with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
         told, fetched, lines = time.monotonic(), 0, []
         for line in pip.stdout:
             lines.append(line)
@@ -69,11 +70,11 @@ def install(what: str, *arguments: str) -> None:
 
 
 def is_done(stamp: Path, *parts: bytes) -> bool:
-    return stamp.exists() and stamp.read_text() == digest(parts)
+    return stamp.exists() and stamp.read_text(encoding="utf-8") == digest(parts)
 
 
 def done(stamp: Path, *parts: bytes) -> None:
-    stamp.write_text(digest(parts))
+    stamp.write_text(digest(parts), encoding="utf-8")
 
 
 def digest(parts: tuple[bytes, ...]) -> str:

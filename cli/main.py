@@ -6,23 +6,40 @@ Help and completion answer at once: a command imports what it computes with when
 """
 
 import argparse
+import io
 import os
 import sys
 
-from cli.commands import build, campaign, comparison, completion, effects, ensemble, life, reducer, reproduce, system
+from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
+from cli.progress import new_screen
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, system, life, ensemble, reproduce, build, campaign, comparison, effects, completion)
+GROUPS = (reducer, system, life, ensemble, reproduce, build, campaign, comparison, effects, example, completion)
+
+
+class PrintVersion(argparse.Action):
+    """Prints the version and ends; it is looked up only then."""
+
+    def __init__(self, option_strings: list[str], dest: str, **others: object):
+        super().__init__(option_strings, dest, nargs=0, help="print the version and end")
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from fmu_src.project import NAME, project
+
+        parser.exit(message=f"{NAME} {project().version}\n")
 
 
 def main(arguments: list[str] | None = None) -> int:
+    print_whatever_the_console_can()
     top = parser()
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        return options.run(options)
+        with told_to(new_screen()):
+            return options.run(options)
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
@@ -41,8 +58,16 @@ def main(arguments: list[str] | None = None) -> int:
         return 130
 
 
+def print_whatever_the_console_can() -> None:
+    """A sign that the console's encoding lacks becomes a question mark and ends nothing."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
 def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="rvwear", description="Dynamics and wear of RV reducers.")
+    top.add_argument("--version", action=PrintVersion)
     sub = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in GROUPS:
         group.add_commands(sub)

@@ -81,7 +81,7 @@ def compiler(target: Platform, portable: bool) -> tuple[str, ...]:
                 return (name, "-nostartfiles") if target.suffix == ".so" else (name,)
     if zig() is None:
         what = "for all platforms zig is needed" if portable else "there is no C compiler (cc, gcc, clang or zig)"
-        raise NativeFault(f"{what}; install it with: pip install rvwear[build]")
+        raise NativeFault(f"{what}; install it with: pip install \"rvwear[build]\"")
     return (*zig(), "-target", target.zig_target, "-fno-sanitize=all")
 
 
@@ -97,7 +97,7 @@ def shared_library(name: str, table: str, code: bytes, target: Platform, portabl
         file = f"{name}{target.suffix}"
         link = [flag.format(file=file) for flag in target.link_flags]
         command = [*compiler(target, portable), *FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o", "-o", file, *link]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise NativeFault(f"{name} for {target.name}: {command[0]} failed: {done.stderr.strip()[-2000:]}")
         library = (folder / file).read_bytes()

@@ -70,7 +70,7 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
         # In a process of its own: pythonfmu imports the slave and leaves it in sys.modules.
         command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *CAPABILITIES, *contents]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")
         with zipfile.ZipFile(folder / "raw" / f"{name}.fmu") as raw:

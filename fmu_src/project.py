@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import Distribution, distribution
 from pathlib import Path
+from typing import Any
 
 from fmu_src.source_hash import ROOT
 
@@ -41,11 +42,17 @@ class Project:
 @cache
 def project() -> Project:
     file = ROOT / "pyproject.toml"
-    return of_checkout(file) if file.is_file() else of_installation(distribution(NAME))
+    # Other people's wheels have left files of this name beside an installed package.
+    ours = file.is_file() and entry_of(file).get("name") == NAME
+    return of_checkout(file) if ours else of_installation(distribution(NAME))
+
+
+def entry_of(file: Path) -> dict[str, Any]:
+    return tomllib.loads(file.read_text(encoding="utf-8")).get("project", {})
 
 
 def of_checkout(file: Path) -> Project:
-    entry = tomllib.loads(file.read_text(encoding="utf-8"))["project"]
+    entry = entry_of(file)
     found = sorted({path for pattern in LICENCE_FILES for path in file.parent.glob(pattern)})
     texts = tuple(path.read_text(encoding="utf-8") for path in found)
     return Project(entry["version"], ", ".join(author["name"] for author in entry["authors"]), entry["license"], texts)

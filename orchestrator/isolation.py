@@ -11,6 +11,7 @@ import signal as signals
 import struct
 import subprocess
 import sys
+import weakref
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Timer
@@ -20,12 +21,16 @@ import numpy as np
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
 from orchestrator.fmu import Fmu
+from orchestrator.interrupts import interrupts_later
 
 LENGTH = struct.Struct("<Q")
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
 # Attributes of a component that its stand-in shows.
 SHOWN = ("signals", "can_restore", "can_vary_step", "input_derivatives", "usual_step")
-CLOSING_SECONDS = 5.0
+CLOSING_SECONDS = 2.0
+# Exit codes of Windows for crashes begin here.
+WINDOWS_CRASH = 0xC0000000
+START = "import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from orchestrator.isolation import main; main(*sys.argv[2:])"
 
 
 class Isolated(Component):
@@ -38,14 +43,16 @@ class Isolated(Component):
         self.name, self.path, self.timeout = name, Path(path), timeout
         self.doing = "its start"
         self.timed_out = False
-        root = Path(__file__).resolve().parents[1]
-        paths = os.pathsep.join([str(root), *filter(None, [os.environ.get("PYTHONPATH")])])
         # Where the unit is unpacked: a process that crashes cannot remove it.
         self.scratch = TemporaryDirectory(ignore_cleanup_errors=True)
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "orchestrator.isolation", name, str(self.path)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": paths, "TMPDIR": self.scratch.name},
-        )  # fmt: skip
+        # With this process's own path: a folder named like a module where somebody happens to stand is none.
+        with interrupts_later():
+            self.process = subprocess.Popen(
+                [sys.executable, "-P", "-c", START, repr(sys.path), name, str(self.path)],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": self.scratch.name},
+            )  # fmt: skip
+        # Also when nobody closes this: a unit that hangs would stay behind.
+        self.end = weakref.finalize(self, end, self.process)
         shown = self.answer()
         for key in SHOWN:
             setattr(self, key, shown[key])
@@ -79,6 +86,8 @@ class Isolated(Component):
             end = f"gave no answer for {self.timeout:g} s and was ended"
         elif code < 0:
             end = f"crashed with signal {-code} ({signals.Signals(-code).name})"
+        elif code >= WINDOWS_CRASH:
+            end = f"crashed with code {code:#x}"
         else:
             end = f"ended with exit code {code}"
         return RunFault(
@@ -157,18 +166,21 @@ class Isolated(Component):
         return self.call("record")
 
     def close(self):
-        if self.process.poll() is None:
-            try:
-                write(self.process.stdin, ("close", ()))
-                self.process.wait(CLOSING_SECONDS)
-            except (OSError, subprocess.TimeoutExpired):
-                self.process.kill()
-                self.process.wait()
-        for stream in (self.process.stdin, self.process.stdout):
-            # What was not sent to a process that crashed cannot be sent any more.
-            with contextlib.suppress(OSError):
-                stream.close()
+        self.end()
+        self.process.stdout.close()
         self.scratch.cleanup()
+
+
+def end(process: subprocess.Popen) -> None:
+    """Let go of a process: it ends when it comes to read, and is killed if it does not come to that."""
+    # What was not sent to a process that crashed cannot be sent any more.
+    with contextlib.suppress(OSError):
+        process.stdin.close()
+    try:
+        process.wait(CLOSING_SECONDS)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 class Worker:
@@ -232,7 +244,8 @@ def read(stream):
 
 
 def main(name: str, path: str) -> None:
-    """Serve one unit until told to close or the master is gone."""
+    """Serve one unit until the master lets go of it or is gone.  Ctrl-C is for the master to hear."""
+    signals.signal(signals.SIGINT, signals.SIG_IGN)
     requests = sys.stdin.buffer
     answers = os.fdopen(os.dup(1), "wb")
     # A unit may print: that must not get among the answers.
@@ -250,15 +263,12 @@ def main(name: str, path: str) -> None:
             method, arguments = read(requests)
         except EOFError:
             break
-        if method == "close":
-            break
         try:
             answer = ("done", worker.do(method, arguments))
         except (InputFault, RunFault) as fault:
             answer = (type(fault).__name__, str(fault))
-        write(answers, answer)
+        try:
+            write(answers, answer)
+        except OSError:
+            break
     component.close()
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

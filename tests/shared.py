@@ -1,6 +1,7 @@
-"""What is made once per run of the tests, whichever worker of pytest-xdist asks first."""
+"""What is made once per run of the tests, whichever worker of pytest-xdist asks first; what several tests ask."""
 
 import os
+import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,7 +15,7 @@ except ImportError:  # Windows: every worker makes its own.
 @contextmanager
 def alone(path: Path):
     """Only one process at a time gets in here; the system lets go of a process that is gone."""
-    with path.open("w") as file:
+    with path.open("wb") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
@@ -31,3 +32,15 @@ def made_once(tmp_path_factory, name: str, make: Callable[[Path], None]) -> Path
             make(folder)
             complete.touch()
     return folder
+
+
+def gone(group: int, seconds: float = 10.0) -> bool:
+    """Whether all processes of a group end soon."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False

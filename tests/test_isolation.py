@@ -1,5 +1,11 @@
 """Units in processes of their own: the same results, and a crash that stays where it is."""
 
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -8,6 +14,7 @@ from orchestrator.fmu import Fmu
 from orchestrator.isolation import Isolated
 from orchestrator.master import StepControl
 from orchestrator.system import connect
+from shared import gone
 
 RING = [("a.x", "b.u"), ("b.x", "a.u")]
 
@@ -88,3 +95,39 @@ def test_what_a_unit_prints_does_not_disturb(spring, capfd):
 def test_missing_fmu_is_told(tmp_path):
     with pytest.raises(InputFault, match="no FMU at"):
         Isolated("a", tmp_path / "none.fmu")
+
+
+def test_folders_named_like_modules_are_none(spring, tmp_path, monkeypatch):
+    """Where somebody happens to stand is no place to import from."""
+    for name in ("orchestrator", "numpy"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").write_text("raise RuntimeError('foreign')", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    Isolated("a", spring).close()
+
+
+HANGING = """
+import os, sys
+from orchestrator.isolation import Isolated
+
+unit = Isolated("a", sys.argv[1])
+unit.set("mode", 2)
+unit.enter_initialisation(0.0)
+unit.exit_initialisation()
+os.write(1, b"stepping\\n")
+unit.step(0.2, 0.1)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="no groups of processes on this system")
+def test_ctrl_c_ends_a_unit_that_hangs_with_one_traceback(spring, tmp_path):
+    script = tmp_path / "hanging.py"
+    script.write_text(HANGING, encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).resolve().parents[1])}
+    process = subprocess.Popen([sys.executable, script, spring], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=environment, start_new_session=True)  # fmt: skip
+    assert process.stdout.readline() == "stepping\n"
+    os.killpg(process.pid, signal.SIGINT)
+    errors = process.communicate(timeout=30)[1]
+    assert errors.count("Traceback") == 1 and "KeyboardInterrupt" in errors
+    assert gone(process.pid)

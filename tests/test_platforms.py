@@ -18,7 +18,7 @@ from fmu_src import audit
 from fmu_src.link import FMI_HEADERS, zig
 from fmu_src.package import build_native
 
-pytestmark = [pytest.mark.platforms, pytest.mark.skipif(zig() is None, reason="no zig: pip install rvwear[build]")]
+pytestmark = [pytest.mark.platforms, pytest.mark.skipif(zig() is None, reason='no zig: pip install "rvwear[build]"')]
 EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "load_fmu.c"
 
 

@@ -52,7 +52,7 @@ def ours(folder):
 def stranger(script, *arguments, needs, scratch):
     """What another tool finds; whatever it unpacks goes to ``scratch``, for they do not tidy up."""
     if importlib.util.find_spec(needs) is None:
-        pytest.skip(f"{needs} is not installed: pip install rvwear[strangers]")
+        pytest.skip(f"{needs} is not installed: pip install \"rvwear[strangers]\"")
     command = [sys.executable, SCRIPTS / script, *map(str, arguments)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | {"TMPDIR": str(scratch)})
     assert done.returncode == 0, done.stderr[-2000:]

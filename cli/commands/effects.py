@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.options import add_json, add_reducer
+from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.catalogue import Entry
@@ -61,27 +62,25 @@ def check_files(files: list[Path], as_json: bool) -> int:
 
 
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":
-    from cli.screen import busy
     from discrepancy.catalogue.signature import new_bench, signature
 
-    with busy("computing the signature"):
+    with task("computing the signature"):
         bench = new_bench(reducer)
         return {e.name: [signature(bench, e.name, case) for case in e.cases] for e in chosen}
 
 
 def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, list[Signature]]":
     """Compute all signatures and pictures and write them."""
-    from cli.screen import Progress
     from discrepancy.catalogue.page import page_of
     from discrepancy.catalogue.plots import figure
     from discrepancy.catalogue.signature import new_bench, signature
     from pages.render import written
 
     bench, shown = new_bench(reducer), []
-    with Progress(len(chosen), "effects") as progress:
+    with task("effects", total=len(chosen)) as drawing:
         for e in chosen:
             shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
-            progress.advance()
+            drawing.advance()
     written(page_of(shown), path)
     return {e.name: found for e, found, _ in shown}
 

@@ -6,7 +6,11 @@ import sys
 from pathlib import Path
 
 from cli.options import add_json
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, MissingPart
+from fmu_src.progress import task
+
+# Of the optional part "ensembles".
+NEEDED = ("SALib", "dask", "distributed", "joblib")
 
 
 def add_commands(sub: argparse._SubParsersAction) -> None:
@@ -27,7 +31,9 @@ def ensemble(options: argparse.Namespace) -> int:
     try:
         return compute(options)
     except ModuleNotFoundError as missing:
-        raise InputFault(f"{missing.name} is missing: pip install rvwear[ensembles]") from None
+        if missing.name is None or missing.name.partition(".")[0] not in NEEDED:
+            raise
+        raise MissingPart("rvwear ensemble", missing.name, "ensembles") from None
 
 
 def compute(options: argparse.Namespace) -> int:
@@ -58,10 +64,10 @@ def compute(options: argparse.Namespace) -> int:
     arriving = through_dask(run, missing, options.scheduler) if options.backend == "dask" else through_joblib(run, missing, options.jobs)
     interrupted = False
     try:
-        with screen.Progress(len(missing), "lives") as progress:
+        with task("lives", total=len(missing)) as living:
             for life in arriving:
                 if store.add(life):
-                    progress.advance()
+                    living.advance()
     except KeyboardInterrupt:
         arriving.close()
         interrupted = True

@@ -51,8 +51,8 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
 
 def life(options: argparse.Namespace) -> int:
     """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
-    from cli import screen
-    from cli.show.life import LifeProgress
+    from cli.show.life import jump_line
+    from fmu_src.progress import say, task
     from fmu_src.source_hash import source_hash
     from orchestrator import netcdf
     from orchestrator.master import Master
@@ -85,7 +85,7 @@ def life(options: argparse.Namespace) -> int:
     resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
-    with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
+    with task("loading the units"):
         pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty,
                          # In this process many steps go into one compiled call.
                          Master if options.fmus else CoupledMaster)
@@ -99,8 +99,13 @@ def life(options: argparse.Namespace) -> int:
         save_checkpoint(checkpoint, state, pair.master.save(), inputs)
 
     try:
-        with LifeProgress(lived) as progress:
-            live(pair, lived, progress.show, keep)
+        with task("hours of life", total=round(life_settings.hours)) as hours:
+
+            def show(state: Life) -> None:
+                hours.done = round(state.hours[-1])
+                say(jump_line(state))
+
+            live(pair, lived, show, keep)
     except KeyboardInterrupt:
         print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
         return 130

@@ -1,45 +1,21 @@
 """Lives, modes and wear in motion on the screen."""
 
-import sys
-
 import xarray as xr
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from cli.screen import errors
 from studies.dynamics_wear import MAPS, VOLUMES, Comparison
 from studies.life import Life
 from studies.modes import Mode
 
 
-class LifeProgress:
-    """One line per jump; on a terminal a bar over the hours too."""
-
-    def __init__(self, life: Life):
-        columns = (TextColumn("hours"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-        self.bar = Progress(*columns, console=errors, transient=True, disable=not errors.is_terminal)
-        done = life.hours[-1] if life.hours else 0.0
-        self.task = self.bar.add_task("life", total=life.settings.hours, completed=done)
-
-    def __enter__(self):
-        self.bar.start()
-        return self
-
-    def __exit__(self, *_):
-        self.bar.stop()
-
-    def show(self, life: Life) -> None:
-        f = life.figures[-1]
-        line = (
-            f"{life.hours[-1]:8.0f} h  raceways {f['inner_raceway_um']:.3f} / {f['outer_raceway_um']:.3f} um  "
-            f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  jump {len(life.hours) - 1} of {life.jumps}"
-        )
-        if errors.is_terminal:
-            self.bar.update(self.task, completed=round(life.hours[-1]))
-            self.bar.console.print(line, highlight=False)
-        else:
-            print(line, file=sys.stderr, flush=True)
+def jump_line(life: Life) -> str:
+    """What a jump has come to."""
+    f = life.figures[-1]
+    return (
+        f"{life.hours[-1]:8.0f} h  raceways {f['inner_raceway_um']:.3f} / {f['outer_raceway_um']:.3f} um  "
+        f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  jump {len(life.hours) - 1} of {life.jumps}"
+    )
 
 
 # Columns of the summary of a life: name of the figure, head of the column, digits.

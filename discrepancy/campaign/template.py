@@ -1,12 +1,13 @@
 """An empty campaign to fill in: it loads, and the check says what is missing."""
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import pandas as pd
 
 from discrepancy.campaign.file_format import FILE
 from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, USUAL, VALUE, Quantity, roles_of
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, MissingPart
 
 FORMATS = ("csv", "parquet")
 
@@ -77,6 +78,8 @@ def write_template(
             raise InputFault(f"--quantities {quantity}: not a quantity; choose from {', '.join(QUANTITIES)}")
     if kind not in FORMATS:
         raise InputFault(f"--format {kind}: choose one of {', '.join(FORMATS)}")
+    if kind == "parquet" and find_spec("pyarrow") is None:
+        raise MissingPart("--format parquet", "pyarrow", "measurements")
     if not quantities:
         raise InputFault(f"--quantities: give at least one of {', '.join(QUANTITIES)}")
     runs = [(QUANTITIES[q], condition, replicate) for q in quantities for condition, replicate in RUNS]
@@ -89,10 +92,7 @@ def write_template(
     for path, columns in files.items():
         frame = pd.DataFrame({heading(*column): pd.Series(dtype=float) for column in columns})
         if kind == "parquet":
-            try:
-                frame.to_parquet(path)
-            except ImportError:
-                raise InputFault('--format parquet needs the package pyarrow: pip install "rvwear[measurements]"') from None
+            frame.to_parquet(path)
         else:
             frame.to_csv(path, index=False)
     return [folder / FILE, *files]

@@ -1,17 +1,28 @@
 """Predictions shared between processes by condition.
 
 Each process keeps to its conditions, so that a run that it made stands ready when the next
-one starts beside it.  Processes are forked with the model as it stands, this one does a share too.
+one starts beside it.  This one does a share too.  Where processes can be forked they begin with the model as it
+stands, elsewhere with a copy that is sent to them.
 """
 
 import multiprocessing
+import os
 import signal
+import sys
 import weakref
 from collections.abc import Callable, Sequence
+from multiprocessing import resource_tracker
+from typing import Any
 
 import numpy as np
 
 from discrepancy.problem import Record
+from fmu_src.faults import InputFault, RunFault
+from orchestrator.interrupts import interrupts_later
+
+# Says how processes begin, before what is usual on this system.
+HOW = "RVWEAR_PROCESSES"
+WAYS = ("fork", "spawn")
 
 # Equilibria that a sample asks for, roughly: a locked loop is averaged over positions of the cranks, a mean over a turn
 # runs through one, a life through some wear cycles.
@@ -26,13 +37,26 @@ class Crew:
     def __init__(self, records: Sequence[Record], predict: Callable[..., np.ndarray], jobs: int):
         self.predict = predict
         self.worker_of = shares(records, jobs)
-        context = multiprocessing.get_context("fork")
+        self.rounds = 0
+        way = way_to_begin()
+        context = multiprocessing.get_context(way)
+        if way == "spawn":
+            # It begins with the first process, and its beginning lets Ctrl-C through.
+            resource_tracker.ensure_running()
         self.pipes, self.processes = [], []
         for _ in range(1, jobs):
             here, there = context.Pipe()
-            # A copy of the other pipes' ends would keep them open when this process ends.
-            process = context.Process(target=serve, args=(there, predict, [here, *self.pipes]), daemon=True)
-            process.start()
+            # A forked process has a copy of the other pipes' ends, which would keep them open when this one ends.
+            copied = [here, *self.pipes] if way == "fork" else []
+            process = context.Process(target=serve, args=(there, predict, copied), daemon=True)
+            try:
+                with interrupts_later():
+                    process.start()
+            except OSError as problem:
+                raise RunFault(
+                    f"no process to share the predictions with could be started ({problem}). A script of one's own begins below"
+                    ' if __name__ == "__main__": where processes are spawned'
+                ) from None
             there.close()
             self.pipes.append(here)
             self.processes.append(process)
@@ -44,15 +68,16 @@ class Crew:
         for i in which:
             parts.setdefault(self.worker_of[i], []).append(i)
         own = parts.pop(0, [])
+        self.rounds += 1
         for worker, indices in parts.items():
-            self.pipes[worker - 1].send((indices, arguments))
+            self.send(worker, (self.rounds, indices, arguments))
         fault, found = None, {}
         try:
             found.update((i, self.predict(i, *arguments)) for i in own)
         except Exception as problem:  # noqa: BLE001 - raised below, when the others' answers are in
             fault = problem
         for worker in parts:
-            answer = self.pipes[worker - 1].recv()
+            answer = self.answer(worker)
             if isinstance(answer, Exception):
                 fault = fault or answer
             else:
@@ -60,6 +85,39 @@ class Crew:
         if fault:
             raise fault
         return [found[i] for i in which]
+
+    def send(self, worker: int, request: tuple) -> None:
+        try:
+            self.pipes[worker - 1].send(request)
+        except OSError:
+            raise self.loss(worker) from None
+
+    def answer(self, worker: int) -> Any:
+        """Of this round; those of a round that was interrupted are passed over."""
+        while True:
+            try:
+                number, answer = self.pipes[worker - 1].recv()
+            except (EOFError, OSError):
+                raise self.loss(worker) from None
+            if number == self.rounds:
+                return answer
+
+    def loss(self, worker: int) -> RunFault:
+        process = self.processes[worker - 1]
+        process.join(timeout=1.0)
+        return RunFault(
+            f"a process that makes predictions ended with exit code {process.exitcode}; what it printed stands above."
+            " Look at the memory that is left, and start again"
+        )
+
+
+def way_to_begin() -> str:
+    """fork, or spawn where processes cannot be forked (Windows) or libraries do not survive it (macOS)."""
+    chosen = os.environ.get(HOW)
+    possible = [way for way in WAYS if way in multiprocessing.get_all_start_methods()]
+    if chosen and chosen not in possible:
+        raise InputFault(f"{HOW} = {chosen!r}: processes begin by {' or '.join(possible)} here")
+    return chosen or ("spawn" if sys.platform == "darwin" else possible[0])
 
 
 def shares(records: Sequence[Record], jobs: int) -> list[int]:
@@ -78,20 +136,24 @@ def shares(records: Sequence[Record], jobs: int) -> list[int]:
 
 
 def serve(pipe, predict: Callable[..., np.ndarray], others: list) -> None:
-    """A forked process: answers until its pipe is closed.  Ctrl-C is for the first process to hear."""
+    """The other process: answers until its pipe is closed.  Ctrl-C is for the first process to hear."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for other in others:
         other.close()
     while True:
         try:
-            indices, arguments = pipe.recv()
-        except EOFError:
+            number, indices, arguments = pipe.recv()
+        except (EOFError, OSError):
             return
         try:
             answer = [(i, predict(i, *arguments)) for i in indices]
         except Exception as problem:  # noqa: BLE001 - sent to whoever asked
             answer = problem
-        pipe.send(answer)
+        try:
+            pipe.send((number, answer))
+        except OSError:
+            # Nobody waits for it any more.
+            return
 
 
 def dismiss(pipes: list, processes: list) -> None:

@@ -2,7 +2,6 @@
 
 import copy
 import difflib
-import multiprocessing
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -45,9 +44,8 @@ class PhysicalModel:
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
                  jobs: int = 1, fmus: Path | None = None):
-        # Units in other processes are FMUs of their own, and forks are not to be had everywhere.
-        forks = "fork" in multiprocessing.get_all_start_methods() and fmus is None
-        self.file, self.campaign, self.jobs = model, campaign, jobs if forks else 1
+        # FMUs cannot be shared between processes.
+        self.file, self.campaign, self.jobs = model, campaign, 1 if fmus else jobs
         self.crew: Crew | None = None
         self.complete = False
         self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
@@ -162,7 +160,7 @@ class PhysicalModel:
     def shared(self, which: Sequence[int], arguments: tuple) -> list[np.ndarray]:
         """Predictions on all processes, if there are several and the model is complete."""
         if self.jobs > 1 and self.crew is None and self.complete:
-            self.crew = Crew(self.records, _one_of(self), self.jobs)
+            self.crew = Crew(self.records, Predictor(self), self.jobs)
         if self.crew is not None:
             return self.crew(which, arguments)
         return [self.one(self.records[i], *arguments) for i in which]
@@ -216,11 +214,19 @@ class PhysicalModel:
         return own
 
 
-def _one_of(model: PhysicalModel):
-    """``model.one`` by the record's number, without a hold on the model's crew."""
-    records, one = model.records, PhysicalModel.one
-    alone = copy.copy(model)
-    return lambda i, values, beside: one(alone, records[i], values, beside)
+class Predictor:
+    """``model.one`` by the record's number, without a hold on the model's crew; goes to other processes."""
+
+    def __init__(self, model: PhysicalModel):
+        self.model = copy.copy(model)
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__ |= state
+        # They go by the objects, which are others here.
+        self.model.identities = {id(record): identity(record) for record in self.model.records}
+
+    def __call__(self, i: int, values: Mapping[str, float], beside: Mapping[str, float] | None) -> np.ndarray:
+        return self.model.one(self.model.records[i], values, beside)
 
 
 def defined(record: Record, campaign: Campaign) -> Record:

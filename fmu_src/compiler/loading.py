@@ -58,8 +58,7 @@ def unit_code(initialise: Source, step: Source, layout: Layout, triples: tuple[s
         records = Records(layout)
         return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
 
-    what = f"{initialise.module.partition('.')[0]} ({layout.dtype.itemsize // 1024} kB a record)"
-    return compiled(what, ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
+    return compiled(initialise.module.partition(".")[0], ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
 
 
 def call_code(kernel: Source, arguments: tuple[Type, ...]) -> Code:

@@ -20,7 +20,7 @@ def through_joblib(function: Callable[[object], dict], tasks: list, jobs: int) -
 
 def through_dask(function: Callable[[object], dict], tasks: list, scheduler: str) -> Iterator[dict]:
     """Results as they come; a life whose worker dies runs again on another, so nothing is lost."""
-    from dask.distributed import Client, KilledWorker, as_completed
+    from distributed import Client, KilledWorker, as_completed
 
     try:
         client = Client(scheduler, timeout=10)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, MissingPart
 
 # Ending of the file's name -> reader's module.  The modules import their libraries themselves:
 # a campaign of CSV files needs none of the others.
@@ -49,12 +49,11 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     try:
         reader = import_module(f"discrepancy.campaign.readers.{kind}")
     except ModuleNotFoundError as problem:
-        raise InputFault(
-            f"{place}: file = {path.name!r}: reading {kind} needs the package {problem.name}:"
-            ' pip install "rvwear[measurements]"'
-        ) from None
+        raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
     try:
         columns: dict[str, np.ndarray] = reader.read(path, names, options)
+    except ModuleNotFoundError as problem:
+        raise MissingPart(f"{place}: file = {path.name!r}: reading it", problem.name or kind, "measurements") from None
     except ReadFault as problem:
         raise InputFault(f"{place}: {path}: {problem}") from None
     except InputFault:

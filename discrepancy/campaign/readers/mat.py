@@ -7,18 +7,31 @@ column of a matrix, counted from 1 (``data[2]``).
 import re
 from pathlib import Path
 
-import h5py
 import numpy as np
 import scipy.io
 
 from discrepancy.campaign.readers import Options, ReadFault, missing_column
 
+HDF = b"\x89HDF\r\n\x1a\n"
 COLUMN_OF_MATRIX = re.compile(r"(.+)\[(\d+)\]$")
 
 
 def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]:
-    arrays = hdf_arrays(path) if h5py.is_hdf5(path) else scipy_arrays(path)
+    arrays = hdf_arrays(path) if is_hdf(path) else scipy_arrays(path)
     return {name: vector(arrays, name) for name in sorted(names)}
+
+
+def is_hdf(path: Path) -> bool:
+    """HDF5 files have their signature at byte 0, 512, 1024, 2048 ...: before it is room for a head, MATLAB's for instance."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        place = 0
+        while place < size:
+            file.seek(place)
+            if file.read(len(HDF)) == HDF:
+                return True
+            place = max(512, 2 * place)
+    return False
 
 
 def scipy_arrays(path: Path) -> dict[str, np.ndarray]:
@@ -39,6 +52,8 @@ def scipy_arrays(path: Path) -> dict[str, np.ndarray]:
 
 
 def hdf_arrays(path: Path) -> dict[str, np.ndarray]:
+    import h5py
+
     found: dict[str, np.ndarray] = {}
 
     def add(name: str, item: object) -> None:

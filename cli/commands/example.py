@@ -1,0 +1,88 @@
+"""``rvwear example``: the examples that come with the software, and a copy of one."""
+
+import argparse
+import shutil
+from pathlib import Path
+
+from cli.completion import completed_by
+from cli.options import add_json
+from fmu_src.faults import InputFault
+
+# File or folder in ``examples/`` -> what it shows.
+EXAMPLES = {
+    "catalogue_stiffness": "stiffness and lost motion of a catalogue against those of the contacts alone",
+    "cycloidal_actuator": "torque ramps of a printed cycloidal drive (its measurements: docs/real_data.md)",
+    "durability_test": "lost motion over a published test of 1550 h",
+    "ensemble.toml": "parts, load and wear coefficients that scatter: rvwear ensemble examples/ensemble.toml",
+    "five_lines.py": "the package of both FMUs, stepped from Python",
+    "hidden_effect": "a campaign with data and an effect to find, with a guide: examples/hidden_effect/README.md",
+    "load_fmu.c": "a native FMU, stepped from C",
+    "milling_wear": "a negative control: milling cutters, to which no effect may be added (docs/real_data.md)",
+    "move_and_return.toml": "a table of speeds and torques: rvwear life --duty examples/move_and_return.toml",
+    "pair.toml": "the FMUs of plant and wear, connected: rvwear build, rvwear run examples/pair.toml",
+    "raceway_depths": "two depths after a test of 10,000 h: rvwear diagnose RV20E-121 examples/raceway_depths",
+    "robot_joint": "a joint with motor, drive and controller: python examples/robot_joint/robot_joint.py",
+}
+# Where a copy goes, so that every command in README, docs and the examples themselves finds it.
+TARGET = Path("examples")
+ROOT = Path(__file__).resolve().parents[2]
+LITTER = shutil.ignore_patterns("__pycache__")
+
+
+def add_commands(sub: argparse._SubParsersAction) -> None:
+    command = sub.add_parser("example", help="copy an example, its data included, into the folder examples")
+    completed_by(command.add_argument("name", nargs="?", metavar="NAME", help="example to copy (default: list all)"), completions)
+    add_json(command, "print as JSON, nothing else")
+    command.set_defaults(run=run)
+
+
+def completions(prefix: str, **_: object) -> list[str]:
+    return [name for name in EXAMPLES if name.startswith(prefix)]
+
+
+def shipped() -> Path:
+    """The folder of the examples: a wheel has them under a name of their own, a checkout in ``examples``."""
+    installed = ROOT / "rvwear_examples"
+    return installed if installed.is_dir() else ROOT / "examples"
+
+
+def run(options: argparse.Namespace) -> int:
+    """``rvwear example``: list, or copy one."""
+    if not options.name:
+        return show_list(options.json)
+    made = copy(options.name)
+    if options.json:
+        from cli.screen import json_text
+
+        json_text({"example": options.name, "path": str(made)})
+    else:
+        print(made)
+    return 0
+
+
+def show_list(as_json: bool) -> int:
+    if as_json:
+        from cli.screen import json_text
+
+        json_text({"examples": EXAMPLES})
+        return 0
+    width = max(map(len, EXAMPLES))
+    for name, text in EXAMPLES.items():
+        print(f"{name:{width}}  {text}")
+    return 0
+
+
+def copy(name: str) -> Path:
+    """Copy an example, with or without the ending of its name; InputFault where something of it is there already."""
+    found = [known for known in EXAMPLES if name in (known, Path(known).stem)]
+    if not found:
+        raise InputFault(f"no example {name!r}: give one of {', '.join(EXAMPLES)}")
+    source, target = shipped() / found[0], TARGET / found[0]
+    if target.exists():
+        raise InputFault(f"{target} exists already and is not overwritten; move it away, or go to another folder")
+    TARGET.mkdir(exist_ok=True)
+    if source.is_dir():
+        shutil.copytree(source, target, ignore=LITTER)
+    else:
+        shutil.copyfile(source, target)
+    return target
