@@ -65,8 +65,8 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         shutil.copy(ROOT / "fmu_src" / "slaves" / script.name, script)
         for package in KERNEL_PACKAGES:
             shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
-            for name, file in user_effect_files(package):
-                shutil.copy(file, folder / name)
+            for place, file in user_effect_files(package):
+                shutil.copy(file, folder / place)
         (folder / STAMP).write_bytes(stamp_bytes(stamp))
         (folder / OBJECT_CODE).write_bytes(code or object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
@@ -156,7 +156,8 @@ def validate(fmu: Path) -> None:
     # Names that differ in numbers alone are built alike; parsing every element of every array takes ten seconds.
     alike = {re.sub(r"\d+", "1", v.name): v for v in description.modelVariables}
     new = set(alike) - _good_names
-    description.modelVariables = [alike[pattern] for pattern in new]
+    # A description without time would be a fault of its own.
+    description.modelVariables = [v for pattern, v in alike.items() if pattern in new or v.causality == "independent"]
     problems = validate_model_description(description, validate_variable_names=True)
     if problems:
         raise PackageFault(f"{fmu}: " + "; ".join(problems))
