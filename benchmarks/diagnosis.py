@@ -117,7 +117,7 @@ def diagnosed(conditions: int, samples: int, share: float = 1.0, jobs: int = 1) 
         answer = diagnose(file, campaign, model=model)
         processor, wall = process_time() - processor, time.perf_counter() - wall
     stages = {"model": built} | spent | {"verdict": wall - built - sum(spent.values())}
-    return Diagnosed(processor, wall, stages, answer.diagnosis.fits["space"].predictions.calls, len(model.candidates), answer.verdict)
+    return Diagnosed(processor, wall, stages, answer.diagnosis.fits.space.predictions.calls, len(model.candidates), answer.verdict)
 
 
 def grow(found: Measured, what: str, points: list[tuple[float, Diagnosed]]) -> None:

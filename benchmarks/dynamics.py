@@ -14,9 +14,9 @@ import math
 from pathlib import Path
 from time import thread_time
 
-import numba
 import numpy as np
 
+from fmu_src.kernel import kernel
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble, bearing_contacts
@@ -53,7 +53,7 @@ def run(records, step, count, look=lambda record: None):
     return seen
 
 
-@numba.njit
+@kernel
 def step_often(records, step, count):
     """Without Python in between, whose calls of a kernel take 1 to 10 us."""
     for _ in range(count):
@@ -191,7 +191,7 @@ def equilibrium_limits(records, spent, evaluations):
 RATE = 1e5  # velocity per position of a step of 20 us [1/s]
 
 
-@numba.njit
+@kernel
 def mesh_in_motion_loop(records, count):
     r = records[0]
     for _ in range(count):
@@ -199,7 +199,7 @@ def mesh_in_motion_loop(records, count):
             mesh_contacts(r, d, r.q[3 * r.mesh_force.shape[0]], 0.0, RATE)
 
 
-@numba.njit
+@kernel
 def bearings_in_motion_loop(records, count):
     r = records[0]
     for _ in range(count):
@@ -208,13 +208,13 @@ def bearings_in_motion_loop(records, count):
                 bearing_in_motion(r, d, c, 0.0, RATE)
 
 
-@numba.njit
+@kernel
 def motion_loop(records, count):
     for _ in range(count):
         assemble_motion(records[0], RATE)
 
 
-@numba.njit
+@kernel
 def factor_loop(records, count):
     r = records[0]
     n = r.q.shape[0] - 1
@@ -228,7 +228,7 @@ def factor_loop(records, count):
         cholesky_solve(r.factor, r.direction, r.factor_scale, n, 0.0)
 
 
-@numba.njit
+@kernel
 def mesh_loop(records, count):
     r = records[0]
     lobes = r.lobe_pitch_error.shape[1]
@@ -237,7 +237,7 @@ def mesh_loop(records, count):
             mesh_contacts(r, d, r.ideal_output, -lobes * r.ideal_output + disc_offset(r, d), 0.0)
 
 
-@numba.njit
+@kernel
 def bearings_loop(records, count):
     r = records[0]
     for _ in range(count):
@@ -246,14 +246,14 @@ def bearings_loop(records, count):
                 bearing_contacts(r, d, c, r.ideal_output, r.cage, 1.0)
 
 
-@numba.njit
+@kernel
 def equilibrium_loop(records, count):
     r = records[0]
     for _ in range(count):
         assemble(r, r.ideal_output, r.cage, r.load_torque)
 
 
-@numba.njit
+@kernel
 def direction_loop(records, count):
     for _ in range(count):
         newton_direction(records[0])

@@ -8,10 +8,10 @@ import math
 import sys
 from pathlib import Path
 
-import numba
 import numpy as np
 from scipy.optimize import root
 
+from benchmarks.numba_peer import njit
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Measured, Ratio, cost, cost_at
 from reducers.reducer import load_reducer
@@ -95,7 +95,7 @@ def with_root(residual, forces_at, angles, z0, lever, wanted, xtol, jac=None) ->
     return error_of(forces, wanted), seconds, counted[0] / len(angles)
 
 
-@numba.njit(error_model="numpy")
+@njit
 def assembled(records, z, angle, cage, out, tangent):
     r = records[0]
     for i in range(z.shape[0]):

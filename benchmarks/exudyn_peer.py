@@ -8,9 +8,9 @@ Its explicit methods are out of reach: the dampers of the stiffest joints have e
 
 from itertools import product
 
-import numba
 import numpy as np
 
+from benchmarks.numba_peer import njit
 from rv_plant.dynamics import assemble_motion
 
 # Steps from one communication point to the next, relative tolerance of Newton's method, whether its matrix
@@ -21,7 +21,7 @@ LADDER: tuple[Setting, ...] = tuple(product((2, 3, 4, 6, 8), (1e-2, 3e-3, 1e-3),
 SLOW_LADDER: tuple[Setting, ...] = tuple(product((2, 3, 4, 6, 8), (1e-2, 1e-3), (True,), (0.8,)))
 
 
-@numba.njit(error_model="numpy")
+@njit
 def forces(records, q, v, cage, out):
     """Generalised forces, as Exudyn adds them on the right."""
     r = records[0]
@@ -30,7 +30,7 @@ def forces(records, q, v, cage, out):
     out[:] = -r.residual_vector
 
 
-@numba.njit(error_model="numpy")
+@njit
 def tangent(records, q, v, cage, stiffness, damping, out):
     """``stiffness`` times K plus ``damping`` times D: one assembly gives K + rate D."""
     r = records[0]

@@ -12,7 +12,9 @@ import sys
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
+from cli.progress import new_screen
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (reducer, system, life, ensemble, reproduce, build, campaign, comparison, effects, example, completion)
@@ -37,11 +39,12 @@ def main(arguments: list[str] | None = None) -> int:
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        return options.run(options)
+        with told_to(new_screen()):
+            return options.run(options)
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
-    except run_faults() as fault:
+    except RunFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 1
     except BrokenPipeError:
@@ -61,12 +64,6 @@ def print_whatever_the_console_can() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
-
-
-def run_faults() -> tuple[type[Exception], ...]:
-    """What ends a run with a message; the compiler's is known only where the compiler is loaded."""
-    native = sys.modules.get("fmu_src.native")
-    return (RunFault,) if native is None else (RunFault, native.NativeFault)
 
 
 def parser() -> argparse.ArgumentParser:

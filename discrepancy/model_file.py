@@ -16,12 +16,15 @@
 import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import tomlkit
+from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
 from fmu_src.faults import InputFault
+from fmu_src.effect_check import UNITS, require_sound_effects
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
@@ -36,8 +39,8 @@ class ModelFile:
     name: str
     reducer: Reducer
     settings: dict[str, float] = field(default_factory=dict)
-    effects: dict[str, dict[str, dict]] = field(default_factory=dict)
-    steps: tuple[dict, ...] = ()
+    effects: dict[str, dict[str, dict[str, Any]]] = field(default_factory=dict)
+    steps: tuple[dict[str, Any], ...] = ()
     path: Path | None = None
 
     def values(self) -> dict[str, float]:
@@ -50,6 +53,8 @@ class ModelFile:
 
 def every_effect() -> dict[str, Effect]:
     """All effects by name; the two halves of one effect have the union of their parameters."""
+    for unit in UNITS:
+        require_sound_effects(unit)
     found = dict(PLANT_EFFECTS)
     for name, effect in WEAR_EFFECTS.items():
         if name in found:
@@ -78,7 +83,7 @@ def load_model(name_or_path: str | Path) -> ModelFile:
     return ModelFile(reducer.name, reducer)
 
 
-def model_of(content: dict, path: Path) -> ModelFile:
+def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     head = content["model"]
     for key in ("name", "reducer"):
         if not isinstance(head.get(key), str):
@@ -138,7 +143,7 @@ def extended_reducer(file: ModelFile) -> Reducer:
     return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
 
 
-def inline(entry: dict):
+def inline(entry: dict[str, Any]) -> InlineTable:
     table = tomlkit.inline_table()
     table.update(entry)
     return table

@@ -15,16 +15,18 @@ import importlib
 import linecache
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
+from fmu_src.effect_check import OWN
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
 
 # In a unit's ``ALLOWED``, for hooks that may set the effect's own states.
-OWN_STATES = {"own states": "="}
+OWN_STATES = {OWN: "="}
 
 
 @dataclass(frozen=True)
@@ -97,14 +99,23 @@ def choice(name, text, start=1, low=1, high=400) -> EffectParameter:
 
 
 def effect_modules(package: str) -> dict[str, ModuleType]:
-    """The effects of a package, built in and of the user, by name in a fixed order."""
+    """The effects of a package, built in and of the user, by name in a fixed order.
+
+    A user's file that cannot be imported or has no EFFECT is left out here; ``effect_check`` says why as soon as
+    the unit's table is made, before anything is compiled.
+    """
     parent = importlib.import_module(package)
-    names = {p.stem for p in Path(parent.__file__).parent.glob("*.py") if p.stem != "__init__"}
+    own = {p.stem for p in Path(parent.__file__).parent.glob("*.py") if p.stem != "__init__"}
+    modules = {name: importlib.import_module(f"{package}.{name}") for name in own}
     for _, file in user_effect_files(package.partition(".")[0]):
         if str(file.parent) not in parent.__path__:
             parent.__path__.append(str(file.parent))
-        names.add(file.stem)
-    return {name: importlib.import_module(f"{package}.{name}") for name in sorted(names)}
+        if file.stem.isidentifier() and file.stem not in {*own, "__init__"}:
+            with suppress(Exception):
+                module = importlib.import_module(f"{package}.{file.stem}")
+                if isinstance(module.EFFECT, Effect):
+                    modules[file.stem] = module
+    return dict(sorted(modules.items()))
 
 
 def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:

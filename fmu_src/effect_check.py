@@ -8,6 +8,7 @@ import ast
 import importlib
 import importlib.util
 import os
+import re
 import sys
 import traceback
 from collections.abc import Iterable, Mapping
@@ -17,6 +18,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from fmu_src.faults import InputFault
 from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, nearest, source_of
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, user_effect_files
 from fmu_src.variables import Variable
@@ -25,11 +27,12 @@ from fmu_src.variables import Variable
 UNITS = tuple(name for name in KERNEL_PACKAGES if (ROOT / name / "effects").is_dir())
 WHERE = " or ".join(f"DIR/{unit}/" for unit in UNITS)
 OWN = "own states"
+LOOKS_LIKE_EFFECT = re.compile(r"^(EFFECT\b|from fmu_src\.effect\b)", re.MULTILINE)
 # What an operator of ALLOWED stands for.
 SAME = {"+=": ("+=", "-="), "*=": ("*=", "/=")}
 
 
-class EffectFault(ValueError):
+class EffectFault(InputFault):
     """Effects that a unit does not take: one line each, with file and line."""
 
 
@@ -51,6 +54,7 @@ class Frame:
 
     hooks: Mapping[str, tuple[str, str]]
     allowed: Mapping[str, Mapping[str, str]]
+    needs: Mapping[str, str]
     own: tuple[Variable, ...]
     effects: Mapping[str, tuple[Any, Path]]
 
@@ -77,7 +81,7 @@ def folder_findings(folder: Path) -> list[Finding]:
     findings = [
         Finding(file, 1, f"no unit looks here for effects; put it into {WHERE}")
         for file in sorted([*folder.glob("*.py"), *folder.glob("*/*.py")])
-        if file.parent.name not in KERNEL_PACKAGES and "fmu_src.effect" in file.read_text(encoding="utf-8", errors="replace")
+        if file.parent.name not in UNITS and LOOKS_LIKE_EFFECT.search(file.read_text(encoding="utf-8", errors="replace"))
     ]
     if not any((folder / unit).is_dir() for unit in UNITS):
         findings.append(Finding(folder, 0, f"{USER_EFFECTS} names this folder, which has neither {' nor '.join(UNITS)} in it"))
@@ -108,6 +112,8 @@ def check_file(file: Path, package: str) -> list[Finding]:
         tree = ast.parse(file.read_bytes(), str(file))
     except SyntaxError as error:
         return [Finding(file, error.lineno or 1, f"syntax error: {error.msg}")]
+    except ValueError as error:
+        return [Finding(file, 1, f"no text of a Python file: {error}")]
     source = source_of(file, tree)
     findings = [*of_name(file, frame), *of_hooks(source, frame)]
     if "EFFECT" not in source.names:
@@ -115,7 +121,7 @@ def check_file(file: Path, package: str) -> list[Finding]:
     module, faults = imported(file, package)
     findings += faults
     effect = getattr(module, "EFFECT", None)
-    if hasattr(effect, "variables") and hasattr(effect, "states"):
+    if is_effect(effect):
         findings += of_variables(tree, file, effect, frame)
         findings += of_kernels(source, effect, frame)
     elif module is not None and effect is not None:
@@ -123,13 +129,22 @@ def check_file(file: Path, package: str) -> list[Finding]:
     return sorted(set(findings))
 
 
+def is_effect(found: Any) -> bool:
+    """By what it has: the class stands above this module."""
+    return hasattr(found, "variables") and hasattr(found, "states")
+
+
 def frame_of(package: str, file: Path) -> Frame:
-    """The unit's frame as an effect in ``file`` meets it."""
+    """The unit's frame as an effect in ``file`` meets it, with the effects that are loaded and those beside it."""
     effects = importlib.import_module(f"{package}.effects")
     variables = importlib.import_module(f"{package}.variables")
     others = {name: (effect, Path(sys.modules[f"{package}.effects.{name}"].__file__ or "")) for name, effect in effects.EFFECTS.items()}
+    for beside in file.parent.glob("*.py") if file.parent.name == package else ():
+        effect = getattr(imported(beside, package)[0], "EFFECT", None)
+        if beside.stem not in others and is_effect(effect):
+            others[beside.stem] = effect, beside
     others = {name: other for name, other in others.items() if other[1].resolve() != file.resolve()}
-    return Frame(effects.HOOKS, effects.ALLOWED, tuple(variables.own_variables()), others)
+    return Frame(effects.HOOKS, effects.ALLOWED, getattr(effects, "NEEDS", {}), tuple(variables.own_variables()), others)
 
 
 def imported(file: Path, package: str) -> tuple[ModuleType | None, list[Finding]]:
@@ -147,7 +162,7 @@ def imported(file: Path, package: str) -> tuple[ModuleType | None, list[Finding]
     module = importlib.util.module_from_spec(specification)
     try:
         specification.loader.exec_module(module)
-    except Exception as error:  # noqa: BLE001: whatever the file does when it is imported
+    except Exception as error:  # noqa: BLE001 (the file may do anything when it is imported)
         lines = [f.lineno or 1 for f in traceback.extract_tb(error.__traceback__) if f.filename == str(file)]
         return None, [Finding(file, lines[-1] if lines else 1, f"{type(error).__name__}: {error}")]
     return module, []
@@ -207,14 +222,14 @@ def always_returns(body: list[ast.stmt]) -> bool:
 
 def of_variables(tree: ast.Module, file: Path, effect: Any, frame: Frame) -> list[Finding]:
     """Names that the unit or another effect has already, or that the effect itself has twice."""
-    taken = {v.name: f"the unit has a {v.role}" for v in frame.own}
+    taken = {v.name: f"the unit has {ROLE[v.role]}" for v in frame.own}
     for name, (other, _) in frame.effects.items():
-        taken |= {v.name: f"the effect {name} has a {v.role}" for v in other.variables()}
+        taken |= {v.name: f"the effect {name} has {ROLE[v.role]}" for v in other.variables()}
     findings = []
     for v in effect.variables():
         if v.name in taken:
             findings.append(Finding(file, line_of(tree, v.name), f"{taken[v.name]} {v.name} already; choose another name"))
-        taken[v.name] = "the effect itself has"
+        taken[v.name] = f"the effect itself has {ROLE[v.role]}"
     return findings
 
 
@@ -228,9 +243,9 @@ def line_of(tree: ast.Module, name: str) -> int:
 def of_kernels(source: Source, effect: Any, frame: Frame) -> list[Finding]:
     """What the hooks read and change, held against what they may."""
     states = {v.name for v in effect.states}
-    known = {v.name: v for v in [*frame.own, *(v for other, _ in frame.effects.values() for v in other.variables()), *effect.variables()]}
+    known = {v.name: v for v in [*effect.variables(), *of_others(frame), *frame.own]}
     dimensions = {name: len(v.shape) for name, v in known.items()}
-    findings = []
+    findings, changed = [], set()
     for hook in frame.hooks:
         if hook not in source.functions:
             continue
@@ -241,7 +256,16 @@ def of_kernels(source: Source, effect: Any, frame: Frame) -> list[Finding]:
             text = rule(hook, use.name, use.action, states, known, frame)
             if text:
                 findings.append(Finding(use.file, use.line, text))
+        changed |= {use.name for use in reading.uses if use.action != "read"}
+    for hook, name in frame.needs.items():
+        if hook in source.functions and name not in changed:
+            text = f"{hook} is called only where prepare does r.{name} += 1: let it do so where the effect is on"
+            findings.append(Finding(source.file, source.functions[hook].lineno, text))
     return findings
+
+
+def of_others(frame: Frame) -> list[Variable]:
+    return [v for other, _ in frame.effects.values() for v in other.variables()]
 
 
 def read_hook(source: Source, hook: str, dimensions: Mapping[str, int]) -> Reading:
@@ -268,14 +292,12 @@ def of_change(hook: str, name: str, action: str, states: set[str], known: Mappin
 
 def of_reading(hook: str, name: str, action: str, states: set[str], known: Mapping[str, Variable], frame: Frame) -> str:
     """Why a hook may not read a field: other effects change it at the same stage."""
-    by = "effects" if name in frame.allowed[hook] else owner_that_changes(hook, name, frame) if name not in states else ""
-    if not by:
-        return ""
-    later = [other for other in list(frame.hooks)[list(frame.hooks).index(hook) + 1 :] if name not in frame.allowed[other]]
-    hint = f"; {', '.join(later)} may read it" if later and by == "effects" else ""
-    return f"{hook} reads r.{name}, {meaning(known[name])}, which other {by} changes in the same stage{hint}".replace(
-        "other effects changes", "effects change"
-    )
+    if name in frame.allowed[hook]:
+        later = [other for other in list(frame.hooks)[list(frame.hooks).index(hook) + 1 :] if name not in frame.allowed[other]]
+        hint = f"; {', '.join(later)} may read it" if later else ""
+        return f"{hook} reads r.{name}, {meaning(known[name])}, on which other effects act in the same stage{hint}"
+    owner = "" if name in states else owner_that_changes(hook, name, frame)
+    return f"{hook} reads r.{name}, {meaning(known[name])}, which the effect {owner} changes in the same stage" if owner else ""
 
 
 def owner_that_changes(hook: str, name: str, frame: Frame) -> str:
@@ -283,11 +305,15 @@ def owner_that_changes(hook: str, name: str, frame: Frame) -> str:
     for owner, (other, file) in frame.effects.items():
         if name in {v.name for v in other.states}:
             source = source_of(file, ast.parse(file.read_bytes()))
-            fields = {v.name: len(v.shape) for v in [*frame.own, *(v for o, _ in frame.effects.values() for v in o.variables())]}
+            fields = {v.name: len(v.shape) for v in [*of_others(frame), *frame.own]}
             if hook in source.functions and any(u.name == name and u.action != "read" for u in read_hook(source, hook, fields).uses):
-                return f"effect {owner}"
+                return owner
     return ""
 
 
+# How a role reads in a sentence.
+ROLE = {"input": "an input", "parameter": "a parameter", "output": "an output", "state": "a state", "scratch": "work space"}
+
+
 def meaning(v: Variable) -> str:
-    return f"{'an' if v.role[0] in 'aeiou' else 'a'} {v.role} ({v.description})" if v.description else f"a {v.role}"
+    return f"{ROLE[v.role]} ({v.description})" if v.description else ROLE[v.role]

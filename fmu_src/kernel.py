@@ -2,77 +2,52 @@
 
 A kernel is a Python function in the subset that ``compiler`` turns into machine code:
 scalars, loops, record fields, array elements.  Called from Python it is compiled for the
-types of its arguments, once per user (``store``).  Set ``RVWEAR_PLAIN_PYTHON=1`` and the
-same functions run as plain Python.
+types of its arguments, once per user.  Set ``RVWEAR_PLAIN_PYTHON=1`` and the same
+functions run as plain Python.
 """
 
-import ast
-import inspect
 import os
-import textwrap
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any
+
+from fmu_src.compiler.source import Source
 
 PLAIN = bool(os.environ.get("RVWEAR_PLAIN_PYTHON"))
 
 
-class Kernel:
-    """A function that compiles itself; ``is_entry`` gives it object code of its own, see ``entry_point``."""
+class Kernel(Source):
+    """A kernel that Python can call; ``callers`` by the sorts of arguments seen so far."""
 
-    is_kernel = True
-
-    def __init__(self, function: Callable, is_entry: bool = False):
-        self.function = function
-        self.is_entry = is_entry
-        self.name = function.__name__
-        self.module = function.__module__
+    def __init__(self, function: Callable[..., Any], is_entry: bool = False):
+        super().__init__(function, is_entry)
         self.__doc__ = function.__doc__
-        self.__name__ = function.__name__
-        self.__module__ = function.__module__
+        self.__name__ = self.name
+        self.__module__ = self.module
         self.__wrapped__ = function
-        self._callers: dict[tuple, Callable] = {}
+        self.callers: dict[tuple[Any, ...], Callable[..., Any]] = {}
 
     def __repr__(self) -> str:
         return f"<kernel {self.module}.{self.name}>"
 
-    @property
-    def file(self) -> str:
-        return self.function.__code__.co_filename
-
-    @cached_property
-    def tree(self) -> ast.FunctionDef:
-        """The syntax tree of the function, with the file's line numbers."""
-        lines, first = inspect.getsourcelines(self.function)
-        tree = ast.parse(textwrap.dedent("".join(lines)))
-        ast.increment_lineno(tree, first - 1)
-        (function,) = tree.body
-        assert isinstance(function, ast.FunctionDef)
-        return function
-
-    @property
-    def local_names(self) -> tuple[str, ...]:
-        return self.function.__code__.co_varnames
-
-    def outer(self, name: str) -> Any:
-        """What a name means outside of the function, or None."""
-        code = self.function.__code__
-        if name in code.co_freevars and self.function.__closure__:
-            return self.function.__closure__[code.co_freevars.index(name)].cell_contents
-        return self.function.__globals__.get(name)
-
     def __call__(self, *arguments: Any) -> Any:
-        from fmu_src.compiler import calling
+        # Here, so that who only declares kernels does not load the compiler.
+        from fmu_src.compiler.calling import sorts_of
 
-        return calling.call(self, arguments)
+        sorts = sorts_of(self, arguments)
+        caller = self.callers.get(sorts)
+        if caller is None:
+            from fmu_src.compiler.calling import make_caller
+
+            caller = self.callers[sorts] = make_caller(self, arguments)
+        return caller(*arguments)
 
 
-def kernel(function: Callable) -> Any:
+def kernel(function: Callable[..., Any]) -> Any:
     """Make a kernel of a function."""
     return function if PLAIN else Kernel(function)
 
 
-def entry_point(function: Callable) -> Any:
+def entry_point(function: Callable[..., Any]) -> Any:
     """A kernel with object code of its own: other kernels that run in this process call it and do not contain it.
 
     The entry points of one module (``initialise`` and ``step`` of a unit) are compiled together.

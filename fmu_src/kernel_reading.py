@@ -21,7 +21,7 @@ FOREIGN = {
     ast.List: "a list", ast.Dict: "a dictionary", ast.DictComp: "a dictionary", ast.Set: "a set", ast.SetComp: "a set",
     ast.GeneratorExp: "a generator", ast.Yield: "yield", ast.YieldFrom: "yield", ast.Await: "await", ast.JoinedStr: "a text",
     ast.Global: "global", ast.Nonlocal: "nonlocal", ast.Import: "import", ast.ImportFrom: "import", ast.ClassDef: "a class",
-    ast.Delete: "del", ast.Match: "match",
+    ast.Delete: "del", ast.Match: "match", ast.FunctionDef: "a function inside",
 }  # fmt: skip
 # Attributes of an array that say nothing about its values.
 OF_ARRAYS = ("shape", "size", "ndim")
@@ -289,6 +289,8 @@ class Call:
                 if Part() in parts:
                     self.trouble(node, f"{ast.unparse(node.func)} gets the whole record and cannot be looked into")
             return NOTHING
+        if not is_kernel(source.functions[name]):
+            self.trouble(node, f"{name} is no kernel: write @kernel above it")
         parameters = [a.arg for a in source.functions[name].args.args]
         if len(arguments) + len(named) != len(parameters):
             self.trouble(node, f"{name} takes {len(parameters)} arguments ({', '.join(parameters)}), not {len(arguments) + len(named)}")

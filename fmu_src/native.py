@@ -15,12 +15,13 @@ from collections.abc import Callable
 from fmu_src.compiler import loading
 from fmu_src.compiler.module import host_triple
 from fmu_src.compiler.types import Layout
+from fmu_src.faults import RunFault
 from fmu_src.unit import make_unit
 
 __all__ = ["NativeFault", "host_triple", "load_object", "object_code", "object_codes"]
 
 
-class NativeFault(RuntimeError):
+class NativeFault(RunFault):
     """A library that could not be made or would not run without Python."""
 
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from fmu_src.cache_folder import cache_folder
+
 if TYPE_CHECKING:
     import pint
 
@@ -38,7 +40,7 @@ def registry() -> "pint.UnitRegistry":
     """pint's units; half a second of reading, for those only who need them."""
     import pint
 
-    return pint.UnitRegistry(cache_folder=":auto:")
+    return pint.UnitRegistry(cache_folder=cache_folder("units"))
 
 
 @cache

@@ -13,9 +13,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 from fmu_src.faults import InputFault
+from pages.render import written
 from reproduce import (  # noqa: F401  each registers its claims
-    bearing_claims, coefficient_claims, flank_wear_claims, force_claims, geometry_claims, individuality_claims, literature_claims,
-    pin_wear_claims, pressure_claims, raceway_claims, raceway_law_claims, sliding_claims, stiffness_claims,
+    bearing_claims,
+    coefficient_claims,
+    flank_wear_claims,
+    force_claims,
+    geometry_claims,
+    individuality_claims,
+    literature_claims,
+    pin_wear_claims,
+    pressure_claims,
+    raceway_claims,
+    raceway_law_claims,
+    sliding_claims,
+    stiffness_claims,
 )  # fmt: skip
 from reproduce.claim import REGISTRY, Claim
 from reproduce.context import Context
@@ -50,9 +62,4 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
 
 def write_page(claims: list[Claim], path: Path) -> Path:
     """Write the claims as one HTML file that opens offline."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(path.name + ".part")
-    partial.write_text(page_of(claims), encoding="utf-8", newline="\n")
-    partial.replace(path)
-    return path
+    return written(page_of(claims), path)

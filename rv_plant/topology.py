@@ -23,3 +23,7 @@ class Topology:
             "disc": self.discs, "crank": self.cranks, "pin": self.pins, "lobe": self.lobes, "roller": self.rollers,
             "output pin": max(1, self.output_pins),
         })  # fmt: skip
+
+
+# Where only the names of the variables matter.
+SMALLEST = Topology(discs=1, cranks=1, pins=4, lobes=3, rollers=3)

@@ -1,5 +1,6 @@
 """Every variable of the plant; each piece of physics declares its own."""
 
+from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Table, Variable
 
 from rv_plant import (
@@ -19,7 +20,7 @@ from rv_plant import (
     poses,
 )
 from rv_plant.effects import EFFECTS
-from rv_plant.topology import Topology
+from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
@@ -28,7 +29,7 @@ PIECES = (
 )  # fmt: skip
 
 
-def own_variables(topology: Topology) -> list[Variable]:
+def own_variables(topology: Topology = SMALLEST) -> list[Variable]:
     """Those that the plant has without any effect."""
     sizes = topology.sizes()
     return [v for piece in PIECES for v in piece.variables(sizes)]
@@ -36,6 +37,7 @@ def own_variables(topology: Topology) -> list[Variable]:
 
 def plant_table(topology: Topology) -> Table:
     """The plant's variables for one topology; numbers of a real reducer come from its file."""
+    require_sound_effects("rv_plant")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",
                  own_variables(topology) + effects)

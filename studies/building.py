@@ -2,8 +2,6 @@
 
 import sys
 import zipfile
-from collections.abc import Callable
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from fmu_src.faults import InputFault
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
+from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
@@ -33,11 +32,8 @@ class Wanted:
     all_platforms: bool = False
 
 
-def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy: Callable = nullcontext) -> tuple[list[dict], list[Path]]:
-    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
-
-    ``busy(text)`` is entered while something is compiled.
-    """
+def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict], list[Path]]:
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"{NAME} {project().version}"
@@ -53,7 +49,7 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted(), busy:
         if editable in paths and not is_current(editable, identity):
             stale.append(editable)
         if stale:
-            with busy(f"compiling and packing {name}"):
+            with task(f"packing {name}"):
                 codes = object_codes(specification, triples_for(wanted.all_platforms))
                 if editable in stale:
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])

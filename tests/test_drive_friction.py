@@ -8,7 +8,7 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.observe import hysteresis
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
-from rv_plant.effects.drive_friction import ELEMENTS, locked_output_loop
+from rv_plant.locked_output import ELEMENTS, locked_output_loop
 
 COMPLIANCE = 3e-3
 RAMP = np.concatenate([np.linspace(0, 4, 200), np.linspace(4, -4, 400), np.linspace(-4, 0, 200)])

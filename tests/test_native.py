@@ -2,18 +2,18 @@
 
 import math
 
-import numba
-import numpy as np
 import pytest
 
 import lag_unit
 from fmu_src import native
-from fmu_src.unit import Unit
+from fmu_src.compiler import loading
+from fmu_src.compiler.types import KernelFault, Layout
+from fmu_src.kernel import kernel
 
 
 @pytest.mark.parametrize("unit", ["RvPlant", "RvWear"])
 def test_object_code_needs_nothing_but_libm(codes, unit):
-    assert undefined_symbols(codes[unit][native.host_triple()]) <= native.LIBM
+    assert undefined_symbols(codes[unit][native.host_triple()]) <= loading.LIBM
 
 
 def undefined_symbols(code: bytes) -> set[str]:
@@ -35,62 +35,45 @@ def undefined_symbols(code: bytes) -> set[str]:
     return names
 
 
-def unit_with(step) -> Unit:
-    initialise = numba.njit(error_model="numpy")(lambda records: 0)
-    return Unit(lag_unit.lag_table(), initialise, step, {})
+def test_a_kernel_that_uses_libm_passes_and_another_library_does_not(monkeypatch):
+    @kernel
+    def initialise(records):
+        return 0
 
-
-def test_allocating_kernel_is_refused():
-    @numba.njit(error_model="numpy")
-    def step(records, time, duration):
-        work = np.zeros(int(duration))
-        return int(work.sum())
-
-    with pytest.raises(native.NativeFault, match="Lag.*NRT_"):
-        native.unit_module(unit_with(step))
-
-
-def test_kernel_that_uses_libm_passes():
-    @numba.njit(error_model="numpy")
+    @kernel
     def step(records, time, duration):
         records[0].x = math.tanh(time) ** duration
         return 0
 
-    assert native.external_symbols(native.unit_module(unit_with(step))) <= native.LIBM
+    layout = Layout(lag_unit.lag_table().dtype)
+    functions = native.load_object(loading.unit_code(initialise, step, layout, (native.host_triple(),))[native.host_triple()])
+    records = lag_unit.lag_table().new_records()
+    assert functions["step"](records.ctypes.data, 0.5, 2.0) == 0
+    assert records["x"][0] == pytest.approx(math.tanh(0.5) ** 2.0, rel=1e-15)
+    monkeypatch.setattr(loading, "LIBM", loading.LIBM - {"tanh"})
+    monkeypatch.setattr(loading.store, "read", lambda name: None)
+    with pytest.raises(KernelFault, match="tanh"):
+        loading.unit_code(initialise, step, layout, (native.host_triple(),))
 
 
-def test_exception_in_a_kernel_becomes_a_status():
-    @numba.njit(error_model="numpy")
-    def step(records, time, duration):
-        if duration < 0.0:
-            raise ValueError("negative")
-        return 0
+def test_an_entry_point_gives_back_a_status_code():
+    @kernel
+    def initialise(records):
+        return 0.5
 
-    unit = unit_with(step)
-    code = native.target_machine().emit_object(native.unit_module(unit))
-    functions = native.load_object(code)
-    cells = unit.table.new_records().ctypes.data
-    assert functions["step"](cells, 0.0, 1.0) == 0
-    assert functions["step"](cells, 0.0, -1.0) == -1
+    with pytest.raises(KernelFault, match="test_native.py:.*initialise must return a status code"):
+        loading.unit_code(initialise, initialise, Layout(lag_unit.lag_table().dtype), (native.host_triple(),))
 
 
-# Whole FMUs are built twice in test_fmu.
-@pytest.mark.campaign
-def test_object_code_is_the_same_twice(rv20e):
-    specification = rv20e.specification("wear_fmu")
-    triples = (native.host_triple(),)
-    assert native.compiled_objects(specification, triples) == native.compiled_objects(specification, triples)
-
-
-def test_object_code_is_kept_and_serves_other_start_values(rv20e, codes, monkeypatch):
-    monkeypatch.setattr(native, "compiled_objects", lambda *_: pytest.fail("compiled again"))
+def test_object_code_is_the_same_twice_and_serves_other_start_values(rv20e, codes, monkeypatch):
     specification = rv20e.specification("wear_fmu")
     other = specification | {"starts": specification["starts"] | {"mesh_wear_coefficient": 7e-9}}
-    assert native.object_codes(other, tuple(codes["RvWear"])) == codes["RvWear"]
+    triples = tuple(codes["RvWear"])
+    with monkeypatch.context() as nothing_kept:
+        nothing_kept.setattr(loading.store, "read", lambda name: None)
+        assert native.object_codes(specification, triples) == codes["RvWear"]
+    monkeypatch.setattr(loading, "optimised", lambda *_: pytest.fail("compiled again"))
+    assert native.object_codes(other, triples) == codes["RvWear"]
     larger = specification | {"sizes": specification["sizes"] | {"resolution": {"flank": 91, "pin": 90, "raceway": 180}}}
-    assert native.kept_place(larger, "any") != native.kept_place(specification, "any")
-
-
-def test_a_folder_that_cannot_be_written_ends_no_build(tmp_path):
-    (tmp_path / "file").write_text("in the way")
-    native.keep(tmp_path / "file" / "unit.o", b"code")
+    with pytest.raises(pytest.fail.Exception, match="compiled again"):
+        native.object_codes(larger, triples)

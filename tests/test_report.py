@@ -9,14 +9,15 @@ import plotly.graph_objects as go
 import pytest
 
 from fmu_src.faults import InputFault
-from orchestrator.settings import parse_setting
 from orchestrator.netcdf import series_dataset
+from orchestrator.settings import parse_setting
+from pages.words import number
 from studies import results
 from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
 from studies.report import circles, findings, inputs, phase, shapes, spectrum, write_report
 from studies.report.page import page_of
-from studies.report.result import Result, number
+from studies.report.result import Result
 from wear_fmu.kinematics import flank_arc_per_phase, sliding_per_crank_angle
 
 SECTIONS = ("parts", "turn", "growth", "orders-section", "inputs")

@@ -127,7 +127,7 @@ def test_installed_is_the_wheel_with_the_same_sources(ran, installed):
 @pytest.mark.campaign
 @pytest.mark.parametrize("command", [
     "solve --reducer BX-40E", "hysteresis", "modes", "run --turns 0.2", "life --hours 60 --positions 8", "effects", "completion bash",
-    "effects needle_clearance --html effect.html", "dynamics-wear --hours 1 --cycles 1 --speeds 1", "reproduce N17",
+    "effects needle_clearance --html effect.html", "dynamics-wear --hours 1 --cycles 1 --speeds 1", "reproduce T01",
     "campaign template bench",
 ])  # fmt: skip
 def test_commands(ran, command):

@@ -1,8 +1,10 @@
 """Every variable of the wear unit; each piece of physics declares its own."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
+from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Sizes, Table, Variable
 
 from wear_fmu import accumulator, kinematics, surfaces, wear_laws
@@ -21,7 +23,11 @@ class Resolution:
     raceway: int = 360
 
 
-def own_variables(topology: Any, resolution: Resolution = Resolution()) -> list[Variable]:
+# Where only the names of the variables matter.
+SMALLEST = SimpleNamespace(discs=1, cranks=1, pins=4, lobes=3, rollers=3)
+
+
+def own_variables(topology: Any = SMALLEST, resolution: Resolution = Resolution()) -> list[Variable]:
     """Those that the wear unit has without any effect; ``topology`` has discs, cranks, pins, lobes, rollers."""
     sizes = Sizes({
         "disc": topology.discs, "crank": topology.cranks, "pin": topology.pins, "lobe": topology.lobes,
@@ -32,6 +38,7 @@ def own_variables(topology: Any, resolution: Resolution = Resolution()) -> list[
 
 def wear_table(topology: Any, resolution: Resolution = Resolution()) -> Table:
     """The wear unit's variables for one topology."""
+    require_sound_effects("wear_fmu")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways",
                  own_variables(topology, resolution) + effects, starts_from_nothing=True)

@@ -1,17 +1,17 @@
 """The plant in motion as a system of first order, y = (q, v, cage), for SciPy and other packages."""
 
-import numba
 
+from benchmarks.numba_peer import njit
 from rv_plant.dynamics import assemble_motion
 
 
-@numba.njit(error_model="numpy")
+@njit
 def cage_speed(r):
     carrier = 3 * r.roller_force.shape[0]
     return (r.v[carrier + 5] - r.v[carrier]) * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
 
 
-@numba.njit(error_model="numpy")
+@njit
 def rate_of_change(records, y, dy):
     """For SciPy: y = (q, v, cage)."""
     r = records[0]
@@ -23,7 +23,7 @@ def rate_of_change(records, y, dy):
     dy[2 * n] = cage_speed(r)
 
 
-@numba.njit(error_model="numpy")
+@njit
 def jacobian(records, y, matrix):
     r = records[0]
     n = r.q.shape[0]

@@ -1,16 +1,16 @@
 """One step of each method on the plant's record, and its control of the step."""
 
-import numba
 
 from benchmarks.integrators.first_order import cage_speed
 from benchmarks.integrators.methods import BDF2, DIRK
+from benchmarks.numba_peer import njit
 from rv_plant.dynamics import assemble_motion
 from rv_plant.linear import cholesky_apply, cholesky_factor, cholesky_solve
 
 NEWTON_SHARE = 1e-2
 
 
-@numba.njit(error_model="numpy")
+@njit
 def implicit_stage(r, base_q, base_v, hg, found, counts):
     """q = base_q + hg v, v = base_v + hg a, M a + G(q, v) = 0 by Newton from r.q; fills r.q, r.v, found = a."""
     n = r.q.shape[0]
@@ -45,7 +45,7 @@ def implicit_stage(r, base_q, base_v, hg, found, counts):
     return False
 
 
-@numba.njit(error_model="numpy")
+@njit
 def dirk_step(r, h, gamma, a, e, ks, counts):
     """One step; ks[0, i], ks[1, i] are velocity and acceleration of stage i, the last also the step's end."""
     stages, n = a.shape[0], r.q.shape[0]
@@ -79,7 +79,7 @@ def dirk_step(r, h, gamma, a, e, ks, counts):
     return error / r.dynamic_tolerance
 
 
-@numba.njit(error_model="numpy")
+@njit
 def bdf2_step(r, h, h_before, ks, counts):
     """Variable step; ks[0, 0], ks[1, 0] are q and v one step earlier (h_before = 0: Euler)."""
     n = r.q.shape[0]
@@ -102,7 +102,7 @@ def bdf2_step(r, h, h_before, ks, counts):
     return error / r.dynamic_tolerance
 
 
-@numba.njit(error_model="numpy")
+@njit
 def rosenbrock_step(r, h, gamma, a, c, b, e, ks, damping, counts):
     """One step; ks[0, i], ks[1, i] are the increments k_i of q and v.
 
@@ -185,7 +185,7 @@ def rosenbrock_step(r, h, gamma, a, c, b, e, ks, damping, counts):
     return error / r.dynamic_tolerance
 
 
-@numba.njit(error_model="numpy")
+@njit
 def advance_by(records, duration, kind, order, gamma, a, c, b, e, ks, damping, counts):
     """Integrate over a communication step; counts: assemblies, factorisations, steps, rejected."""
     r = records[0]

@@ -3,9 +3,9 @@
 import math
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
+from benchmarks.numba_peer import njit
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion
 
@@ -48,7 +48,7 @@ def begin(table, **values):
     return records, 2.0 * math.pi / abs(float(records["crank_speed"][0]))
 
 
-@numba.njit(error_model="numpy")
+@njit
 def contact_forces(records):
     """Forces at the present state."""
     assemble_motion(records[0], 1.0)

@@ -11,10 +11,10 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
     add_reducer(fmus)
     fmus.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
     fmus.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"
-                       " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
+                      " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
     fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
     fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
-                       " for this machine alone; needs zig: pip install \"rvwear[build]\"")
+                      " for this machine alone; needs zig: pip install \"rvwear[build]\"")
     add_json(fmus)
     fmus.set_defaults(run=build)
 
@@ -27,7 +27,7 @@ def build(options: argparse.Namespace) -> int:
 
     reducer = load_reducer(options.reducer)
     wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
-    built, packages = build_units(reducer, Path(options.output), wanted, screen.busy)
+    built, packages = build_units(reducer, Path(options.output), wanted)
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})
     else:

@@ -4,6 +4,7 @@ import argparse
 
 from cli.options import add_json, add_reducer
 from discrepancy.campaign.quantities import QUANTITIES, USUAL
+from fmu_src.progress import task
 
 
 def add_commands(sub: argparse._SubParsersAction) -> None:
@@ -30,12 +31,12 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
 
 def run_check(options: argparse.Namespace) -> int:
     """Exit code 1 if the campaign allows no diagnosis."""
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.campaign import show
     from discrepancy.campaign.check import check_campaign
     from discrepancy.campaign.load import load_campaign
 
-    with busy("reading the campaign"):
+    with task("reading the campaign"):
         check = check_campaign(load_campaign(options.folder, options.data))
     if options.json:
         json_text(check.as_json())

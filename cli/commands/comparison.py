@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json, all_cores, folder
 from fmu_src.faults import InputFault
+from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from discrepancy.campaign.model import Campaign
@@ -76,11 +77,11 @@ def write_html(options: argparse.Namespace, result: object) -> None:
 
 
 def run_compare(options: argparse.Namespace) -> int:
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.comparison import show_comparison
     from discrepancy.compare import compare
 
-    with busy("comparing"):
+    with task("comparing"):
         comparison = compare(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
@@ -91,11 +92,11 @@ def run_compare(options: argparse.Namespace) -> int:
 
 
 def run_localise(options: argparse.Namespace) -> int:
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.comparison import console, show_localisation, show_warnings
     from discrepancy.compare import compare
 
-    with busy("localising"):
+    with task("localising"):
         comparison = compare(*inputs(options), fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
@@ -107,12 +108,12 @@ def run_localise(options: argparse.Namespace) -> int:
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft import draft_effect
     from discrepancy.verdict import diagnose
 
-    with busy("diagnosing"):
+    with task("diagnosing"):
         answer = diagnose(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, answer)
     draft = None
@@ -129,7 +130,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 def run_extend(options: argparse.Namespace) -> int:
     """Exit code 1 where the effect did not help on unused runs."""
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.extend import DID_NOT_HELP, build_units, extend
     from discrepancy.inference.verdict import ONE, SEVERAL
@@ -139,7 +140,7 @@ def run_extend(options: argparse.Namespace) -> int:
     file, campaign = inputs(options)
     names = options.effect
     if not names:
-        with busy("diagnosing"):
+        with task("diagnosing"):
             answer = diagnose(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             raise InputFault(
@@ -147,13 +148,13 @@ def run_extend(options: argparse.Namespace) -> int:
                 + (f" ({', '.join(answer.confusable)} cannot be told apart)" if answer.confusable else "")
             )
         names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
-    with busy(f"adding {', '.join(names)}"):
+    with task(f"adding {', '.join(names)}"):
         extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
     target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
     save_model(extension.file, target)
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:
-        with busy("building the FMUs"):
+        with task("building the FMUs"):
             fmus = [str(path) for path in build_units(extension.file, Path(options.fmus))]
     write_html(options, extension)
     if options.json:
@@ -181,11 +182,11 @@ def run_ladder(options: argparse.Namespace) -> int:
 
 
 def run_next(options: argparse.Namespace) -> int:
-    from cli.screen import busy, json_text
+    from cli.screen import json_text
     from cli.show.comparison import show_next
     from discrepancy.next_run import next_run
 
-    with busy("looking for an experiment"):
+    with task("looking for an experiment"):
         run = next_run(*inputs(options), jobs=all_cores())
     write_html(options, run)
     if options.json:

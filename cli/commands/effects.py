@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.options import add_json, add_reducer
+from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.catalogue import Entry
@@ -17,11 +18,14 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
     add_reducer(effects, "reducer on the bench (default RV20E-121)")
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
+    effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own: what is wrong, and where")
     effects.set_defaults(run=run_effects)
 
 
 def run_effects(options: argparse.Namespace) -> int:
-    """List, or explain one; with ``--html`` the page of what was asked for."""
+    """List, or explain one; with ``--html`` the page of what was asked for; with ``--check`` look at files."""
+    if options.check:
+        return check_files([Path(name) for name in options.check], options.json)
     from cli.screen import json_text
     from cli.show.effects import show_list, show_one
     from discrepancy.catalogue.catalogue import entries, entry
@@ -42,29 +46,42 @@ def run_effects(options: argparse.Namespace) -> int:
     return 0
 
 
+def check_files(files: list[Path], as_json: bool) -> int:
+    """Say what is wrong with effects' files, a line each; 2 if anything is."""
+    from cli.screen import json_text
+    from fmu_src.effect_check import check_any_file
+
+    findings = {str(file): check_any_file(file) for file in files}
+    if as_json:
+        shown = {name: [{"line": f.line, "text": f.text} for f in found] for name, found in findings.items()}
+        json_text({"findings": shown})
+    else:
+        for name, found in findings.items():
+            print("\n".join(map(str, found)) if found else f"{name}: nothing wrong")
+    return 2 if any(findings.values()) else 0
+
+
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":
-    from cli.screen import busy
     from discrepancy.catalogue.signature import new_bench, signature
 
-    with busy("computing the signature"):
+    with task("computing the signature"):
         bench = new_bench(reducer)
         return {e.name: [signature(bench, e.name, case) for case in e.cases] for e in chosen}
 
 
 def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, list[Signature]]":
     """Compute all signatures and pictures and write them."""
-    from cli.screen import Progress
     from discrepancy.catalogue.page import page_of
     from discrepancy.catalogue.plots import figure
     from discrepancy.catalogue.signature import new_bench, signature
+    from pages.render import written
 
     bench, shown = new_bench(reducer), []
-    with Progress(len(chosen), "effects") as progress:
+    with task("effects", total=len(chosen)) as drawing:
         for e in chosen:
             shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
-            progress.advance()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page_of(shown), encoding="utf-8")
+            drawing.advance()
+    written(page_of(shown), path)
     return {e.name: found for e, found, _ in shown}
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from cli.options import add_json
 from fmu_src.faults import InputFault, MissingPart
+from fmu_src.progress import task
 
 # Of the optional part "ensembles".
 NEEDED = ("SALib", "dask", "distributed", "joblib")
@@ -63,10 +64,10 @@ def compute(options: argparse.Namespace) -> int:
     arriving = through_dask(run, missing, options.scheduler) if options.backend == "dask" else through_joblib(run, missing, options.jobs)
     interrupted = False
     try:
-        with screen.Progress(len(missing), "lives") as progress:
+        with task("lives", total=len(missing)) as living:
             for life in arriving:
                 if store.add(life):
-                    progress.advance()
+                    living.advance()
     except KeyboardInterrupt:
         arriving.close()
         interrupted = True

@@ -20,7 +20,7 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
     hours.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
     hours.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
     hours.add_argument("--tolerance", type=float, default=0.01,
-                      help="error of the depths over those at the end (default 0.01)")
+                       help="error of the depths over those at the end (default 0.01)")
     hours.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
     hours.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
     hours.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
@@ -51,8 +51,8 @@ def add_commands(sub: argparse._SubParsersAction) -> None:
 
 def life(options: argparse.Namespace) -> int:
     """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
-    from cli import screen
-    from cli.show.life import LifeProgress
+    from cli.show.life import jump_line
+    from fmu_src.progress import say, task
     from fmu_src.source_hash import source_hash
     from orchestrator import netcdf
     from orchestrator.master import Master
@@ -85,7 +85,7 @@ def life(options: argparse.Namespace) -> int:
     resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
-    with screen.busy("loading and compiling the units (the first time takes ten seconds)"):
+    with task("loading the units"):
         pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty,
                          # In this process many steps go into one compiled call.
                          Master if options.fmus else CoupledMaster)
@@ -99,8 +99,13 @@ def life(options: argparse.Namespace) -> int:
         save_checkpoint(checkpoint, state, pair.master.save(), inputs)
 
     try:
-        with LifeProgress(lived) as progress:
-            live(pair, lived, progress.show, keep)
+        with task("hours of life", total=round(life_settings.hours)) as hours:
+
+            def show(state: Life) -> None:
+                hours.done = round(state.hours[-1])
+                say(jump_line(state))
+
+            live(pair, lived, show, keep)
     except KeyboardInterrupt:
         print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
         return 130
@@ -159,7 +164,7 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) ->
 def dynamics_wear(options: argparse.Namespace) -> int:
     """``rvwear dynamics-wear``: wear of both fidelities, and where they differ."""
     from cli import screen
-    from cli.show.life import show_dynamics
+    from cli.show.dynamics import show_dynamics
     from reducers.reducer import load_reducer
     from studies.dynamics_wear import as_json, compare
     from studies.report.dynamics import write_dynamics_page

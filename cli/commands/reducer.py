@@ -4,6 +4,7 @@ import argparse
 
 from cli.options import add_json, add_reducer_options, settings_of
 from fmu_src.faults import InputFault
+from fmu_src.progress import task
 
 
 def add_commands(sub: argparse._SubParsersAction) -> None:
@@ -40,7 +41,7 @@ def solve(options: argparse.Namespace) -> int:
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings_of(options, reducer), {"plant": plant})
     torque = plant.get("load_torque")
-    with screen.busy("equilibria of one crank turn"):
+    with task("equilibria of one crank turn"):
         master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)
         pair = Pair(reducer, master, plant, plant, positions)
         master.initialise()
@@ -64,7 +65,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     if options.steps < 4 or options.angles < 1:
         raise InputFault(f"steps = {options.steps}, angles = {options.angles}: at least 4 and 1 are needed")
     reducer = load_reducer(options.reducer)
-    with screen.busy("loading torques at locked input"):
+    with task("loading torques at locked input"):
         loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles)
     figures = {
         "rated_torque_Nm": float(loop.torque.max()),
@@ -84,12 +85,12 @@ def hysteresis(options: argparse.Namespace) -> int:
 def modes(options: argparse.Namespace) -> int:
     """``rvwear modes``: natural frequencies about the loaded equilibrium."""
     from cli import screen
-    from cli.show.life import show_modes
+    from cli.show.modes import show_modes
     from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 
     reducer = load_reducer(options.reducer)
-    with screen.busy("linearising the plant in motion"):
+    with task("linearising the plant in motion"):
         found = natural_modes(reducer, settings_of(options, reducer))
     if options.json:
         screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, folder, result_path, settings_of
 from fmu_src.faults import InputFault
+from fmu_src.progress import task
 from orchestrator.schemes import SCHEMES
 
 if TYPE_CHECKING:
@@ -94,8 +95,8 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict, dict]:
     steps = round(options.turns * positions)
     if steps < 1:
         raise InputFault(f"turns = {options.turns}: at least one position ({1 / positions:.3g} turns) is needed")
-    with screen.Progress(steps, "steps") as progress:
-        recorded = record_turn(pair, steps, progress.advance).series
+    with task("steps", total=steps) as stepping:
+        recorded = record_turn(pair, steps, stepping.advance).series
     step = pair.master.step_size
     series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{k}": v for k, v in recorded.items()}
     units = {f"plant.{k}": pair.plant.signal(k).unit for k in SERIES}
@@ -139,7 +140,7 @@ def open_system(options: argparse.Namespace) -> "System":
         "scheme": options.scheme,
     }
     master = {name: value for name, value in given.items() if value is not None}
-    with screen.busy("loading the units"):
+    with task("loading the units"):
         system = load(options.system, options.step, options.isolate, **master)
     for setting in options.set:
         path, equals, value = setting.partition("=")
@@ -152,10 +153,8 @@ def open_system(options: argparse.Namespace) -> "System":
 
 
 def simulate(system: "System", record: list[str]) -> "dict[str, np.ndarray]":
-    from cli import screen
-
-    with screen.Progress(system.steps, "steps") as progress:
-        return system.run(record=record, each_step=progress.advance)
+    with task("steps", total=system.steps) as stepping:
+        return system.run(record=record, each_step=stepping.advance)
 
 
 def outputs_of(system: "System") -> list[str]:

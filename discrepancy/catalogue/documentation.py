@@ -10,6 +10,10 @@ from discrepancy.campaign.documentation import table
 from discrepancy.catalogue.catalogue import Entry, entries
 from discrepancy.catalogue.examples import AUDITED
 from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_bench, number, signature
+from rv_plant.effects import ALLOWED as PLANT_ALLOWED
+from rv_plant.effects import HOOKS as PLANT_HOOKS
+from wear_fmu.effects import ALLOWED as WEAR_ALLOWED
+from wear_fmu.effects import HOOKS as WEAR_HOOKS
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "effects.md"
 COMPUTED = "**Computed**"
@@ -25,6 +29,62 @@ needle clearance 2.5 um, rated 167 N m at 2000 rpm): figure without and with the
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
 turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
 """
+# When the units call the hooks.
+STAGES = {
+    "prepare": "once, when the parameters are known",
+    "warm": "before every equilibrium (in motion: every internal step): temperature",
+    "before": "after that: what depends on angle and temperature",
+    "hold": "in every iteration of an equilibrium (not in motion): forces and their tangent",
+    "after": "when the contact forces are known: losses, vibration",
+    "advance": "at the end of a step of `duration` [s]: own states",
+    "heat": "after that: the temperature reached",
+    "factor": "for every contact, if any effect added 1 to `effects_on`: returns the factor on the wear coefficient, 1.0 where it is off",
+}
+OWN = """## Your own effect
+
+A file in a folder `DIR/rv_plant/` (what happens in the reducer) or `DIR/wear_fmu/` (how it wears), and `RVWEAR_EFFECTS=DIR` in the
+environment: it is compiled into the units, stands in this catalogue, and the diagnosis looks for it. `DIR/rv_plant/soft_ring.py`:
+
+```python
+\"\"\"Pin ring in a soft seat: it turns under its torque, more when warm.  Source: own measurement.\"\"\"
+
+from fmu_src.effect import Effect, amplitude, shape
+from fmu_src.kernel import kernel
+from rv_plant.mesh import ring_coordinate
+
+EFFECT = Effect(
+    0, "soft ring", "turning = c M", "own measurement", "linear in torque, both ways",
+    (
+        amplitude("seat_compliance", "rad/(N.m)", "c", 1e-7, 0.0, 1e-2, sign=1),
+        shape("seat_growth", "1/K", "growth of the pin circle with it", 1e-6, 0.0, 1e-4, "assumed"),
+    ),
+    signals=("hysteresis", "lost_motion"),
+)
+
+
+@kernel
+def prepare(r):
+    r.compliance[ring_coordinate(r)] += r.seat_compliance
+
+
+@kernel
+def before(r):
+    if r.seat_compliance > 0.0:
+        r.ring_scale *= 1.0 + r.seat_growth * (r.reducer_temperature - 293.15)
+```
+
+`rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
+anything is compiled. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
+for all effects before the next begins:
+
+STAGES
+
+Within a stage effects add (`+=`, `-=`) or multiply (`*=`, `/=`) and read nothing that others change there, so that neither the
+order of the effects nor their names matter. An effect sets (`=`) its own states alone (`states=` of `EFFECT`), at any stage but `hold` and
+`factor`. It may read everything else of the record ([variables](variables.md), and the states that the files in `rv_plant/` declare),
+and call kernels of its own and of `rv_plant` that keep to the same rules. Crank seats, main bearing and pin ring take what is added to
+`compliance` at rest and in motion, the teeth of the first stage (turning of the cranks) at rest alone.
+"""
 AUDIT_HEAD = """## Against the physics audit
 
 Figures of an independent solver. It gives the lag of the second stage where the bench gives the transmission error of the
@@ -32,6 +92,16 @@ whole reducer, 2 to 4 % smaller. The audit's proud pin stands inwards, here it i
 random places are other random numbers; worn races are its wear print, here a smooth hollow.
 
 """
+
+
+def own_part() -> str:
+    """How to write an effect; the stages with what may be changed there, from the units' own tables."""
+    rows = []
+    for part, hooks, allowed in (("plant", PLANT_HOOKS, PLANT_ALLOWED), ("wear unit", WEAR_HOOKS, WEAR_ALLOWED)):
+        for name, (arguments, _) in hooks.items():
+            by = {operator: [f"`{f}`" for f, o in allowed[name].items() if o == operator] for operator in ("+=", "*=")}
+            rows.append((part, f"`{name}({arguments})`", STAGES[name], ", ".join(by["+="]) or "-", ", ".join(by["*="]) or "-"))
+    return OWN.replace("STAGES\n", table(("unit", "kernel", "called", "adds to", "multiplies"), rows))
 
 
 def static_part(entry: Entry) -> str:
@@ -65,7 +135,7 @@ def computed_part(entry: Entry, found: list[Signature]) -> str:
 
 def wear_table(s: Signature) -> str:
     """Depth with over depth without the effect, by condition and surface."""
-    rows = {}
+    rows: dict[str, list[str]] = {}
     for r in s.rows:
         if r.figure.endswith(DEPTH):
             rows.setdefault(r.condition, []).append(f"{r.present / r.without:.2f}")
@@ -83,7 +153,7 @@ def audit_table(found: Mapping[str, list[Signature]]) -> str:
 
 def page(found: Mapping[str, list[Signature]]) -> str:
     parts = [f"{static_part(e)}\n{computed_part(e, found[e.name])}" for e in entries()]
-    return "\n".join((HEAD, *parts, audit_table(found)))
+    return "\n".join((HEAD, own_part(), *parts, audit_table(found)))
 
 
 def main() -> None:

@@ -7,31 +7,27 @@ from discrepancy.extend import Extension
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import answer, comparison, extension, next_experiment
-from discrepancy.page.content import Page
-from discrepancy.page.render import rendered
 from discrepancy.verdict import Answer
-
-MAKERS = {
-    Comparison: comparison.page,
-    Answer: answer.page,
-    Extension: extension.extension_page,
-    ModelFile: extension.model_page,
-    NextRun: next_experiment.page,
-}
+from pages.content import Page
+from pages.render import rendered_sections, written
 
 
-def page_of(result) -> Page:
+def page_of(result: object) -> Page:
     """What the page of a result says and shows."""
-    for kind, make in MAKERS.items():
-        if isinstance(result, kind):
-            return make(result)
-    raise TypeError(f"no page for {type(result).__name__}: {', '.join(k.__name__ for k in MAKERS)} have one")
+    match result:
+        case Comparison():
+            return comparison.page(result)
+        case Answer():
+            return answer.page(result)
+        case Extension():
+            return extension.extension_page(result)
+        case ModelFile():
+            return extension.model_page(result)
+        case NextRun():
+            return next_experiment.page(result)
+    raise TypeError(f"no page for {type(result).__name__}: Comparison, Answer, Extension, ModelFile and NextRun have one")
 
 
-def write_page(result, path: Path) -> Path:
+def write_page(result: object, path: Path) -> Path:
     """Write the page of a comparison, diagnosis, extension, ladder or proposal; equal results give equal bytes."""
-    path = Path(path)
-    text = rendered(page_of(result))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8", newline="\n")
-    return path
+    return written(rendered_sections(page_of(result)), path)

@@ -1,11 +1,13 @@
 """Kernels to machine code: a small compiler from a subset of Python to LLVM.
 
+    source     a kernel's syntax tree and what its names mean
     types      what a value of a kernel can be: number, tuple, record, array
     emitter    one function for given argument types: Python's syntax tree to LLVM code
     arithmetic numbers: operators and functions of ``math`` with Python's meaning
     module     an entry point with all it calls: one LLVM module, optimised, as object code
     store      object code on disk, private to its owner, checked before it is used
     loading    object code into this process
+    calling    calls from Python
 
 A kernel is written in: numbers, tuples, ``if``, ``for ... in range``, ``while``, fields of
 records, elements and rows of arrays, ``math``, ``abs``, ``min``, ``max``, ``int``,

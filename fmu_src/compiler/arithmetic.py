@@ -6,12 +6,25 @@ and no error, as in C and NumPy; so do functions outside their domain.
 
 import ast
 import math
-from typing import TYPE_CHECKING
+import struct
+from typing import Protocol
 
-from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Number, Value
+from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, KernelFault, Number, Value
 
-if TYPE_CHECKING:
-    from fmu_src.compiler.emitter import Emitter
+
+class Writer(Protocol):
+    """What writes the function that the arithmetic stands in."""
+
+    def give(self, instruction: str) -> str:
+        """Writes an instruction; the name of its result."""
+
+    def intrinsic(self, name: str, arguments: int) -> str:
+        """The symbol of a function of LLVM."""
+
+    def library(self, name: str, arguments: int) -> str:
+        """The symbol of a function of libm."""
+
+    def fault(self, text: str) -> KernelFault: ...
 
 # Functions that LLVM knows, and those of libm.
 INTRINSICS = {"sin": "sin", "cos": "cos", "exp": "exp", "log": "log", "log10": "log10", "log2": "log2", "sqrt": "sqrt", "fabs": "fabs"}
@@ -39,13 +52,11 @@ def literal(number: bool | int | float) -> Value:
         return Value(TRUTH, ("true" if number else "false",), int(number), True)
     if isinstance(number, int):
         return Value(INTEGER, (str(number),), number, number >= 0)
-    import struct
-
     bits = struct.unpack("<Q", struct.pack("<d", number))[0]
     return Value(FLOAT, (f"0x{bits:016X}",), number)
 
 
-def converted(e: "Emitter", value: Value, wanted: Number) -> Value:
+def converted(e: Writer, value: Value, wanted: Number) -> Value:
     """The same number as another kind."""
     if value.type == wanted:
         return value
@@ -63,7 +74,7 @@ def converted(e: "Emitter", value: Value, wanted: Number) -> Value:
     return truth(e, value)
 
 
-def truth(e: "Emitter", value: Value) -> Value:
+def truth(e: Writer, value: Value) -> Value:
     """Whether the number is not zero."""
     if value.type == TRUTH:
         return value
@@ -72,13 +83,13 @@ def truth(e: "Emitter", value: Value) -> Value:
     return Value(TRUTH, (e.give(test),))
 
 
-def common(e: "Emitter", a: Value, b: Value) -> tuple[Number, str, str]:
+def common(e: Writer, a: Value, b: Value) -> tuple[Number, str, str]:
     """Both as the kind that holds both, at least an integer."""
     kind = FLOAT if FLOAT in (a.type, b.type) else INTEGER
     return kind, converted(e, a, kind).parts[0], converted(e, b, kind).parts[0]
 
 
-def binary(e: "Emitter", operator: ast.operator, a: Value, b: Value) -> Value:
+def binary(e: Writer, operator: ast.operator, a: Value, b: Value) -> Value:
     """a operator b."""
     folded = folded_constant(operator, a, b)
     if folded is not None:
@@ -114,7 +125,7 @@ def folded_constant(operator: ast.operator, a: Value, b: Value) -> Value | None:
     return None
 
 
-def floor_division(e: "Emitter", operator: ast.operator, a: Value, b: Value) -> Value:
+def floor_division(e: Writer, operator: ast.operator, a: Value, b: Value) -> Value:
     """// and % with Python's sign: the rest has that of the divisor."""
     kind, x, y = common(e, a, b)
     of_rest = isinstance(operator, ast.Mod)
@@ -134,18 +145,34 @@ def floor_division(e: "Emitter", operator: ast.operator, a: Value, b: Value) -> 
         lower = e.give(f"sub i64 {quotient}, 1")
         result = e.give(f"select i1 {below}, i64 {lower}, i64 {quotient}")
         return Value(INTEGER, (e.give(f"select i1 {is_zero}, i64 0, i64 {result}"),))
-    if not of_rest:
-        return Value(FLOAT, (intrinsic(e, "floor", e.give(f"fdiv double {x}, {y}")),))
+    # As Python has it: the quotient follows from the rest, which is exact.
     rest = e.give(f"frem double {x}, {y}")
     inexact = e.give(f"fcmp une double {rest}, 0.0")
     rest_below, divisor_below = e.give(f"fcmp olt double {rest}, 0.0"), e.give(f"fcmp olt double {y}, 0.0")
     opposite = e.give(f"xor i1 {rest_below}, {divisor_below}")
     below = e.give(f"and i1 {opposite}, {inexact}")
-    moved = e.give(f"fadd double {rest}, {y}")
-    return Value(FLOAT, (e.give(f"select i1 {below}, double {moved}, double {rest}"),))
+    if of_rest:
+        moved = e.give(f"fadd double {rest}, {y}")
+        result = e.give(f"select i1 {below}, double {moved}, double {rest}")
+        return Value(FLOAT, (e.give(f"select i1 {inexact}, double {result}, double {signed_zero(e, y)}"),))
+    divided = e.give(f"fdiv double {x}, {y}")
+    whole = e.give(f"fdiv double {e.give(f'fsub double {x}, {rest}')}, {y}")
+    whole = e.give(f"select i1 {below}, double {e.give(f'fsub double {whole}, 1.0')}, double {whole}")
+    lower = intrinsic(e, "floor", whole)
+    is_nearer_above = e.give(f"fcmp ogt double {e.give(f'fsub double {whole}, {lower}')}, 0.5")
+    nearest = e.give(f"select i1 {is_nearer_above}, double {e.give(f'fadd double {lower}, 1.0')}, double {lower}")
+    is_some = e.give(f"fcmp une double {whole}, 0.0")
+    result = e.give(f"select i1 {is_some}, double {nearest}, double {signed_zero(e, divided)}")
+    is_zero = e.give(f"fcmp oeq double {y}, 0.0")
+    return Value(FLOAT, (e.give(f"select i1 {is_zero}, double {divided}, double {result}"),))
 
 
-def power(e: "Emitter", a: Value, b: Value) -> Value:
+def signed_zero(e: Writer, sign: str) -> str:
+    """0 with the sign of a number."""
+    return e.give(f"call double {e.intrinsic('llvm.copysign.f64', 2)}(double 0.0, double {sign})")
+
+
+def power(e: Writer, a: Value, b: Value) -> Value:
     """a ** b; whole constant powers by squaring, as in every C library's neighbourhood of rounding."""
     if isinstance(b.constant, int) and abs(b.constant) <= 64 and (a.type == FLOAT or b.constant >= 0):
         kind = FLOAT if a.type == FLOAT else INTEGER
@@ -166,7 +193,7 @@ def power(e: "Emitter", a: Value, b: Value) -> Value:
     return Value(FLOAT, (e.give(f"call double {e.intrinsic('llvm.pow.f64', 2)}(double {x}, double {y})"),))
 
 
-def negative(e: "Emitter", value: Value) -> Value:
+def negative(e: Writer, value: Value) -> Value:
     if value.constant is not None:
         return literal(-value.constant)
     kind = FLOAT if value.type == FLOAT else INTEGER
@@ -174,7 +201,7 @@ def negative(e: "Emitter", value: Value) -> Value:
     return Value(kind, (e.give(f"fneg double {part}" if kind == FLOAT else f"sub i64 0, {part}"),))
 
 
-def comparison(e: "Emitter", operator: ast.cmpop, a: Value, b: Value) -> Value:
+def comparison(e: Writer, operator: ast.cmpop, a: Value, b: Value) -> Value:
     kind, x, y = common(e, a, b)
     known = FLOAT_COMPARISONS if kind == FLOAT else INTEGER_COMPARISONS
     if type(operator) not in known:
@@ -183,7 +210,7 @@ def comparison(e: "Emitter", operator: ast.cmpop, a: Value, b: Value) -> Value:
     return Value(TRUTH, (e.give(f"{compare} {known[type(operator)]} {kind.llvm} {x}, {y}"),))
 
 
-def extreme(e: "Emitter", values: list[Value], largest: bool) -> Value:
+def extreme(e: Writer, values: list[Value], largest: bool) -> Value:
     """max or min of numbers: the first of those that no later one beats, as in Python."""
     best = values[0]
     for value in values[1:]:
@@ -195,7 +222,7 @@ def extreme(e: "Emitter", values: list[Value], largest: bool) -> Value:
     return best
 
 
-def absolute(e: "Emitter", value: Value) -> Value:
+def absolute(e: Writer, value: Value) -> Value:
     if value.type == FLOAT:
         return Value(FLOAT, (intrinsic(e, "fabs", value.parts[0]),))
     (part,) = converted(e, value, INTEGER).parts
@@ -204,11 +231,11 @@ def absolute(e: "Emitter", value: Value) -> Value:
     return Value(INTEGER, (e.give(f"select i1 {is_negative}, i64 {flipped}, i64 {part}"),), not_negative=True)
 
 
-def intrinsic(e: "Emitter", name: str, part: str) -> str:
+def intrinsic(e: Writer, name: str, part: str) -> str:
     return e.give(f"call double {e.intrinsic(f'llvm.{name}.f64', 1)}(double {part})")
 
 
-def of_math(e: "Emitter", name: str, values: list[Value]) -> Value:
+def of_math(e: Writer, name: str, values: list[Value]) -> Value:
     """A function of ``math``."""
     parts = [converted(e, value, FLOAT).parts[0] for value in values]
     wanted = LIBM.get(name, 2 if name == "pow" else 1)
@@ -221,7 +248,7 @@ def of_math(e: "Emitter", name: str, values: list[Value]) -> Value:
     if name in INTRINSICS:
         return Value(FLOAT, (intrinsic(e, INTRINSICS[name], parts[0]),))
     if name == "pow":
-        return power(e, *values)
+        return power(e, converted(e, values[0], FLOAT), values[1])
     if name in ("radians", "degrees"):
         factor = math.pi / 180.0 if name == "radians" else 180.0 / math.pi
         return Value(FLOAT, (e.give(f"fmul double {parts[0]}, {literal(factor).parts[0]}"),))

@@ -2,15 +2,13 @@
 
 import ctypes
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from fmu_src.compiler import loading
+from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import ELEMENTS, FLOAT, INTEGER, TRUTH, Array, Group, Layout, Number, Record, Records, Type
-
-if TYPE_CHECKING:
-    from fmu_src.kernel import Kernel
 
 # Layouts of record types seen, by the identity of the dtype, which is kept so that it stays one.
 _layouts: dict[int, Layout] = {}
@@ -23,16 +21,12 @@ def layout_of(dtype: np.dtype) -> Layout:
     return known
 
 
-def call(kernel: "Kernel", arguments: tuple) -> Any:
-    """Call a kernel, compiled for the types of these arguments."""
+def sorts_of(kernel: Source, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """What decides the types of the arguments of a call."""
     try:
-        key = tuple([sort_of(argument) for argument in arguments])
-        caller = kernel._callers.get(key)
+        return tuple([sort_of(argument) for argument in arguments])
     except TypeError as problem:
         raise TypeError(f"{kernel.name}: {problem}") from None
-    if caller is None:
-        caller = kernel._callers[key] = make_caller(kernel, arguments)
-    return caller(*arguments)
 
 
 def sort_of(argument: Any) -> Any:
@@ -104,7 +98,7 @@ def row_of(argument: np.ndarray) -> tuple:
     return (argument.ctypes.data, *argument.shape)
 
 
-def make_caller(kernel: "Kernel", arguments: tuple) -> Callable:
+def make_caller(kernel: Source, arguments: tuple) -> Callable:
     """A function of the same arguments that calls the compiled kernel."""
     types = tuple(type_of(argument) for argument in arguments)
     given = [number_of if isinstance(kind, Number) else address_of if isinstance(kind, Record) else row_of for kind in types]
@@ -139,19 +133,19 @@ def tuple_caller(address: int, c_arguments: list, given: list, result: Group) ->
     return call_for_several
 
 
-def unit_caller(kernel: "Kernel", layout: Layout) -> Callable:
+def unit_caller(kernel: Source, layout: Layout) -> Callable:
     """An entry point's caller: ``f(records, ...)``."""
-    function = unit_function(kernel, layout)
+    function = entry_function(loading.module_addresses(kernel, layout), kernel.name)
     return lambda records, *more: function(row_of(records)[0], *more)
 
 
-def unit_function(kernel: "Kernel", layout: Layout) -> Callable:
-    numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[kernel.name])
-    return loading.c_function(loading.unit_addresses(kernel, layout)[kernel.name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
+def entry_function(addresses: dict[str, int], name: str) -> Callable:
+    numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[name])
+    return loading.c_function(addresses[name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
 
 
-def bound_unit(initialise: "Kernel", step: "Kernel", records: np.ndarray) -> tuple[Callable, Callable]:
+def bound_unit(initialise: Source, step: Source, records: np.ndarray) -> tuple[Callable, Callable]:
     """Both entry points for one record, without a look at the arguments of each call."""
-    layout, cells = layout_of(records.dtype), ctypes.c_void_p(row_of(records)[0])
-    first, following = unit_function(initialise, layout), unit_function(step, layout)
+    addresses, cells = loading.unit_addresses(initialise, step, layout_of(records.dtype)), ctypes.c_void_p(row_of(records)[0])
+    first, following = entry_function(addresses, "initialise"), entry_function(addresses, "step")
     return lambda: first(cells), lambda time, duration: following(cells, time, duration)

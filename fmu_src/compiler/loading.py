@@ -7,17 +7,16 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
 
 from fmu_src.compiler import store
 from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
+from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Record, Records, Type
-
-if TYPE_CHECKING:
-    from fmu_src.kernel import Kernel
+from fmu_src.progress import task
 
 # What object code may ask of the C library.
 LIBM = {
@@ -25,6 +24,9 @@ LIBM = {
     "log", "log10", "log1p", "log2", "pow", "round", "sin", "sinh", "cosh", "sqrt", "tan", "tanh", "trunc",
     "sincos", "memcpy", "memmove", "memset",
 }  # fmt: skip
+
+# A plant takes that long [s], all else less.
+USUAL_TIME = 3.0
 
 # Arguments of a unit's entry points after its records, all numbers.
 ENTRY_POINTS = {"initialise": (), "step": (FLOAT, FLOAT)}
@@ -39,39 +41,34 @@ class Code:
     needs: list[list[str]] = field(default_factory=list)
 
 
-# Called with a sentence before something is compiled; the command line shows it.
-announce: Callable[[str], None] = lambda text: None
-
-
-def entry_symbol(kernel: "Kernel", layout: Layout) -> str:
+def entry_symbol(kernel: Source, layout: Layout) -> str:
     return f"{kernel.module}.{kernel.name}/{layout.digest}"
 
 
-def separate(kernel: "Kernel", arguments: tuple[Type, ...]) -> str | None:
+def separate(kernel: Source, arguments: tuple[Type, ...]) -> str | None:
     """The symbol of an entry point that has object code of its own."""
     if kernel.is_entry and arguments and isinstance(arguments[0], Records):
         return entry_symbol(kernel, arguments[0].layout)
     return None
 
 
-def unit_code(initialise: "Kernel", step: "Kernel", layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
+def unit_code(initialise: Source, step: Source, layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
     """Object code of a unit's entry points for targets: C functions ``initialise(cells)`` and ``step(cells, time, duration)``."""
     def fill(module: Module) -> dict[str, Type]:
         records = Records(layout)
         return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
 
-    what = f"{initialise.module.partition('.')[0]} ({layout.dtype.itemsize // 1024} kB a record)"
-    return compiled(what, ("unit", initialise.module, layout.digest), Module(), fill, triples).objects
+    return compiled(initialise.module.partition(".")[0], ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
 
 
-def call_code(kernel: "Kernel", arguments: tuple[Type, ...]) -> Code:
+def call_code(kernel: Source, arguments: tuple[Type, ...]) -> Code:
     """Object code of one kernel for argument types, under the symbol ``call``."""
     def fill(module: Module) -> dict[str, Type]:
         return {"call": module.entry(kernel, arguments, "call")}
 
     signature = "".join(kind.code for kind in arguments)
     triples = (host_triple(),)
-    return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.module, kernel.name, signature), Module(separate), fill, triples)
+    return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.origin, signature), Module(separate), fill, triples)
 
 
 def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dict[str, Type]], triples: tuple[str, ...]) -> Code:
@@ -81,9 +78,9 @@ def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dic
     found = {triple: entry for triple, name in names.items() if (entry := store.read(name)) and is_current(entry[0])}
     missing = [triple for triple in triples if triple not in found]
     if missing:
-        announce(f"compiling {what}")
-        results = fill(module)
-        optimised_module = optimised(module.text(host_triple()), list(results))
+        with task(f"compiling {what}, once", about=USUAL_TIME):
+            results = fill(module)
+            optimised_module = optimised(module.text(host_triple()), list(results))
         foreign = external_symbols(optimised_module) - LIBM - set(module.needs)
         if foreign:
             raise KernelFault(f"{what}: the kernels need {', '.join(sorted(foreign))}, which the C library does not have")
@@ -137,28 +134,33 @@ def load_object(code: bytes, symbols: tuple[str, ...]) -> tuple[int, ...]:
     return tuple(engine.get_function_address(symbol) for symbol in symbols)
 
 
-_units: dict[tuple[str, str], dict[str, int]] = {}
+_units: dict[tuple[Source, Source, str], dict[str, int]] = {}
 
 
-def unit_addresses(kernel: "Kernel", layout: Layout) -> dict[str, int]:
-    """Addresses of the entry points of a kernel's module for records of this layout."""
-    key = (kernel.module, layout.digest)
+def module_addresses(kernel: Source, layout: Layout) -> dict[str, int]:
+    """Addresses of the entry points of the module that an entry point stands in."""
+    beside = kernel.function.__globals__
+    initialise, step = (beside[name] for name in ENTRY_POINTS)
+    return unit_addresses(initialise, step, layout)
+
+
+def unit_addresses(initialise: Source, step: Source, layout: Layout) -> dict[str, int]:
+    """Addresses of a unit's entry points for records of this layout."""
+    key = (initialise, step, layout.digest)
     if key not in _units:
-        beside = kernel.function.__globals__
-        initialise, step = (beside[name] for name in ENTRY_POINTS)
         triple = host_triple()
         code = unit_code(initialise, step, layout, (triple,))[triple]
         _units[key] = dict(zip(ENTRY_POINTS, load_object(code, tuple(ENTRY_POINTS))))
     return _units[key]
 
 
-def call_address(kernel: "Kernel", arguments: tuple[Type, ...]) -> tuple[int, str]:
+def call_address(kernel: Source, arguments: tuple[Type, ...]) -> tuple[int, str]:
     """(address, code of the result's type) of a kernel for argument types."""
     code = call_code(kernel, arguments)
     known = {layout.digest: layout for kind in arguments for layout in layouts_in(kind)}
     for symbol, module, name, digest in code.needs:
         needed = getattr(sys.modules[module], name)
-        llvm.add_symbol(symbol, unit_addresses(needed, known[digest])[name])
+        llvm.add_symbol(symbol, module_addresses(needed, known[digest])[name])
     (address,) = load_object(code.objects[host_triple()], ("call",))
     return address, code.results["call"]
 

@@ -1,36 +1,18 @@
 """An entry point with everything that it calls: one LLVM module, optimised, as object code."""
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import llvmlite.binding as llvm
 import numpy as np
 
-from fmu_src.compiler.emitter import Emitter, returned
+from fmu_src.compiler.emitter import Emitter, Instance, returned
+from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Type
-
-if TYPE_CHECKING:
-    from fmu_src.kernel import Kernel
 
 # As LLVM itself: 3 would only inline more.
 OPTIMISATION = 2
-
-
-@dataclass(eq=False)
-class Instance:
-    """A kernel for argument types; ``result`` is known once it is written.
-
-    One that is separate stands in other object code, with a C function's arguments: of
-    records the address alone.
-    """
-
-    kernel: "Kernel"
-    arguments: tuple[Type, ...]
-    symbol: str
-    result: Type | None = None
-    is_separate: bool = False
 
 
 @dataclass
@@ -41,22 +23,19 @@ class Module:
     calls, and are listed in ``needs`` as symbol -> (kernel, argument types).
     """
 
-    separate: Callable[["Kernel", tuple[Type, ...]], str | None] = lambda kernel, types: None
-    instances: dict[tuple["Kernel", tuple[Type, ...]], Instance] = field(default_factory=dict)
+    separate: Callable[[Source, tuple[Type, ...]], str | None] = lambda kernel, types: None
+    instances: dict[tuple[Source, tuple[Type, ...]], Instance] = field(default_factory=dict)
     functions: list[str] = field(default_factory=list)
     declarations: set[str] = field(default_factory=set)
-    needs: dict[str, tuple["Kernel", tuple[Type, ...]]] = field(default_factory=dict)
+    needs: dict[str, tuple[Source, tuple[Type, ...]]] = field(default_factory=dict)
     # (module, name) -> value of every number that was taken from outside a function.
     constants: dict[tuple[str, str], Any] = field(default_factory=dict)
     layouts: dict[int, Layout] = field(default_factory=dict)
 
-    def is_kernel(self, function: Any) -> bool:
-        return getattr(function, "is_kernel", False)
-
     def layout(self, dtype: np.dtype) -> Layout:
         return self.layouts.setdefault(id(dtype), Layout(dtype))
 
-    def note_constant(self, kernel: "Kernel", name: str, value: Any) -> None:
+    def note_constant(self, kernel: Source, name: str, value: Any) -> None:
         if "[" not in name:
             self.constants[kernel.module, name] = value
 
@@ -64,12 +43,12 @@ class Module:
         self.declarations.add(declaration)
         return symbol
 
-    def instance(self, kernel: "Kernel", arguments: tuple[Type, ...], caller: Emitter | None = None) -> Instance:
+    def instance(self, kernel: Source, arguments: tuple[Type, ...], is_called: bool = False) -> Instance:
         """The kernel for these types, written if it is new."""
         key = (kernel, arguments)
         if key in self.instances:
             return self.instances[key]
-        symbol = self.separate(kernel, arguments) if caller else None
+        symbol = self.separate(kernel, arguments) if is_called else None
         if symbol is not None:
             instance = Instance(kernel, arguments, f'@"{symbol}"', INTEGER, is_separate=True)
             self.needs[symbol] = key
@@ -85,7 +64,7 @@ class Module:
         """Names of the Python modules whose text decides what came out."""
         return {kernel.module for kernel, _ in self.instances}
 
-    def entry(self, kernel: "Kernel", arguments: tuple[Type, ...], symbol: str) -> Type:
+    def entry(self, kernel: Source, arguments: tuple[Type, ...], symbol: str) -> Type:
         """Offer a kernel under a C name; the type of its result.
 
         One number is returned; results of several parts are written, 8 bytes each, to where
@@ -123,7 +102,7 @@ class Module:
         self.functions.append(f'define {returns} @"{symbol}"({taken}) #0 {{\n{text}\n}}\n')
         return result
 
-    def unit_entry(self, kernel: "Kernel", arguments: tuple[Type, ...]) -> Type:
+    def unit_entry(self, kernel: Source, arguments: tuple[Type, ...]) -> Type:
         """Offer an entry point of a unit as the C function ``int64 name(void *cells, double ...)``."""
         instance = self.instance(kernel, arguments)
         if instance.result != INTEGER:

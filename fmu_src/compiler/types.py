@@ -9,8 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
+from fmu_src.faults import InputFault
 
-class KernelFault(TypeError):
+
+class KernelFault(InputFault):
     """A kernel outside the subset: says file, line and remedy."""
 
 

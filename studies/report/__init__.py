@@ -11,15 +11,11 @@ from pathlib import Path
 
 import xarray as xr
 
+from pages.render import written
 from studies.report.page import page_of
 from studies.report.result import Result
 
 
 def write_report(dataset: xr.Dataset, path: Path) -> Path:
     """Write the report of a life's dataset; equal datasets give equal bytes."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(path.name + ".part")
-    partial.write_text(page_of(Result.of(dataset)), encoding="utf-8", newline="\n")
-    partial.replace(path)
-    return path
+    return written(page_of(Result.of(dataset)), path)

@@ -6,9 +6,10 @@ import numpy as np
 
 from pages import look
 from pages.look import Figure, path, short
+from pages.words import hour_text, number
 from studies.report import shapes
 from studies.report.parts import pin_depths
-from studies.report.result import MICRON, Result, hour_text, number
+from studies.report.result import MICRON, Result
 
 ROOM = 0.25  # largest drawn depth over the circle's radius
 

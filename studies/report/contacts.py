@@ -8,7 +8,8 @@ import numpy as np
 
 from pages import look
 from pages.look import Figure, short
-from studies.report.result import ARCSEC, Result, hour_text, number
+from pages.words import hour_text, number
+from studies.report.result import ARCSEC, Result
 
 MOST_POSITIONS = 120
 

@@ -1,19 +1,15 @@
 """The page of a comparison of fidelities: a table and, for each point, both wear profiles."""
 
-import json
 from pathlib import Path
 
 import numpy as np
-from jinja2 import Environment, FileSystemLoader
-from markupsafe import Markup
-from plotly.offline import get_plotlyjs
 
 from pages import look
-from pages.embed import STYLE, inside
+from pages.content import Page, Section, Table
 from pages.look import Figure
+from pages.render import rendered_sections, written
+from pages.words import number
 from studies.dynamics_wear import MAPS, Comparison, Point
-from studies.report.page import HERE
-from studies.report.result import number
 
 
 def figures(point: Point, index: int) -> list[Figure]:
@@ -31,16 +27,33 @@ def figures(point: Point, index: int) -> list[Figure]:
     return made
 
 
+def table(found: Comparison) -> Table:
+    """One row per operating point."""
+    volumes = [f"{label} volume" for label in MAPS.values()]
+    profiles = [f"{label} profile" for label in MAPS.values()]
+    head = ["point", "input rpm", "torque N·m", "teeth pass Hz", *volumes, *profiles, "dynamics"]
+    rows = [
+        [p.name, number(p.input_speed_rpm), number(p.output_torque_Nm), number(p.passing_Hz),
+         *(number(v, 2) for v in (*p.volume_change.values(), *p.map_difference.values())),
+         "matters" if p.largest > found.limit else "does not matter"]
+        for p in found.points
+    ]  # fmt: skip
+    return Table("", head, rows, tuple(range(1, len(head) - 1)))
+
+
+def page_of(found: Comparison) -> Page:
+    lead = "Change of worn volumes, and largest difference of the mean profiles over the deepest place, all in percent."
+    sections = [Section("where", "Where dynamics matters", lead, tables=[table(found)])]
+    sections += [
+        Section(f"point_{i}", point.name.capitalize(), "", figures(point, i)) for i, point in enumerate(found.points)
+    ]  # fmt: skip
+    return Page(
+        "Wear of an RV reducer, in motion and in equilibrium", found.reducer,
+        f"{number(found.hours)} h at each point; lowest natural frequency {number(found.lowest_mode_Hz)} Hz",
+        found.sentence(), [], sections, [],
+    )  # fmt: skip
+
+
 def write_dynamics_page(found: Comparison, path: Path) -> Path:
     """Write one HTML file that opens offline."""
-    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    plots = [figures(point, i) for i, point in enumerate(found.points)]
-    content = [{"name": f.name, "data": f.data, "layout": f.layout} for group in plots for f in group]
-    text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
-    page = environment.get_template("dynamics.html").render(
-        found=found, sections=list(zip(found.points, plots)), number=number, style=inside(STYLE),
-        plotly=Markup(get_plotlyjs()), figures=Markup(text),
-    )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page, encoding="utf-8", newline="\n")
-    return path
+    return written(rendered_sections(page_of(found)), path)

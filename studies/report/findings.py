@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pages import look
-from studies.report.result import Result, hour_text, number
+from pages.words import hour_text, number
+from studies.report.result import Result
 
 # Relative change below which a figure counts as unchanged.
 HARDLY = 0.03

@@ -6,8 +6,9 @@ import math
 import numpy as np
 
 from fmu_src.variables import Table, Variable
+from pages.words import number
 from rv_plant.variables import plant_table
-from studies.report.result import Result, number
+from studies.report.result import Result
 from wear_fmu.variables import Resolution, wear_table
 
 # Units that read better than SI: unit -> (shown unit, factor, smallest shown value).

@@ -4,8 +4,9 @@ import numpy as np
 
 from pages import look
 from pages.look import Figure, path, short
+from pages.words import hour_text, number
 from studies.report import shapes
-from studies.report.result import MICRON, Result, hour_text, number
+from studies.report.result import MICRON, Result
 
 
 class Colours:

@@ -95,21 +95,3 @@ class Result:
     def peak_place(self, name: str, entry: int = -1) -> float:
         """Place of a surface's deepest wear [deg], e.g. ``inner_peak_deg``."""
         return float(self[name][entry])
-
-
-def hour_text(hours: float) -> str:
-    """``10,000 h``"""
-    return f"{hours:,.4g} h" if hours < 1000.0 else f"{hours:,.0f} h"
-
-
-def number(value: float, digits: int = 3) -> str:
-    """Rounded to significant digits, thousands marked, no exponent between 1e-3 and 1e6."""
-    if value is None or not math.isfinite(value):
-        return "–"
-    if value == 0.0:
-        return "0"
-    size = math.floor(math.log10(abs(value)))
-    if not -5 < size < 7:
-        return f"{value:.{digits - 1}e}"
-    text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
-    return text.replace("-", "−")

@@ -7,7 +7,8 @@ import numpy as np
 
 from pages import look
 from pages.look import Figure, short
-from studies.report.result import Result, hour_text, number
+from pages.words import hour_text, number
+from studies.report.result import Result
 
 # Orders that far below the largest are not drawn.
 DEPTH = 2e3

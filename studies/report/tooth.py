@@ -4,8 +4,9 @@ import numpy as np
 
 from pages import look
 from pages.look import Figure, path, short
+from pages.words import hour_text
 from studies.report import shapes
-from studies.report.result import MICRON, Result, hour_text
+from studies.report.result import MICRON, Result
 
 # Phases drawn on either side of a tooth's roots [deg].
 BEYOND = 35.0

@@ -21,4 +21,6 @@ HOOKS = {
 }  # fmt: skip
 # The fields that a hook may change, and how; the wear unit clears them before.
 ALLOWED = {"prepare": OWN_STATES | {"effects_on": "+=", "standing": "+="}, "advance": OWN_STATES, "factor": {}}
+# A hook that is not called unless another has changed this field.
+NEEDS = {"factor": "effects_on"}
 EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in effect_modules(__name__).items()}

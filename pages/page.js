@@ -7,12 +7,20 @@
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d", "pan2d"],
   };
   const byName = Object.fromEntries(content.figures.map((figure) => [figure.name, figure]));
-  const idOf = (figure) => "plot-" + figure.name;
+  const placeOf = (figure) => document.getElementById("plot-" + figure.name);
+  const selectOf = (figure) => document.querySelector(`select[data-figure="${figure.name}"]`);
   const hour = document.getElementById("chosen-hour");
   const disc = document.getElementById("chosen-disc");
 
-  // Traces of a figure at the chosen hour and disc.
+  // The chosen entry of a figure with a selector of its own.
+  const choiceOf = (figure) => figure.choices[Number(selectOf(figure).value)];
+
+  // Traces of a figure at the chosen hour and disc, or at its own selector's entry.
   function tracesOf(figure) {
+    if (figure.choices.length) {
+      const choice = choiceOf(figure);
+      return figure.data.map((trace, i) => ({ ...trace, ...choice.traces[i] }));
+    }
     if (!figure.states.length) return figure.data;
     const rows = figure.states[Math.min(disc ? Number(disc.value) : 0, figure.states.length - 1)];
     const updates = rows[Math.min(hour ? Number(hour.value) : 0, rows.length - 1)];
@@ -23,29 +31,42 @@
     });
   }
 
+  // Plotly keeps the user's zoom in the layout: it is shared, but for what a selector changes.
+  function layoutOf(figure) {
+    return figure.choices.length ? structuredClone({ ...figure.layout, ...choiceOf(figure).layout }) : figure.layout;
+  }
+
+  const draw = (figure) => Plotly.react(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+
   for (const figure of content.figures) {
-    Plotly.newPlot(idOf(figure), tracesOf(figure), figure.layout, config);
+    // A phone that scrolls over a plot must not zoom it.
+    if (touch) figure.layout.dragmode = false;
+    Plotly.newPlot(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+    if (figure.choices.length) selectOf(figure).addEventListener("change", () => draw(figure));
   }
 
   function choose() {
     const text = content.hours[hour ? Number(hour.value) : 0];
     for (const place of document.querySelectorAll(".now")) place.textContent = text;
-    for (const figure of content.figures) {
-      if (figure.states.length) Plotly.react(idOf(figure), tracesOf(figure), figure.layout, config);
-    }
+    for (const figure of content.figures) if (figure.states.length) draw(figure);
   }
   if (hour) hour.addEventListener("input", choose);
   if (disc) disc.addEventListener("change", choose);
 
-  // A phone that scrolls over a plot must not zoom it.
-  if (touch) {
-    for (const figure of content.figures) Plotly.relayout(idOf(figure), { dragmode: false });
+  // Boxes that show and hide what carries their word.
+  const boxes = [...document.querySelectorAll(".filter input")];
+  function filter() {
+    const shown = new Set(boxes.filter((box) => box.checked).map((box) => box.value));
+    for (const row of document.querySelectorAll("[data-verdict]")) row.hidden = !shown.has(row.dataset.verdict);
+    for (const figure of content.figures) if (placeOf(figure).offsetParent) Plotly.Plots.resize(placeOf(figure));
   }
+  for (const box of boxes) box.addEventListener("change", filter);
+
   // Plots measure themselves on the screen, so the page takes a sheet's width before it is printed.
   function fit(printing) {
     document.body.classList.toggle("printing", printing);
     for (const figure of content.figures) {
-      const place = document.getElementById(idOf(figure));
+      const place = placeOf(figure);
       // Plots.resize would wait a moment, and the sheet would be printed by then.
       Plotly.relayout(place, printing
         ? { width: place.clientWidth, height: place.clientHeight }

@@ -1,0 +1,57 @@
+"""Tasks on the screen: bars on a terminal, a line now and then in a pipe or a log; always on stderr."""
+
+import sys
+import threading
+
+from fmu_src.progress import Listener, Task
+
+# What is over sooner is not spoken of in a pipe, no line follows another sooner [s], and the longer it takes the rarer they get.
+SOON, PAUSE, GROWTH = 0.7, 3.0, 0.4
+
+
+def new_screen() -> Listener:
+    if not sys.stderr.isatty():
+        return Lines()
+    # Drawn only where somebody looks.
+    from cli.bars import Bars
+
+    return Bars()
+
+
+class Lines:
+    """What is done, how far it is and about how long it still takes, every few seconds."""
+
+    def __init__(self) -> None:
+        self.tasks: list[Task] = []
+        self.changed = threading.Condition()
+        self.teller: threading.Thread | None = None
+
+    def begin(self, task: Task) -> None:
+        with self.changed:
+            self.tasks.append(task)
+            if self.teller is None:
+                self.teller = threading.Thread(target=self.tell, daemon=True)
+                self.teller.start()
+
+    def end(self, task: Task) -> None:
+        with self.changed:
+            self.tasks.remove(task)
+            self.changed.notify()
+
+    def say(self, text: str) -> None:
+        print(text, file=sys.stderr, flush=True)
+
+    def tell(self) -> None:
+        """Runs beside the work and ends with the last task."""
+        spoken: dict[Task, float] = {}
+        while True:
+            with self.changed:
+                if not self.tasks:
+                    self.teller = None
+                    return
+                # The innermost is what is being done.
+                task = self.tasks[-1]
+                if task.passed > SOON and task.passed - spoken.get(task, -PAUSE) >= max(PAUSE, GROWTH * task.passed):
+                    spoken[task] = task.passed
+                    print(f"rvwear: {task.sentence()}", file=sys.stderr, flush=True)
+                self.changed.wait(0.2)

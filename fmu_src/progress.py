@@ -1,0 +1,96 @@
+"""What takes a while, told to whoever listens; without a listener nothing happens.
+
+The command line listens (``cli.progress``).  What computes says ``with task("equilibria", total=72) as
+turning`` and ``turning.advance()`` at each step, and need not know who looks.
+"""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Protocol
+
+# Until then nobody wonders how long it has been going on [s].
+SOON = 3.0
+
+
+@dataclass(eq=False)
+class Task:
+    """``total`` steps if they can be counted; ``about`` seconds if it is known how long it takes."""
+
+    what: str
+    total: int | None = None
+    about: float | None = None
+    done: int = 0
+    begun: float = field(default_factory=time.monotonic)
+
+    def advance(self, steps: int = 1) -> None:
+        self.done += steps
+
+    @property
+    def passed(self) -> float:
+        """Seconds since its beginning."""
+        return time.monotonic() - self.begun
+
+    @property
+    def left(self) -> float | None:
+        """Seconds that it will still take, at the pace so far; None if nobody knows."""
+        if self.total and self.done:
+            return self.passed * (self.total - self.done) / self.done
+        return None if self.about is None else max(0.0, self.about - self.passed)
+
+    def sentence(self) -> str:
+        """``equilibria: 30 of 72, about 4 s left``."""
+        count = f": {self.done} of {self.total}" if self.total else ""
+        if self.total and self.done >= self.total:
+            return f"{self.what}{count}"
+        if self.left is None:
+            return f"{self.what}{count}" + (f", for {duration(self.passed)} now" if self.passed > SOON else "")
+        return f"{self.what}{count}, about {duration(self.left)} left"
+
+
+def duration(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{max(1.0, seconds):.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+class Listener(Protocol):
+    def begin(self, task: Task) -> None: ...
+
+    def end(self, task: Task) -> None: ...
+
+    def say(self, text: str) -> None: ...
+
+
+_listeners: list[Listener] = []
+
+
+@contextmanager
+def told_to(listener: Listener) -> Iterator[None]:
+    """Whatever is done inside is told to the listener."""
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
+
+
+@contextmanager
+def task(what: str, total: int | None = None, about: float | None = None) -> Iterator[Task]:
+    """Something that may take a while."""
+    begun = Task(what, total, about)
+    heard = list(_listeners)
+    for listener in heard:
+        listener.begin(begun)
+    try:
+        yield begun
+    finally:
+        for listener in heard:
+            listener.end(begun)
+
+
+def say(text: str) -> None:
+    """A line that stays: a result on the way."""
+    for listener in _listeners:
+        listener.say(text)

@@ -1,0 +1,66 @@
+"""A page as one HTML file with everything it needs inside: it opens offline."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from pages.content import Choosable, Page
+from pages.look import Figure
+
+HERE = Path(__file__).parent
+
+
+def rendered(template: Path, figures: Sequence[Figure], hours: Sequence[str] = (), **values: object) -> str:
+    """HTML of a template that extends ``page.html``; equal content gives equal bytes.
+
+    ``figures`` are all that the template shows; ``hours`` the entries of the slider that some of them follow.
+    """
+    names = [figure.name for figure in figures]
+    if len(set(names)) != len(names):
+        raise ValueError(f"figures share a name: {sorted(names)}")
+    environment = Environment(
+        loader=FileSystemLoader([template.parent, HERE]), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
+    return environment.get_template(template.name).render(
+        style=inside("page.css"), script=inside("page.js"), plotly=Markup(get_plotlyjs()),
+        content=embedded(figures, hours), hours=hours, **values,
+    )  # fmt: skip
+
+
+def rendered_sections(page: Page) -> str:
+    """HTML of a page of cards, figures and tables."""
+    return rendered(HERE / "sections.html", [figure for section in page.sections for figure in section.figures], page=page)
+
+
+def written(text: str, path: Path) -> Path:
+    """Write a page beside its place and move it there: an interruption leaves no half page."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(path.name + ".part")
+    partial.write_text(text, encoding="utf-8", newline="\n")
+    partial.replace(path)
+    return path
+
+
+def inside(name: str) -> Markup:
+    """A file of this folder, to stand in the page."""
+    return Markup((HERE / name).read_text(encoding="utf-8"))
+
+
+def embedded(figures: Sequence[Figure], hours: Sequence[str]) -> Markup:
+    """All figures as JSON that may stand inside a script element."""
+    content = {"hours": list(hours), "figures": [described(figure) for figure in figures]}
+    text = json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return Markup(text.replace("<", "\\u003c"))
+
+
+def described(figure: Figure) -> dict:
+    choices = figure.choices if isinstance(figure, Choosable) else []
+    return {
+        "name": figure.name, "data": figure.data, "layout": figure.layout, "states": figure.states, "rows": figure.rows_of,
+        "choices": [{"traces": choice.traces, "layout": choice.layout} for choice in choices],
+    }  # fmt: skip

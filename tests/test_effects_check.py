@@ -1,0 +1,265 @@
+"""What is wrong with an effect of one's own is said with file and line, before anything is compiled."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from discrepancy.catalogue.documentation import PAGE, own_part
+from discrepancy.draft import BODIES, PLANT_NAMES, WEAR_NAMES, text_of
+from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
+from fmu_src.source_hash import ROOT
+from cli.main import main
+
+HEAD = """import math
+from fmu_src.effect import Effect, amplitude
+from fmu_src.kernel import kernel
+from fmu_src.variables import Variable
+from rv_plant.gear_stage import planet_radius
+
+EFFECT = Effect(
+    0, "mine", "law", "source", "signature",
+    (amplitude("my_size", "1", "size", 0.1, 0.0, 1.0),),
+    states=(Variable("my_state", "state", "1", "state", 0.0, (2,), ("element",)),),
+)
+
+
+"""
+# Lines of a kernel in ``HEAD`` count from here.
+FIRST = HEAD.count("\n") + 1
+
+
+def written(folder: Path, text: str, unit: str = "rv_plant", name: str = "mine") -> Path:
+    file = folder / unit / f"{name}.py"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def told(folder, text, **where) -> list[tuple[int, str]]:
+    return [(f.line, f.text) for f in check_any_file(written(folder, text, **where))]
+
+
+def hook(line: str, name: str = "before(r)") -> str:
+    return f"{HEAD}@kernel\ndef {name}:\n    {line}\n"
+
+
+GOOD = """@kernel
+def share(r, gap, k):
+    gap[k] += r.my_size * planet_radius(r.crank_circle_radius, 3.0)
+    return gap
+
+
+@kernel
+def before(r):
+    discs, cranks, rollers = r.roller_gap_now.shape
+    for d in range(discs):
+        for c in range(cranks):
+            gap = r.roller_gap_now[d, c]
+            for k in range(rollers):
+                share(r, gap, k)
+    r.ring_scale *= 1.0 + r.my_size * (r.reducer_temperature - 293.15)
+    r.my_state[0] = r.my_state[1] + math.cos(r.ideal_output)
+    last = len(r.my_state) - 1
+    r.my_state[last] -= 1.0 if r.my_size > 0.0 else 0.0
+
+
+@kernel
+def hold(r):
+    tangent, force = r.tangent, r.residual_vector
+    tangent[0, 0] += r.my_size
+    force[0] += r.my_size * r.z[0]
+"""
+
+
+def test_a_good_effect_and_all_of_the_catalogue_pass(tmp_path):
+    assert told(tmp_path, HEAD + GOOD) == []
+    for unit in UNITS:
+        for file in sorted((ROOT / unit / "effects").glob("*.py")):
+            assert file.stem == "__init__" or check_file(file, unit) == []
+
+
+@pytest.mark.parametrize(("line", "message"), [
+    ("r.ring_scale = 2.0", "before must not change r.ring_scale by =, because other effects act on it too: write *="),
+    ("r.ring_scale += 2.0", "write *="),
+    ("r.roller_gap_now[0, 0, 0] = 1e-6", "write +="),
+    ("gap = r.roller_gap_now[0, 0]; gap[0] = 1e-6", "before must not change r.roller_gap_now by =, "),
+    ("gap, _ = r.roller_gap_now; gap *= 2.0", "write +="),
+    ("r.z[0] = 0.0", "before may not change r.z, a state (departures from ideal kinematics"),
+    ("r.load_torque += 1.0", "before may not change r.load_torque, an input (torque on the carrier"),
+    ("r.my_size = 1.0", "before may not change r.my_size, a parameter"),
+    ("r.pin_x[0] += 1e-6", "(prepare may)"),
+    ("r.friction_torque = 1.0", "before may not change r.friction_torque, a state"),
+    ("x = r.ring_scale", "before reads r.ring_scale, a state (pin circle radius over that at the reference temperature), on which other"),
+    ("r.my_state[0] = r.slider[0]", "which the effect stribeck_friction changes in the same stage"),
+    ("r.ring_scale *= r.rign_scale", "the record has no field rign_scale; did you mean ring_scale?"),
+    ("r.ring_scale *= sise", "sise is not defined"),
+    ("r.ring_scale *= math.coss(1.0)", "math has no coss; did you mean cos?"),
+    ("r.ring_scale *= planet_radius(1.0)", "planet_radius takes 2 arguments (crank_circle_radius, first_stage_ratio), not 1"),
+    ("x = [1.0, 2.0]", "a kernel has numbers, loops and fields of the record, not a list"),
+    ("raise ValueError", "not raise"),
+])  # fmt: skip
+def test_a_kernel_that_errs_is_told_where(tmp_path, line, message):
+    (found,) = told(tmp_path, hook(line))
+    assert found[0] == FIRST + 2 and message in found[1]
+
+
+def test_kernels_that_a_hook_calls_are_followed(tmp_path):
+    text = hook("move(r.z, r)") + "\n\n@kernel\ndef move(where, record):\n    where[0] += 1.0\n    record.ring_scale *= radios\n"
+    assert [(line, text[:32]) for line, text in told(tmp_path, text)] == [
+        (FIRST + 7, "before may not change r.z, a sta"), (FIRST + 8, "radios is not defined"),
+    ]  # fmt: skip
+
+
+def test_what_a_hook_calls_must_be_a_kernel(tmp_path):
+    assert told(tmp_path, hook("x = twice(r.my_size)") + "\n\ndef twice(x):\n    return 2.0 * x\n") == [
+        (FIRST + 2, "twice is no kernel: write @kernel above it")
+    ]
+
+
+def test_kernels_that_are_imported_are_followed(tmp_path):
+    text = hook("clear_flanks(r)").replace("rv_plant.gear_stage import planet_radius", "rv_plant.mesh import clear_flanks")
+    found = check_any_file(written(tmp_path, text))
+    assert found and all(f.file == ROOT / "rv_plant" / "mesh.py" and "before may not change" in f.text for f in found)
+
+
+@pytest.mark.parametrize(("name", "line", "message"), [
+    ("befor(r)", FIRST + 1, "befor is no hook and no hook calls it; did you mean before?"),
+    ("quux(r)", FIRST + 1, "no hook calls it; hooks are prepare, warm, before"),
+    ("before(r, time)", FIRST + 1, "the unit calls before(r), here it is before(r, time)"),
+])  # fmt: skip
+def test_a_wrong_hook_is_told(tmp_path, name, line, message):
+    (found,) = told(tmp_path, hook("return", name))
+    assert found[0] == line and message in found[1]
+
+
+def test_a_hook_that_is_no_kernel_is_told(tmp_path):
+    ((line, message),) = told(tmp_path, hook("return").replace("@kernel\n", "\n"))
+    assert line == FIRST + 1 and "write @kernel above it" in message
+
+
+def test_a_factor_must_be_returned(tmp_path):
+    text = hook("if surface == 0:\n        return 1.0", "factor(r, surface, line_load, radius, speed, depth)")
+    text += "\n\n@kernel\ndef prepare(r):\n    r.effects_on += 1\n"
+    ((line, message),) = told(tmp_path, text, unit="wear_fmu")
+    assert line == FIRST + 1 and "must return a factor" in message
+
+
+def test_a_factor_that_would_not_be_called_is_told(tmp_path):
+    text = hook("return 1.0 + r.my_size", "factor(r, surface, line_load, radius, speed, depth)")
+    ((line, message),) = told(tmp_path, text, unit="wear_fmu")
+    assert line == FIRST + 1 and "called only where prepare does r.effects_on += 1" in message
+
+
+def test_the_example_of_the_documentation_passes(tmp_path):
+    page = PAGE.read_text(encoding="utf-8")
+    assert own_part() in page
+    example = page.partition("```python\n")[2].partition("```")[0]
+    assert "EFFECT" in example and told(tmp_path, example, name="soft_ring") == []
+
+
+@pytest.mark.parametrize(("old", "new", "line", "message"), [
+    ('"my_size"', '"seal_torque"', 9, "the effect drag has a parameter seal_torque already"),
+    ('"my_size"', '"pin_radius"', 9, "the unit has a parameter pin_radius already"),
+    ('"my_state"', '"my_size"', 10, "the effect itself has a parameter my_size already"),
+    ("EFFECT =", "EFECT =", 1, "no EFFECT"),
+    ("EFFECT = Effect(", "EFFECT = print(", 7, "TypeError"),
+    ("import math", "import maths", 1, "No module named 'maths'"),
+    ("import planet_radius", "import planet_radios", 5, "cannot import name 'planet_radios'"),
+    ("import math", "import math as", 1, "syntax error"),
+])  # fmt: skip
+def test_a_wrong_declaration_is_told(tmp_path, old, new, line, message):
+    assert any(found[0] == line and message in found[1] for found in told(tmp_path, HEAD.replace(old, new, 1) + hook("return")[len(HEAD) :]))
+
+
+def test_names_of_a_neighbour_are_told(tmp_path):
+    written(tmp_path, HEAD + GOOD, name="neighbour")
+    assert (9, "the effect neighbour has a parameter my_size already; choose another name") in told(tmp_path, HEAD + GOOD)
+
+
+def test_wrong_places_are_told(tmp_path):
+    assert "there is an effect drag already" in told(tmp_path, hook("return"), name="drag")[0][1]
+    assert "must be a Python name" in told(tmp_path, hook("return"), name="my-effect")[0][1]
+    (beside,) = check_any_file(written(tmp_path, hook("return"), unit="."))
+    assert "put it into DIR/rv_plant/ or DIR/wear_fmu/" in beside.text
+    found = folder_findings(tmp_path)
+    assert [f.file.name for f in found] == ["mine.py"] and "no unit looks here" in found[0].text
+    assert "there is none" in folder_findings(tmp_path / "missing")[0].text
+    (tmp_path / "empty").mkdir()
+    assert "neither rv_plant nor wear_fmu" in folder_findings(tmp_path / "empty")[0].text
+
+
+def test_command_says_what_it_finds(tmp_path, capsys):
+    good, bad = written(tmp_path, HEAD + GOOD), written(tmp_path, hook("r.z[0] = 0.0").replace("my_", "other_"), name="other")
+    assert main(["effects", "--check", str(good)]) == 0
+    assert main(["effects", "--check", str(good), str(bad)]) == 2
+    assert f"{bad}:{FIRST + 2}: before may not change r.z" in capsys.readouterr().out
+
+
+def in_its_own_process(folder: Path, program: str) -> subprocess.CompletedProcess:
+    """Effects are taken when the units are imported."""
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120,
+                          env={**os.environ, "RVWEAR_EFFECTS": str(folder), "RVWEAR_PLAIN_PYTHON": "1", "XDG_CACHE_HOME": str(folder)})
+
+
+def test_a_faulty_effect_ends_a_command_with_one_message(tmp_path):
+    bad, worse = written(tmp_path, hook("r.z[0] = 0.0")), written(tmp_path, "import maths\n", name="worse")
+    done = in_its_own_process(tmp_path, "from cli.main import main; raise SystemExit(main(['solve']))")
+    assert done.returncode == 2 and "Traceback" not in done.stderr
+    assert f"{bad}:{FIRST + 2}: before may not change r.z" in done.stderr and f"{worse}:1: " in done.stderr
+
+
+def test_effects_act_whatever_their_files_are_called(tmp_path):
+    """Three files add to the ring's compliance, before and after the catalogue's own in the order of names."""
+    for name in ("a_ring", "ring_compliance", "uneven_ring"):
+        text = hook("r.compliance[r.z.shape[0] - 1] += r.my_size", "prepare(r)").replace("my_", f"{name}_")
+        written(tmp_path, text.replace("r.my_size", f"r.{name}_size"), name=name)
+    program = (
+        "import numpy as np; from reducers.reducer import load_reducer; from rv_plant import plant\n"
+        "for values in ({'housing_compliance': 4e-7}, {'housing_compliance': 1e-7, 'a_ring_size': 1e-7, 'ring_compliance_size': 1e-7,"
+        " 'uneven_ring_size': 1e-7}):\n"
+        "    records = load_reducer('RV20E-121').plant.new_records().view(np.recarray)\n"
+        "    for name, value in values.items(): records[name] = value\n"
+        "    assert plant.initialise(records) == 0; print(records.transmission_error[0])\n"
+    )
+    done = in_its_own_process(tmp_path, program)
+    assert done.returncode == 0, done.stderr
+    first, second = map(float, done.stdout.split())
+    assert first == pytest.approx(second, rel=1e-12)
+
+
+def test_drafts_pass(tmp_path):
+    for unit, names, signal in (("rv_plant", PLANT_NAMES, "input_torque"), ("wear_fmu", WEAR_NAMES, "wear_depth")):
+        for form in BODIES:
+            law = SimpleNamespace(text="law", signal=signal, points={"x": [10.0, 200.0]}, forms=[SimpleNamespace(name=form, confidence=0.9)])
+            for x in names.values():
+                assert told(tmp_path, text_of("draft", law, unit, x), unit=unit, name="draft") == []
+
+
+def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
+    """Compiled, packed in every flavour, and acting there as in process."""
+    text = hook("r.compliance[r.z.shape[0] - 1] += r.my_size", "prepare(r)")
+    written(tmp_path, text, name="my_ring")
+    program = (
+        "from pathlib import Path; import fmpy, sys; from fmu_src.link import NativeFault, compiler, host_platform\n"
+        "from fmu_src.package import build_fmu, build_native, validate; from orchestrator.component import InProcess\n"
+        "from reducers.reducer import load_reducer\n"
+        "wanted = load_reducer('RV20E-121').specification('rv_plant'); folder = Path(sys.argv[1])\n"
+        "paths = [build_fmu('RvPlant', wanted, 1e-3, 'test', folder)]\n"
+        "try:\n    compiler(host_platform(), False); paths += build_native('RvPlant', wanted, 1e-3, 'test', folder)\n"
+        "except NativeFault:\n    pass\n"
+        "plant = InProcess('plant', wanted); plant.set('my_size', 1e-6); plant.exit_initialisation(); plant.step(0.0, 1e-3)\n"
+        "print(repr(plant.get('lag')))\n"
+        "for path in paths:\n"
+        "    validate(path)\n"
+        "    seen = fmpy.simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3, start_values={'my_size': 1e-6}, output=['lag'])\n"
+        "    print(repr(float(seen['lag'][-1])))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program, str(tmp_path / "fmus")], capture_output=True, text=True, timeout=300,
+                          env={**os.environ, "RVWEAR_EFFECTS": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path)})
+    assert done.returncode == 0, done.stderr
+    in_process, *as_fmus = done.stdout.split()
+    assert as_fmus and set(as_fmus) == {in_process}
