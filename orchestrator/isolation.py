@@ -13,7 +13,6 @@ import subprocess
 import sys
 import weakref
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from threading import Timer
 
 import numpy as np
@@ -22,6 +21,7 @@ from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
 from orchestrator.fmu import Fmu
 from orchestrator.interrupts import interrupts_later
+from orchestrator.scratch import Scratch
 
 LENGTH = struct.Struct("<Q")
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
@@ -44,16 +44,20 @@ class Isolated(Component):
         self.doing = "its start"
         self.timed_out = False
         # Where the unit is unpacked: a process that crashes cannot remove it.
-        self.scratch = TemporaryDirectory(ignore_cleanup_errors=True)
+        self.scratch = Scratch()
         # With this process's own path: a folder named like a module where somebody happens to stand is none.
         with interrupts_later():
             self.process = subprocess.Popen(
                 [sys.executable, "-P", "-c", START, repr(sys.path), name, str(self.path)],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": self.scratch.name},
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": str(self.scratch.path)},
             )  # fmt: skip
         # Also when nobody closes this: a unit that hangs would stay behind.
         self.end = weakref.finalize(self, end, self.process)
-        shown = self.answer()
+        try:
+            shown = self.answer()
+        except (InputFault, RunFault):
+            self.close()
+            raise
         for key in SHOWN:
             setattr(self, key, shown[key])
         self.through = shown["feedthrough"]
@@ -167,8 +171,7 @@ class Isolated(Component):
 
     def close(self):
         self.end()
-        self.process.stdout.close()
-        self.scratch.cleanup()
+        self.scratch.remove()
 
 
 def end(process: subprocess.Popen) -> None:
@@ -181,6 +184,7 @@ def end(process: subprocess.Popen) -> None:
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
+    process.stdout.close()
 
 
 class Worker:

@@ -19,6 +19,7 @@ from orchestrator.master.connections import resolve
 from orchestrator.opening import open_fmu
 from orchestrator.scenario import read_scenario
 from orchestrator.schemes import SCHEMES
+from orchestrator.scratch import Scratch
 from orchestrator.settings import parse_value
 from orchestrator.ssp.importer import read_ssp
 from orchestrator.ssp.parameters import apply
@@ -39,7 +40,7 @@ class System:
     recorded: list[tuple[str, str]] = field(default_factory=list)
     text: str = ""
     # Folders that the units' files are in, kept until the system is gone.
-    folders: list = field(default_factory=list)
+    folders: list[Scratch] = field(default_factory=list)
     initialised: bool = False
 
     def __getitem__(self, path: str) -> np.ndarray | float | int:
@@ -106,7 +107,7 @@ class System:
     def close(self) -> None:
         self.master.close()
         for folder in self.folders:
-            folder.cleanup()
+            folder.remove()
 
 
 def whole_steps(duration: float, step: float) -> int:

@@ -39,7 +39,8 @@ def load_checkpoint(path: Path, inputs: dict) -> tuple[Life, dict]:
     if not path.is_file():
         raise InputFault(f"no checkpoint at {path}: start the run without --resume")
     try:
-        with np.load(path) as arrays:
+        # np.load leaves a path open that it refuses.
+        with path.open("rb") as file, np.load(file) as arrays:
             head = json.loads(arrays["head"].tobytes())
             data = {name: arrays[name] for name in arrays.files if name != "head"}
     except (OSError, ValueError, KeyError, zipfile.BadZipFile) as problem:

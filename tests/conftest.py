@@ -6,6 +6,7 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from hypothesis import settings
 
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
@@ -13,6 +14,11 @@ from fmu_src.package import build_fmu, build_native, triples_for
 from reducers.reducer import load_reducer
 from shared import made_once
 from small_fmus import build_spring
+
+# Properties: the same few examples at every run; RVWEAR_PROPERTIES=thorough looks at many others.
+settings.register_profile("default", max_examples=12, derandomize=True, database=None, deadline=None)
+settings.register_profile("thorough", max_examples=1000, deadline=None)
+settings.load_profile(os.environ.get("RVWEAR_PROPERTIES", "default"))
 
 # The workers take files in this order: the first two compile what most others need, one the kernels of the units,
 # the other their object code; the longest come early, so that no worker is left with one at the end.

@@ -145,15 +145,31 @@ def floor_division(e: Writer, operator: ast.operator, a: Value, b: Value) -> Val
         lower = e.give(f"sub i64 {quotient}, 1")
         result = e.give(f"select i1 {below}, i64 {lower}, i64 {quotient}")
         return Value(INTEGER, (e.give(f"select i1 {is_zero}, i64 0, i64 {result}"),))
-    if not of_rest:
-        return Value(FLOAT, (intrinsic(e, "floor", e.give(f"fdiv double {x}, {y}")),))
+    # As Python has it: the quotient follows from the rest, which is exact.
     rest = e.give(f"frem double {x}, {y}")
     inexact = e.give(f"fcmp une double {rest}, 0.0")
     rest_below, divisor_below = e.give(f"fcmp olt double {rest}, 0.0"), e.give(f"fcmp olt double {y}, 0.0")
     opposite = e.give(f"xor i1 {rest_below}, {divisor_below}")
     below = e.give(f"and i1 {opposite}, {inexact}")
-    moved = e.give(f"fadd double {rest}, {y}")
-    return Value(FLOAT, (e.give(f"select i1 {below}, double {moved}, double {rest}"),))
+    if of_rest:
+        moved = e.give(f"fadd double {rest}, {y}")
+        result = e.give(f"select i1 {below}, double {moved}, double {rest}")
+        return Value(FLOAT, (e.give(f"select i1 {inexact}, double {result}, double {signed_zero(e, y)}"),))
+    divided = e.give(f"fdiv double {x}, {y}")
+    whole = e.give(f"fdiv double {e.give(f'fsub double {x}, {rest}')}, {y}")
+    whole = e.give(f"select i1 {below}, double {e.give(f'fsub double {whole}, 1.0')}, double {whole}")
+    lower = intrinsic(e, "floor", whole)
+    is_nearer_above = e.give(f"fcmp ogt double {e.give(f'fsub double {whole}, {lower}')}, 0.5")
+    nearest = e.give(f"select i1 {is_nearer_above}, double {e.give(f'fadd double {lower}, 1.0')}, double {lower}")
+    is_some = e.give(f"fcmp une double {whole}, 0.0")
+    result = e.give(f"select i1 {is_some}, double {nearest}, double {signed_zero(e, divided)}")
+    is_zero = e.give(f"fcmp oeq double {y}, 0.0")
+    return Value(FLOAT, (e.give(f"select i1 {is_zero}, double {divided}, double {result}"),))
+
+
+def signed_zero(e: "Emitter", sign: str) -> str:
+    """0 with the sign of a number."""
+    return e.give(f"call double {e.intrinsic('llvm.copysign.f64', 2)}(double 0.0, double {sign})")
 
 
 def power(e: Writer, a: Value, b: Value) -> Value:
@@ -232,7 +248,7 @@ def of_math(e: Writer, name: str, values: list[Value]) -> Value:
     if name in INTRINSICS:
         return Value(FLOAT, (intrinsic(e, INTRINSICS[name], parts[0]),))
     if name == "pow":
-        return power(e, *values)
+        return power(e, converted(e, values[0], FLOAT), values[1])
     if name in ("radians", "degrees"):
         factor = math.pi / 180.0 if name == "radians" else 180.0 / math.pi
         return Value(FLOAT, (e.give(f"fmul double {parts[0]}, {literal(factor).parts[0]}"),))

@@ -10,6 +10,7 @@ import builtins
 import math
 import difflib
 import types as python_types
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -54,7 +55,7 @@ class Surroundings(Protocol):
 
 
 class Wider(Exception):
-    """A variable or result is wider than assumed: walk again."""
+    """A variable or result holds more than was assumed: walk again."""
 
 
 @dataclass
@@ -73,6 +74,8 @@ class Emitter:
     instance: Instance
     variables: dict[str, Type] = field(default_factory=dict)
     result: Type | None = None
+    # Counters that one of their loops starts below zero, or may.
+    sometimes_negative: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         kernel = self.instance.kernel
@@ -114,6 +117,8 @@ class Emitter:
         self.statements(self.tree.body)
         if not self.ended:
             self.give_back(Value(NOTHING, ()))
+        if self.never_negative & self.sometimes_negative:
+            raise Wider
         assert self.result is not None
         self.instance.result = self.result
         body = "\n".join(["entry:", *self.slots, *self.lines])
@@ -236,8 +241,6 @@ class Emitter:
     def assign(self, target: ast.expr, value: Value) -> None:
         match target:
             case ast.Name(id=name):
-                if name in self.never_negative and name not in self.counters:
-                    self.never_negative.discard(name)
                 self.store_name(name, value)
             case ast.Tuple(elts=targets):
                 if not isinstance(value.type, Group) or len(value.type.items) != len(targets):
@@ -341,10 +344,10 @@ class Emitter:
                 first, last, step = arithmetic.literal(0), arithmetic.literal(len(items)), 1
             case _:
                 raise self.fault("kernels loop over range(...) or a tuple of numbers only")
-        if name in self.counters and not items and step > 0 and first.not_negative:
+        if items or step < 0 or not first.not_negative:
+            self.sometimes_negative.add(name)
+        elif name in self.counters and name not in self.sometimes_negative:
             self.never_negative.add(name)
-        else:
-            self.never_negative.discard(name)
         head, body, onward, other, end = (self.new_block(hint) for hint in ("for", "do", "next", "else", "end"))
         counter = self.slot("i64")
         self.write(f"store i64 {first.parts[0]}, ptr {counter}")
@@ -383,6 +386,8 @@ class Emitter:
         return value
 
     def test(self, node: ast.expr) -> Value:
+        if isinstance(node, ast.BoolOp):
+            return self.both_or_either(node, self.test)
         return arithmetic.truth(self, self.number(self.expression(node)))
 
     def expression(self, node: ast.expr) -> Value:
@@ -408,7 +413,7 @@ class Emitter:
             case ast.Compare():
                 return self.compare(node)
             case ast.BoolOp():
-                return self.both_or_either(node)
+                return self.both_or_either(node, self.truth_alone)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 return self.either(self.test(test), body, orelse)
             case ast.Call():
@@ -453,12 +458,18 @@ class Emitter:
             result = Value(TRUTH, (self.give(f"and i1 {result.parts[0]}, {following.parts[0]}"),))
         return result
 
-    def both_or_either(self, node: ast.BoolOp) -> Value:
-        """``and`` and ``or`` of tests; what comes later is looked at only if it matters."""
+    def truth_alone(self, node: ast.expr) -> Value:
+        value = self.number(self.expression(node))
+        if value.type != TRUTH:
+            raise self.fault("and, or of numbers would give one of the numbers in Python, and true or false in a kernel; write x != 0.0")
+        return value
+
+    def both_or_either(self, node: ast.BoolOp, look: Callable[[ast.expr], Value]) -> Value:
+        """``and`` and ``or`` of what ``look`` sees as tests; what comes later is looked at only if it matters."""
         ends_with = "false" if isinstance(node.op, ast.And) else "true"
         end, arrivals = self.new_block("end"), []
         for i, part in enumerate(node.values):
-            test = self.test(part).parts[0]
+            test = look(part).parts[0]
             if i == len(node.values) - 1:
                 arrivals.append(f"[ {test}, %{self.block} ]")
                 self.go(end)
@@ -736,8 +747,9 @@ def nearest(name: str, known: list[str]) -> str:
 
 
 def only_counters(tree: ast.FunctionDef) -> set[str]:
-    """Names that get their values from ``for`` alone."""
+    """Names that get their values from ``for`` alone, and are no arguments."""
     counters = {node.target.id for node in ast.walk(tree) if isinstance(node, ast.For) and isinstance(node.target, ast.Name)}
     stored = [node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
     loops = [node.target.id for node in ast.walk(tree) if isinstance(node, ast.For) and isinstance(node.target, ast.Name)]
-    return {name for name in counters if stored.count(name) == loops.count(name)}
+    arguments = {argument.arg for argument in tree.args.args}
+    return {name for name in counters - arguments if stored.count(name) == loops.count(name)}

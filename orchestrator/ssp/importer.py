@@ -8,13 +8,13 @@ converted before a transformation is applied, as the standard says.
 import re
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from urllib.parse import unquote
 from zipfile import BadZipFile, ZipFile
 
 from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit
 from orchestrator.master import Connection
+from orchestrator.scratch import Scratch
 from orchestrator.ssp.parameters import Parameter, read_bindings
 from orchestrator.ssp.xml import child, children, local, number, parse, units_of
 
@@ -50,7 +50,7 @@ class Structure:
     step: float | None = None
     scheme: str | None = None
     notes: list[str] = field(default_factory=list)
-    folders: list[TemporaryDirectory] = field(default_factory=list)
+    folders: list[Scratch] = field(default_factory=list)
 
 
 class Importer:
@@ -73,14 +73,14 @@ class Importer:
             return path
         if not path.is_file():
             raise InputFault(f"no SSP at {path}")
-        folder = TemporaryDirectory()
+        folder = Scratch()
         self.structure.folders.append(folder)
         try:
             with ZipFile(path) as archive:
-                archive.extractall(folder.name)
+                archive.extractall(folder.path)
         except BadZipFile:
             raise InputFault(f"{path} is not an SSP package: it is no zip archive") from None
-        return Path(folder.name) / MAIN_FILE
+        return folder.path / MAIN_FILE
 
     def read(self, path: Path, place: tuple[str, ...]):
         """One description, its system at ``place``; returns its root."""
