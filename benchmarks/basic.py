@@ -9,6 +9,7 @@ several runs; the ratio between FMU pair and in-process pair is of one run side 
 import argparse
 import json
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
@@ -18,7 +19,7 @@ from studies.life import Life, LifeSettings, live
 from studies.pair import Pair, make_pair
 
 
-def smallest(function, runs: int) -> float:
+def smallest(function: Callable[[], object], runs: int) -> float:
     """Smallest wall time of several runs [s]."""
     times = []
     for _ in range(runs):
@@ -32,7 +33,7 @@ def equilibrium_time(pair: Pair) -> float:
     """One warm-started equilibrium with its outputs [s], averaged over a crank turn."""
     plant, step = pair.plant, pair.master.step_size
 
-    def turn():
+    def turn() -> None:
         for _ in range(pair.positions):
             plant.step(0.0, step)
 

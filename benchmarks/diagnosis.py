@@ -7,12 +7,13 @@ that the model lacks, in every fifth condition held out.  Each is diagnosed from
 import tempfile
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import chain, zip_longest
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 import numpy as np
 
@@ -83,8 +84,8 @@ def stopwatch() -> Iterator[dict[str, float]]:
     spent = dict.fromkeys(STAGES.values(), 0.0)
     kept = {place: getattr(*place) for place in STAGES}
 
-    def timed(function, stage):
-        def run(*arguments, **options):
+    def timed(function: Callable[..., Any], stage: str) -> Callable[..., Any]:
+        def run(*arguments: Any, **options: Any) -> Any:
             begun = time.perf_counter()
             try:
                 return function(*arguments, **options)
@@ -117,7 +118,7 @@ def diagnosed(conditions: int, samples: int, share: float = 1.0, jobs: int = 1) 
         answer = diagnose(file, campaign, model=model)
         processor, wall = process_time() - processor, time.perf_counter() - wall
     stages = {"model": built} | spent | {"verdict": wall - built - sum(spent.values())}
-    return Diagnosed(processor, wall, stages, answer.diagnosis.fits["space"].predictions.calls, len(model.candidates), answer.verdict)
+    return Diagnosed(processor, wall, stages, answer.diagnosis.fits.space.predictions.calls, len(model.candidates), answer.verdict)
 
 
 def grow(found: Measured, what: str, points: list[tuple[float, Diagnosed]]) -> None:

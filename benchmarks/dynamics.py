@@ -11,12 +11,16 @@ Force errors are differences of single contact forces over the largest one.
 import argparse
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 from time import thread_time
+from typing import Any, TypeVar
 
 import numpy as np
 
+from discrepancy.problem import Floats
 from fmu_src.kernel import kernel
+from fmu_src.variables import Table
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble, bearing_contacts
@@ -31,9 +35,10 @@ REDUCERS = ("RV20E-121", "BX-40E")
 # Counts that the plant keeps of each communication step in motion.
 COUNTS = ("substeps", "rejected", "assemblies")
 REPEATS, LOOPS = 5, 1000
+Seen = TypeVar("Seen")
 
 
-def start(table, **values):
+def start(table: Table, **values: float) -> tuple[np.ndarray, float]:
     """The plant's record at its start, and the time of a crank turn [s]."""
     records = table.new_records()
     for name, value in values.items():
@@ -43,7 +48,7 @@ def start(table, **values):
     return records, 2.0 * math.pi / abs(float(records["crank_speed"][0]))
 
 
-def run(records, step, count, look=lambda record: None):
+def run(records: np.ndarray, step: float, count: int, look: Callable[[np.void], Seen]) -> list[Seen]:
     """What ``look`` sees after each of ``count`` communication steps."""
     seen = []
     for _ in range(count):
@@ -54,26 +59,25 @@ def run(records, step, count, look=lambda record: None):
 
 
 @kernel
-def step_often(records, step, count):
+def step_often(records: np.ndarray, step: float, count: int) -> None:
     """Without Python in between, whose calls of a kernel take 1 to 10 us."""
     for _ in range(count):
         plant.step(records, 0.0, step)
 
 
-def forces(record):
+def forces(record: np.void) -> Floats:
     return np.concatenate([record["mesh_force_now"].ravel(), record["roller_force_now"].ravel()])
 
 
-def mean_forces(record):
+def mean_forces(record: np.void) -> Floats:
     return np.concatenate([record["mesh_force"].ravel(), record["roller_force"].ravel()])
 
 
-def largest_difference(found, reference):
-    found, reference = np.array(found), np.array(reference)
+def largest_difference(found: Floats, reference: Floats) -> float:
     return float(np.abs(found - reference).max() / reference.max())
 
 
-def smallest_time(function, prepare=lambda: None):
+def smallest_time(function: Callable[[], object], prepare: Callable[[], object] = lambda: None) -> float:
     """Smallest time of a function [s]; the first call compiles."""
     times = []
     for _ in range(REPEATS + 1):
@@ -84,14 +88,14 @@ def smallest_time(function, prepare=lambda: None):
     return min(times)
 
 
-def in_motion(table):
+def in_motion(table: Table) -> dict[str, Any]:
     """One crank turn after a first one, and the same at ten and a hundred times tighter tolerance."""
     found = {}
     for share in (1.0, 0.1, 0.01):
         records, turn = start(table, fidelity=1)
         records["dynamic_tolerance"] *= share
         step = turn / POSITIONS_PER_TURN
-        run(records, step, POSITIONS_PER_TURN)
+        run(records, step, POSITIONS_PER_TURN, lambda _: None)
         before = records.copy()
         seen = run(records, step, POSITIONS_PER_TURN, lambda r: (
             forces(r), mean_forces(r), [int(r[name]) for name in COUNTS], float(r["energy_error"])))
@@ -101,7 +105,7 @@ def in_motion(table):
             lacking = account(records) - account(before)
             again = before.copy()
 
-            def restore():
+            def restore() -> None:
                 again[:] = before
 
             spent = smallest_time(lambda: step_often(again, step, POSITIONS_PER_TURN), restore)
@@ -119,7 +123,7 @@ def in_motion(table):
     }
 
 
-def account(records):
+def account(records: np.ndarray) -> float:
     """Energy that the account lacks so far [J]."""
     r = records[0]
     kinetic = 0.5 * float(r["mass"] @ r["v"] ** 2)
@@ -127,13 +131,14 @@ def account(records):
     return float(r["input_energy"] + r["cage_energy"] - r["output_energy"] - r["lost_energy"] - stored)
 
 
-def through_equilibria(table):
+def through_equilibria(table: Table) -> dict[str, Any]:
     """Crank turns with more and fewer positions, against a fine one."""
     fine, windows = 1152, 18
     records, turn = start(table, largest_crank_step=1.0)
     first = forces(records[0])
     reference = np.array([first] + run(records, turn / fine, fine, forces))
     rows = []
+    limits_found: dict[str, float] = {}
     for count in (18, 36, 72, 144, 288):
         records, _ = start(table, largest_crank_step=1.0)
         step = turn / count
@@ -143,32 +148,33 @@ def through_equilibria(table):
         along = np.arange(fine + 1) * count / fine
         left = np.minimum(along.astype(int), count - 1)
         between = found[left] + (along - left)[:, None] * (found[left + 1] - found[left])
-        means = [window_means(f, windows) for f in (found, reference)]
+        means, wanted = (window_means(f, windows) for f in (found, reference))
         rows.append({
             "positions_per_turn": count,
             "real_time_factor": turn / spent,
             "us_per_position": 1e6 * spent / count,
             "evaluations_per_position": float(np.mean(evaluations)),
             "force_error_between_positions": largest_difference(between, reference),
-            "force_error_of_20_degree_means": largest_difference(*means),
+            "force_error_of_20_degree_means": largest_difference(means, wanted),
         })
         if count == POSITIONS_PER_TURN:
-            limits = equilibrium_limits(records, spent, sum(evaluations))
-    return {"positions": rows, "limits": limits}
+            limits_found = equilibrium_limits(records, spent, sum(evaluations))
+    return {"positions": rows, "limits": limits_found}
 
 
-def window_means(force, windows):
+def window_means(force: Floats, windows: int) -> Floats:
     """Trapezoidal means over equal parts of the turn."""
     parts = (0.5 * (force[1:] + force[:-1])).reshape(windows, -1, force.shape[1])
-    return parts.mean(axis=1)
+    means: Floats = parts.mean(axis=1)
+    return means
 
 
-def piece_time(loop, records):
+def piece_time(loop: Callable[[np.ndarray, int], None], records: np.ndarray) -> float:
     """Time of one pass through a compiled loop's body [s]."""
     return smallest_time(lambda: loop(records, LOOPS)) / LOOPS
 
 
-def limits(pieces, assemblies, spent):
+def limits(pieces: list[float], assemblies: int, spent: float) -> dict[str, float]:
     """Shares of the time; what no piece explains is the rest."""
     mesh, bearings, assembly, factor = (assemblies * piece for piece in pieces)
     shares = {
@@ -178,12 +184,12 @@ def limits(pieces, assemblies, spent):
     return {"assembly_us": 1e6 * pieces[2], **{f"share: {name}": time / spent for name, time in shares.items()}}
 
 
-def motion_limits(records, spent, counts):
+def motion_limits(records: np.ndarray, spent: float, counts: dict[str, int]) -> dict[str, float]:
     loops = (mesh_in_motion_loop, bearings_in_motion_loop, motion_loop, factor_loop)
     return limits([piece_time(loop, records) for loop in loops], counts["assemblies"], spent)
 
 
-def equilibrium_limits(records, spent, evaluations):
+def equilibrium_limits(records: np.ndarray, spent: float, evaluations: int) -> dict[str, float]:
     loops = (mesh_loop, bearings_loop, equilibrium_loop, direction_loop)
     return limits([piece_time(loop, records) for loop in loops], evaluations, spent)
 
@@ -192,7 +198,7 @@ RATE = 1e5  # velocity per position of a step of 20 us [1/s]
 
 
 @kernel
-def mesh_in_motion_loop(records, count):
+def mesh_in_motion_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     for _ in range(count):
         for d in range(r.mesh_force.shape[0]):
@@ -200,7 +206,7 @@ def mesh_in_motion_loop(records, count):
 
 
 @kernel
-def bearings_in_motion_loop(records, count):
+def bearings_in_motion_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     for _ in range(count):
         for d in range(r.roller_force.shape[0]):
@@ -209,13 +215,13 @@ def bearings_in_motion_loop(records, count):
 
 
 @kernel
-def motion_loop(records, count):
+def motion_loop(records: np.ndarray, count: int) -> None:
     for _ in range(count):
         assemble_motion(records[0], RATE)
 
 
 @kernel
-def factor_loop(records, count):
+def factor_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     n = r.q.shape[0] - 1
     for _ in range(count):
@@ -229,7 +235,7 @@ def factor_loop(records, count):
 
 
 @kernel
-def mesh_loop(records, count):
+def mesh_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     lobes = r.lobe_pitch_error.shape[1]
     for _ in range(count):
@@ -238,7 +244,7 @@ def mesh_loop(records, count):
 
 
 @kernel
-def bearings_loop(records, count):
+def bearings_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     for _ in range(count):
         for d in range(r.roller_force.shape[0]):
@@ -247,19 +253,19 @@ def bearings_loop(records, count):
 
 
 @kernel
-def equilibrium_loop(records, count):
+def equilibrium_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     for _ in range(count):
         assemble(r, r.ideal_output, r.cage, r.load_torque)
 
 
 @kernel
-def direction_loop(records, count):
+def direction_loop(records: np.ndarray, count: int) -> None:
     for _ in range(count):
         newton_direction(records[0])
 
 
-def show(name, figures):
+def show(name: str, figures: dict[str, Any]) -> None:
     print(f"\n{name}")
     motion, still = figures["in_motion"], figures["through_equilibria"]
     print("  in motion")

@@ -6,7 +6,10 @@ the worst pin force over the largest, against the plant at a tolerance of 1e-11.
 
 import math
 import sys
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import root
@@ -14,6 +17,7 @@ from scipy.optimize import root
 from benchmarks.numba_peer import njit
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Measured, Ratio, cost, cost_at
+from discrepancy.problem import Floats
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble
@@ -24,9 +28,11 @@ XTOLS = (1e-3, 1e-6, 1e-9)
 FREE = 7
 # A tenth of a micrometre: unknowns are measured in it, as a user must for root to work at all.
 SMALL = 1e-7
+# Of coordinates, angle of the output and of the cages.
+OfState = Callable[[Floats, float, float], Floats]
 
 
-def start(name: str):
+def start(name: str) -> tuple[np.ndarray, float]:
     records = load_reducer(name).plant.new_records()
     status = plant.initialise(records)
     assert status == 0, plant.FAULTS[status]
@@ -34,8 +40,8 @@ def start(name: str):
     return records, step
 
 
-def reference(name: str, positions: int):
-    """(angles, cage angles, forces, starting record) along the turn."""
+def reference(name: str, positions: int) -> tuple[list[tuple[float, float]], Floats]:
+    """((angle, cage angle), forces) along the turn."""
     records, step = start(name)
     records["tolerance"] = 1e-11
     records["largest_crank_step"] = 1.0
@@ -48,16 +54,16 @@ def reference(name: str, positions: int):
     return angles, np.array(forces)
 
 
-def error_of(forces, wanted) -> float:
+def error_of(forces: Sequence[Floats], wanted: Floats) -> float:
     return float(np.abs(np.array(forces) - wanted).max() / wanted.max())
 
 
-def with_plant(name: str, positions: int, tolerance: float, wanted) -> tuple[float, float]:
+def with_plant(name: str, positions: int, tolerance: float, wanted: Floats) -> tuple[float, float]:
     first, step = start(name)
     first["tolerance"], first["largest_crank_step"] = tolerance, 1.0
     runs = 20
 
-    def turn():
+    def turn() -> None:
         for records in copies.pop():
             for _ in range(positions):
                 plant.step(records, 0.0, step)
@@ -71,18 +77,22 @@ def with_plant(name: str, positions: int, tolerance: float, wanted) -> tuple[flo
     return error_of(forces, wanted), seconds
 
 
-def with_root(residual, forces_at, angles, z0, lever, wanted, xtol, jac=None) -> tuple[float, float, float]:
+def with_root(
+    residual: OfState, forces_at: OfState, angles: list[tuple[float, float]], z0: Floats, lever: float, wanted: Floats, xtol: float,
+    jac: OfState | None = None,
+) -> tuple[float, float, float]:  # fmt: skip
     """(error, seconds an angle, evaluations an angle)."""
     scale = np.where(np.arange(FREE) % 3 == 2, SMALL / lever, SMALL)
     scale[-1] = SMALL / lever
     x0 = z0[:FREE] / scale
-    counted, kept = [0], []
+    counted = [0]
+    kept: list[Floats] = []
 
-    def turn():
+    def turn() -> None:
         x = x0
         counted[0], kept[:] = 0, []
         for angle, cage in angles:
-            def function(x):
+            def function(x: Floats) -> Floats:
                 counted[0] += 1
                 return residual(x * scale, angle, cage) * scale
 
@@ -96,7 +106,7 @@ def with_root(residual, forces_at, angles, z0, lever, wanted, xtol, jac=None) ->
 
 
 @njit
-def assembled(records, z, angle, cage, out, tangent):
+def assembled(records: np.ndarray, z: Floats, angle: float, cage: float, out: Floats, tangent: Floats) -> None:
     r = records[0]
     for i in range(z.shape[0]):
         r.z[i] = z[i]
@@ -107,30 +117,31 @@ def assembled(records, z, angle, cage, out, tangent):
             tangent[i, j] = tangent[j, i] = r.tangent[i, j]
 
 
-def compiled(records):
+def compiled(records: np.ndarray) -> tuple[OfState, OfState]:
     """Our residual and tangent as SciPy calls them."""
     out, matrix = np.zeros(FREE), np.zeros((FREE, FREE))
 
-    def residual(z, angle, cage):
+    def residual(z: Floats, angle: float, cage: float) -> Floats:
         assembled(records, z, angle, cage, out, matrix)
         return out.copy()
 
-    def tangent(z, angle, cage):
+    def tangent(z: Floats, angle: float, cage: float) -> Floats:
         assembled(records, z, angle, cage, out, matrix)
         return matrix.copy()
 
     return residual, tangent
 
 
-def twin_residual(record):
+def twin_residual(record: Any) -> OfState:
     """The residual of tests/twin.py, written by whoever checks the kernels: 30 Newton iterations to every pin."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-    from twin import Twin
+    twin = import_module("twin")
 
-    def residual(z, angle, cage):
+    def residual(z: Floats, angle: float, cage: float) -> Floats:
         whole = np.zeros(len(record.z))
         whole[:FREE] = z
-        return Twin(record, angle, cage).left_over(whole)
+        found: Floats = twin.Twin(record, angle, cage).left_over(whole)
+        return found
 
     return residual
 

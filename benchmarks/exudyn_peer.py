@@ -7,10 +7,12 @@ Its explicit methods are out of reach: the dampers of the stiffest joints have e
 """
 
 from itertools import product
+from typing import Any, Protocol
 
 import numpy as np
 
 from benchmarks.numba_peer import njit
+from discrepancy.problem import Floats
 from rv_plant.dynamics import assemble_motion
 
 # Steps from one communication point to the next, relative tolerance of Newton's method, whether its matrix
@@ -22,7 +24,7 @@ SLOW_LADDER: tuple[Setting, ...] = tuple(product((2, 3, 4, 6, 8), (1e-2, 1e-3), 
 
 
 @njit
-def forces(records, q, v, cage, out):
+def forces(records: np.ndarray, q: Floats, v: Floats, cage: float, out: Floats) -> None:
     """Generalised forces, as Exudyn adds them on the right."""
     r = records[0]
     r.q[:], r.v[:], r.cage = q, v, cage
@@ -31,7 +33,9 @@ def forces(records, q, v, cage, out):
 
 
 @njit
-def tangent(records, q, v, cage, stiffness, damping, out):
+def tangent(
+    records: np.ndarray, q: Floats, v: Floats, cage: float, stiffness: float, damping: float, out: Floats
+) -> None:
     """``stiffness`` times K plus ``damping`` times D: one assembly gives K + rate D."""
     r = records[0]
     r.q[:], r.v[:], r.cage = q, v, cage
@@ -41,10 +45,22 @@ def tangent(records, q, v, cage, stiffness, damping, out):
             out[i, j] = stiffness * r.tangent[min(i, j), max(i, j)]
 
 
+class System(Protocol):
+    """What is asked of a problem (``motion.Problem``)."""
+
+    n: int
+    records: np.ndarray
+    start: Floats
+    times: Floats
+    calls: int
+
+    def numpy(self, _: float, y: Floats) -> Floats: ...
+
+
 class ExudynPlant:
     """The problem as a system of Exudyn, built once; each run starts from the same state."""
 
-    def __init__(self, problem, numpy: bool):
+    def __init__(self, problem: System, numpy: bool):
         import exudyn as exu
         from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
 
@@ -61,22 +77,23 @@ class ExudynPlant:
         self.cage = y[2 * n] - self.rolled @ y[:n]
         mass, out, matrix = r["mass"].copy(), np.zeros(n), np.zeros((n, n))
 
-        def cage(q):
-            return self.cage + share * (q[carrier + 5] - q[carrier])
+        def cage(q: Floats) -> float:
+            return float(self.cage + share * (q[carrier + 5] - q[carrier]))
 
-        def ours(mbs, t, item, q, v):
+        def ours(mbs: object, t: float, item: int, q: Floats, v: Floats) -> Floats:
             problem.calls += 1
             forces(records, np.asarray(q), np.asarray(v), cage(q), out)
             return out
 
-        def jacobian(mbs, t, item, q, v, stiffness, damping):
+        def jacobian(mbs: object, t: float, item: int, q: Floats, v: Floats, stiffness: float, damping: float) -> Any:
             problem.calls += 1
             tangent(records, np.asarray(q), np.asarray(v), cage(q), stiffness, damping, matrix)
             return exu.MatrixContainer(matrix)
 
-        def theirs(mbs, t, item, q, v):
+        def theirs(mbs: object, t: float, item: int, q: Floats, v: Floats) -> Floats:
             y[:n], y[n : 2 * n], y[2 * n] = q, v, cage(q)
-            return mass * problem.numpy(t, y)[n : 2 * n]
+            found: Floats = mass * problem.numpy(t, y)[n : 2 * n]
+            return found
 
         self.container = exu.SystemContainer()
         self.system = self.container.AddSystem()
@@ -90,7 +107,7 @@ class ExudynPlant:
                         for kind in (kinds.Coordinates, kinds.Coordinates_t)]
         self.system.Assemble()
 
-    def states(self, setting: Setting):
+    def states(self, setting: Setting) -> Floats | None:
         """States at the communication points, or None."""
         steps, tolerance, kept, radius = setting
         exu, times = self.exu, self.problem.times

@@ -5,15 +5,18 @@ number of contacts and bins, so an exponent above 1 (with a margin for the fit) 
 """
 
 import math
-import resource
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
+from benchmarks import memory
 from benchmarks.lives import in_process, timed
 from benchmarks.many import TEXT
 from benchmarks.ratios import Curve, Figure, Measured, cost, exponent
+from orchestrator.component import Component, InProcess
 from reducers.reducer import Reducer, load_reducer
 from studies.coupled import run_pair
 from studies.ensemble.ensemble_file import load_ensemble
@@ -47,9 +50,14 @@ def with_bins(reducer: Reducer, bins: int) -> Reducer:
     return replace(reducer, resolution=Resolution(bins, bins, 2 * bins))
 
 
+def records_of(unit: Component) -> np.ndarray:
+    assert isinstance(unit, InProcess)
+    return unit.records
+
+
 def step_cost(pair: Pair) -> float:
     """One communication step of the pair in compiled code [s]."""
-    plant, wear, h = pair.plant.records, pair.wear.records, pair.master.step_size
+    plant, wear, h = records_of(pair.plant), records_of(pair.wear), pair.master.step_size
     run_pair(plant, wear, 2, h)
     return cost(lambda: run_pair(plant, wear, STEPS, h), 3) / STEPS
 
@@ -59,17 +67,17 @@ def grow(found: Measured, what: str, sizes: tuple[int, ...], make: Callable[[int
     for size in sizes:
         pair = make_pair(make(size))
         seconds.append((size, step_cost(pair)))
-        memory.append((size, float(pair.plant.records.nbytes + pair.wear.records.nbytes)))
+        memory.append((size, float(records_of(pair.plant).nbytes + records_of(pair.wear).nbytes)))
     for kind, points, unit in (("cost of a coupled step", seconds, "s"), ("memory of both units", memory, "byte")):
         note(found, kind, what, unit, points, MOST)
 
 
-def note(found: Measured, kind: str, what: str, unit: str, points: list[tuple[float, float]], most: float) -> None:
+def note(found: Measured, kind: str, what: str, unit: str, points: Sequence[tuple[float, float]], most: float) -> None:
     """Figure and curve of what is known for each size."""
     power = exponent(points)
     found.figures.append(Figure("growth", f"{kind} against {what}, exponent", power, "1", at_most=most,
                                 note=f"{what} {points[0][0]:g} to {points[-1][0]:g}: {points[0][1]:.3g} to {points[-1][1]:.3g} {unit}"))
-    found.curves.append(Curve(f"{kind} against {what}", what, unit, {kind: points}, {kind: power}))
+    found.curves.append(Curve(f"{kind} against {what}", what, unit, {kind: list(points)}, {kind: power}))
 
 
 def lives(found: Measured, reducer: Reducer, hours: tuple[float, ...]) -> None:
@@ -95,7 +103,7 @@ def ensembles(found: Measured, sizes: tuple[int, ...]) -> None:
             store = Store(Path(temporary) / f"{count}.lives", {})
             seconds.append((count, timed(lambda: [store.add(run(task)) for task in tasks[:count]])))
             size.append((count, float(store.path.stat().st_size)))
-            peak.append((count, 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+            peak.append((count, memory.most()))
     note(found, "cost of an ensemble", "lives", "s", seconds, MOST)
     note(found, "file of finished lives", "lives", "byte", size, MOST)
     note(found, "most memory of the process", "lives", "byte", peak, MOST)

@@ -79,7 +79,8 @@ def profile(program: Path, arguments: list[str], folder: Path) -> tuple[dict[str
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"the counted program failed: {done.stdout} {done.stderr[-500:]}")
-    operations, found = operations_by_address(program), defaultdict(lambda: [0, 0])
+    operations = operations_by_address(program)
+    found: dict[str, list[int]] = defaultdict(lambda: [0, 0])
     function, is_call = "", False
     for line in output.read_text().splitlines():
         if line.startswith("fn="):
@@ -112,8 +113,11 @@ def count(reducer: Reducer, fidelity: int, code: bytes | None = None, steps: int
         cell = str(table.offset["assemblies" if fidelity else "iterations"])
         one, few = profile(program, [str(folder / "record"), "1", duration, cell], folder)
         whole, many = profile(program, [str(folder / "record"), str(steps + 1), duration, cell], folder)
-    away = {name: tuple((w - o) / steps for w, o in zip(cost, one.get(name, (0, 0)))) for name, cost in whole.items()}
-    away = {name: value for name, value in away.items() if value[0] > 0.0}
+    away = {}
+    for name, (instructions, operations) in whole.items():
+        before = one.get(name, (0, 0))
+        if instructions > before[0]:
+            away[name] = ((instructions - before[0]) / steps, (operations - before[1]) / steps)
     # An equilibrium's first assembly is no iteration.
     assemblies = (many - few) / steps + (0 if fidelity else 1)
     return Count(sum(a for a, _ in away.values()), sum(b for _, b in away.values()), assemblies, away)
@@ -121,12 +125,14 @@ def count(reducer: Reducer, fidelity: int, code: bytes | None = None, steps: int
 
 def peak() -> tuple[float, float]:
     """(scalar, widest) double-precision operations a second of one core, from its clock and its instructions."""
-    info = Path("/proc/cpuinfo").read_text()
-    clock = 1e6 * float(re.search(r"cpu MHz\s*:\s*([\d.]+)", info)[1])
-    flags = re.search(r"flags\s*:\s*(.*)", info)[1].split()
-    wide = next((width for flag, width in WIDEST.items() if flag in flags), 4)
+    info = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
+    clock, flags = re.search(r"cpu MHz\s*:\s*([\d.]+)", info), re.search(r"flags\s*:\s*(.*)", info)
+    if clock is None or flags is None:
+        raise RuntimeError("/proc/cpuinfo names neither clock nor instructions of an x86-64 processor")
+    hertz = 1e6 * float(clock[1])
+    wide = next((width for flag, width in WIDEST.items() if flag in flags[1].split()), 4)
     # Two scalar additions or multiplications a cycle without fused ones.
-    return 2.0 * clock, wide * clock
+    return 2.0 * hertz, wide * hertz
 
 
 def measure(quick: bool = False) -> Measured:
@@ -141,8 +147,8 @@ def measure(quick: bool = False) -> Measured:
         contacts = 2 * reducer.topology.pins
         rollers = reducer.topology.discs * reducer.topology.cranks * reducer.topology.rollers
 
-        def add(what, value, unit="1", note=""):
-            found.figures.append(Figure("limit", f"{name}: {what}", value, unit, note=note))
+        def add(what: str, value: float, note: str = "", name: str = name) -> None:
+            found.figures.append(Figure("limit", f"{name}: {what}", value, "1", note=note))
 
         for fidelity, what in ((0, "one equilibrium"), (1, "one communication step in motion (1/72 turn)")):
             c = count(reducer, fidelity, code)

@@ -51,7 +51,7 @@ def segments(pair: Pair, hours: float, length: float) -> tuple[np.ndarray, float
     """The same life in equal segments, each one meshing cycle at the rate of its start."""
     count = max(1, round(hours / length))
 
-    def run():
+    def run() -> None:
         for _ in range(count):
             run_cycle(pair, hours / count)
 

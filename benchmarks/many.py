@@ -4,7 +4,6 @@ Every life must arrive, once, and be the same to the last bit as in one process.
 """
 
 import json
-import resource
 import subprocess
 import sys
 import tempfile
@@ -15,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
 
+from benchmarks import memory
 from benchmarks.ratios import Figure, Measured
 from studies.ensemble.backends import through_dask, through_joblib
 from studies.ensemble.ensemble_file import load_ensemble
@@ -44,13 +44,13 @@ class Killed:
 
 
 @contextmanager
-def cluster(folder: Path) -> Iterator[tuple[str, list[subprocess.Popen]]]:
+def cluster(folder: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
     """(address, processes of the workers); all are ended at the end."""
     file = folder / "scheduler.json"
     command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
                "--scheduler-file", str(file)]
     scheduler = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    workers: list[subprocess.Popen] = []
+    workers: list[subprocess.Popen[bytes]] = []
     try:
         while not file.exists():
             assert scheduler.poll() is None, "the Dask scheduler did not start"
@@ -65,7 +65,7 @@ def cluster(folder: Path) -> Iterator[tuple[str, list[subprocess.Popen]]]:
             process.wait()
 
 
-def worker(address: str) -> subprocess.Popen:
+def worker(address: str) -> subprocess.Popen[bytes]:
     """One that nobody starts again."""
     command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
     return subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
@@ -107,7 +107,7 @@ def clocked(task: Task) -> tuple[float, float]:
     """(processor time [s], most memory so far [byte]) of one life, taken where it runs."""
     begun = process_time()
     run(task)
-    return process_time() - begun, 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return process_time() - begun, memory.most()
 
 
 def shared(samples: int) -> Shared:

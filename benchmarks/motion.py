@@ -10,21 +10,23 @@ settings instead of tolerances.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from itertools import repeat
 from multiprocessing import get_context
 from time import process_time
+from typing import Any, get_args
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from benchmarks.exudyn_peer import LADDER, SLOW_LADDER, ExudynPlant
 from benchmarks.integrators.first_order import jacobian, rate_of_change
-from benchmarks.integrators.runs import REFERENCE, errors, with_alpha, with_scipy
+from benchmarks.integrators.runs import REFERENCE, Solver, errors, with_alpha, with_scipy
 from benchmarks.integrators.stretches import Stretch, observe, rated
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Figure, Measured, Ratio
+from discrepancy.problem import Floats
 from reducers.reducer import load_reducer
 
 LEVELS = (1e-2, 3e-3)
@@ -35,8 +37,11 @@ SLOW_PEERS = (1e-1, 3e-2, 1e-2, 3e-3)
 CONTACTS = 2e4
 
 Point = tuple[float, float]
+# Rates, or their derivatives, of time and state.
+OfTime = Callable[[float, Floats], Floats]
 # Name -> (states by rung, ladder of tolerances or settings, runs, target).
-Peers = dict[str, tuple[Callable, tuple, int, float | None]]
+States = Sequence[Floats] | Floats | None
+Peers = dict[str, tuple[Callable[[Any], States], Sequence[Any], int, float | None]]
 
 
 class Problem:
@@ -50,22 +55,22 @@ class Problem:
         self.n = n = len(r["q"])
         self.start = np.concatenate([r["q"], r["v"], [r["cage"]]])
         self.scale = np.concatenate([r["length_scale"], CONTACTS * r["length_scale"], [1e-4]])
-        self.times = stretch.step * np.arange(1, len(stretch.loads) + 1)
+        self.times = stretch.step * np.arange(1, len(stretch.loads) + 1, dtype=np.float64)
         self.model = NumpyPlant(r)
         self.dy, self.matrix = np.zeros(2 * n + 1), np.zeros((2 * n + 1, 2 * n + 1))
         self.calls = 0
 
-    def ours(self, _, y):
+    def ours(self, _: float, y: Floats) -> Floats:
         self.calls += 1
         rate_of_change(self.records, y, self.dy)
         return self.dy.copy()
 
-    def tangent(self, _, y):
+    def tangent(self, _: float, y: Floats) -> Floats:
         self.calls += 2
         jacobian(self.records, y, self.matrix)
         return self.matrix.copy()
 
-    def numpy(self, _, y):
+    def numpy(self, _: float, y: Floats) -> Floats:
         self.calls += 1
         return self.model.rate_of_change(y)
 
@@ -73,7 +78,7 @@ class Problem:
         """The record remembers where contacts were last; a run that went astray must not leave that behind."""
         self.records[:] = self.begun
 
-    def seen(self, states) -> np.ndarray:
+    def seen(self, states: Iterable[Floats]) -> Floats:
         """What the reference holds, at the states (points, coordinates)."""
         n, rows = self.n, []
         self.forget()
@@ -83,9 +88,11 @@ class Problem:
         return np.array(rows)
 
 
-def scipy_states(problem: Problem, function, jac, method: str, tolerance: float, through: bool):
+def scipy_states(
+    problem: Problem, function: OfTime, jac: OfTime | None, method: Solver, tolerance: float, through: bool
+) -> States:
     """States at the communication points, or None."""
-    options = {"method": method, "rtol": 1e-12, "atol": tolerance * problem.scale, "first_step": 1e-6}
+    options: dict[str, Any] = {"method": method, "rtol": 1e-12, "atol": tolerance * problem.scale, "first_step": 1e-6}
     if method != "LSODA" or jac is not None:
         options["jac"] = jac
     if through:
@@ -101,7 +108,7 @@ def scipy_states(problem: Problem, function, jac, method: str, tolerance: float,
     return states
 
 
-def sundials_states(problem: Problem, solver):
+def sundials_states(problem: Problem, solver: Any) -> States:
     """States at the communication points of a solver that was given the start, or None."""
     states = []
     for time in problem.times:
@@ -112,15 +119,15 @@ def sundials_states(problem: Problem, solver):
     return states
 
 
-def cvode_states(problem: Problem, tolerance: float, jac: bool, order: int = 5):
+def cvode_states(problem: Problem, tolerance: float, jac: bool, order: int = 5) -> States:
     """SUNDIALS CVODE, BDF, dense, stopping at the communication points without a new start."""
     from sksundae.cvode import CVODE
 
-    def function(t, y, yp):
+    def function(t: float, y: Floats, yp: Floats) -> None:
         problem.calls += 1
         rate_of_change(problem.records, np.ascontiguousarray(y), yp)
 
-    def tangent(t, y, yp, matrix):
+    def tangent(t: float, y: Floats, yp: Floats, matrix: Floats) -> None:
         problem.calls += 2
         jacobian(problem.records, y, matrix)
 
@@ -131,16 +138,16 @@ def cvode_states(problem: Problem, tolerance: float, jac: bool, order: int = 5):
     return sundials_states(problem, solver)
 
 
-def ida_states(problem: Problem, tolerance: float, jac: bool):
+def ida_states(problem: Problem, tolerance: float, jac: bool) -> States:
     """SUNDIALS IDA with the residual yp - f(y)."""
     from sksundae.ida import IDA
 
-    def residual(t, y, yp, res):
+    def residual(t: float, y: Floats, yp: Floats, res: Floats) -> None:
         problem.calls += 1
         rate_of_change(problem.records, y, res)
         res[:] = yp - res
 
-    def tangent(t, y, yp, res, cj, matrix):
+    def tangent(t: float, y: Floats, yp: Floats, res: Floats, cj: float, matrix: Floats) -> None:
         problem.calls += 2
         jacobian(problem.records, y, matrix)
         np.negative(matrix, out=matrix)
@@ -152,24 +159,28 @@ def ida_states(problem: Problem, tolerance: float, jac: bool):
     return sundials_states(problem, solver)
 
 
-def run(problem: Problem, reference, states: Callable, runs: int) -> tuple[Point, int]:
+def run(problem: Problem, reference: Floats, states: Callable[[], States], runs: int) -> tuple[Point, int]:
     """((error, least seconds), evaluations)."""
-    best, found = math.inf, None
+    best = math.inf
+    found: States = None
     for _ in range(runs):
         problem.forget()
         problem.calls, begun = 0, process_time()
         found = states()
         best = min(best, process_time() - begun)
         if found is None:
-            return (math.inf, best), problem.calls
+            break
     calls = problem.calls
+    if found is None:
+        return (math.inf, best), calls
     return (errors(problem.seen(found), reference)[0], best), calls
 
 
-def ours(stretch: Stretch, reference, runs: int) -> list[Point]:
+def ours(stretch: Stretch, reference: Floats, runs: int) -> list[Point]:
     points = []
     for tolerance in OURS:
-        found = [with_alpha(stretch, tolerance) for _ in range(runs)]
+        found = [seen for _ in range(runs) if (seen := with_alpha(stretch, tolerance)) is not None]
+        assert len(found) == runs, f"the plant's own motion failed at a tolerance of {tolerance:g}"
         points.append((errors(found[0][0], reference)[0], min(seconds for _, _, seconds in found)))
     return points
 
@@ -190,11 +201,18 @@ def exudyn_peers(problem: Problem, quick: bool) -> Peers:
 def peers(problem: Problem, quick: bool) -> Peers:
     found: Peers = exudyn_peers(problem, quick)
 
-    def scipy(label, function, jac, method, through, ladder, runs, target):
+    def scipy(
+        label: str, function: OfTime, jac: OfTime | None, method: Solver, through: bool, ladder: Sequence[float], runs: int,
+        target: float | None,
+    ) -> None:  # fmt: skip
         found[label] = (lambda t: scipy_states(problem, function, jac, method, t, through), ladder, runs, target)
 
-    methods = ("Radau", "BDF", "LSODA")
-    ladder, runs = (PEERS[2:5:2], 2) if quick else (PEERS, 3)
+    def sundials(states: Callable[[Problem, float, bool], States], jac: bool) -> Callable[[float], States]:
+        return lambda tolerance: states(problem, tolerance, jac)
+
+    methods: tuple[Solver, ...] = get_args(Solver)
+    ladder: Sequence[float] = PEERS[2:5:2] if quick else PEERS
+    runs = 2 if quick else 3
     for method in methods:
         for through, way in ((False, "point to point"), (True, "in one go")):
             scipy(f"SciPy {method}, our right-hand side and Jacobian, {way}", problem.ours, problem.tangent, method, through, ladder, runs, None)
@@ -208,7 +226,7 @@ def peers(problem: Problem, quick: bool) -> Peers:
     for name, states in (("CVODE", cvode_states), ("IDA", ida_states)):
         for jac in (True, False):
             label = f"SUNDIALS {name}, our right-hand side" + (" and Jacobian" if jac else "")
-            found[label] = (lambda t, states=states, jac=jac: states(problem, t, jac), (*ladder, 3e-4), runs, 3.0)
+            found[label] = (sundials(states, jac), (*ladder, 3e-4), runs, 3.0)
     # Orders above 2 are unstable on lightly damped oscillations, which CVODE does not always notice.
     found["SUNDIALS CVODE of order 2, our right-hand side and Jacobian"] = (
         lambda t: cvode_states(problem, t, True, 2), ladder, runs, 3.0)
@@ -246,12 +264,16 @@ def measure_one(name: str, quick: bool) -> Measured:
     found = Measured()
     stretch = rated(load_reducer(name).plant)
     stretch = Stretch(stretch.start, np.full(3 if quick else 36, stretch.loads[0]), stretch.step)
-    reference, *_ = with_scipy(stretch, "Radau", REFERENCE)
+    wanted = with_scipy(stretch, "Radau", REFERENCE)
+    assert wanted is not None, "no reference"
+    reference = wanted[0]
     problem = Problem(stretch)
     away = check_right_hand_sides(problem)
     assert away < 1e-7, f"NumPy's right-hand side is off by {away:.1e}"
     mine = ours(stretch, reference, 3)
-    lines, targets, evaluations = {}, {}, {}
+    lines: dict[str, list[Point]] = {}
+    targets: dict[str, float | None] = {}
+    evaluations: dict[float, int] = {}
     for label, (states, ladder, runs, target) in peers(problem, quick).items():
         made = [run(problem, reference, lambda: states(t), runs) for t in ladder]
         targets[short(label)] = target

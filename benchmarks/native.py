@@ -9,19 +9,20 @@ of the first step; the importer (fmpy) is loaded before.
 
 import argparse
 import json
-import resource
 import subprocess
 import sys
 import tempfile
 import zipfile
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
+from benchmarks import memory
 from fmu_src.native import host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
-from orchestrator.opening import open_fmu
+from orchestrator.fmu import Fmu
 from reducers.reducer import load_reducer
-from studies.pair import make_pair
+from studies.pair import Pair, make_pair
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu"}
 
@@ -47,7 +48,7 @@ for attempt in range(2):
 
 def start_times(fmu: Path, version: str) -> tuple[float, float]:
     """(first, second instance) from loading to the end of the first step [s], smallest of five processes."""
-    unit = open_fmu("unit", fmu)
+    unit = Fmu("unit", fmu)
     identity = unit.description.guid or unit.description.instantiationToken
     times = []
     with tempfile.TemporaryDirectory() as folder:
@@ -62,7 +63,7 @@ def start_times(fmu: Path, version: str) -> tuple[float, float]:
     return min(t[0] for t in times), min(t[1] for t in times)
 
 
-def step_times(pairs: dict, rounds: int = 60, steps: int = 100) -> dict[str, float]:
+def step_times(pairs: dict[str, Pair], rounds: int = 60, steps: int = 100) -> dict[str, float]:
     """One communication step of each pair, all contacts exchanged [s]; in turns, so that all see the same machine."""
     times = {name: float("inf") for name in pairs}
     for _ in range(rounds):
@@ -74,25 +75,25 @@ def step_times(pairs: dict, rounds: int = 60, steps: int = 100) -> dict[str, flo
 
 
 def memory_mb() -> float:
-    """Resident memory of this process now (Linux)."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 1e6
+    """Resident memory of this process now."""
+    return memory.present() / 1e6
 
 
 def many_instances(fmu: Path) -> dict[str, float]:
     """Instances of one library one after the other, and at once; each initialised and stepped."""
 
-    def one(unit):
+    def one(unit: Fmu) -> Any:
         unit.calls.instantiate()
         unit.enter_initialisation(0.0)
         unit.exit_initialisation()
         unit.step(0.0, 1e-3)
         return unit.slave.component
 
-    def free(unit, component):
+    def free(unit: Fmu, component: Any) -> None:
         unit.slave.component = component
         unit.slave.fmi2FreeInstance(component)
 
-    unit = open_fmu("many", fmu)
+    unit = Fmu("many", fmu)
     first = unit.slave.component
     for _ in range(20):
         free(unit, one(unit))
@@ -118,7 +119,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--reducer", default="RV20E-121")
     reducer = load_reducer(parser.parse_args().reducer)
-    figures: dict = {"reducer": reducer.name}
+    figures: dict[str, str | float] = {"reducer": reducer.name}
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         for name, unit in UNITS.items():

@@ -4,6 +4,7 @@ So numba is also a peer of the project's own compiler (``benchmarks.compilers``)
 """
 
 from functools import cache
+from typing import Any
 
 import numba
 from numba.core import types
@@ -17,11 +18,11 @@ njit = numba.njit(error_model="numpy")
 
 
 @cache
-def by_numba(kernel: Kernel):
+def by_numba(kernel: Kernel) -> Any:
     """The kernel compiled by numba, for whichever arguments it is called with."""
     return njit(kernel.function)
 
 
 @typeof_impl.register(Kernel)
-def dispatcher_type(kernel, context):
+def dispatcher_type(kernel: Kernel, context: object) -> Any:
     return types.Dispatcher(by_numba(kernel))

@@ -5,20 +5,30 @@ Points of the plane are complex numbers.  Ideal parts, line contact, damping of 
 ``benchmarks.run`` checks that its right-hand sides are those of the kernels.
 """
 
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
+
+from discrepancy.problem import Floats
+
+# Points and directions of the plane.
+Complex = npt.NDArray[np.complex128]
 
 RIGID, RIGID_TOOTH = 1e-12, 1e-10
 
 
-def cross(a, b):
+def cross(a: Complex, b: Complex) -> Floats:
     return (np.conj(a) * b).imag
 
 
 class NumpyPlant:
     """Right-hand sides of one plant record."""
 
-    def __init__(self, record):
-        self.r = r = {name: record[name].copy() if np.ndim(record[name]) else record[name].item() for name in record.dtype.names}
+    def __init__(self, record: np.void):
+        # Numbers and arrays by their names.
+        self.r: dict[str, Any] = {name: record[name].copy() if np.ndim(record[name]) else record[name].item() for name in record.dtype.names or ()}
+        r = self.r
         self.discs, self.pins = r["mesh_force"].shape
         self.cranks, self.rollers = r["roller_force"].shape[1:]
         self.lobes = self.pins - 1
@@ -31,7 +41,7 @@ class NumpyPlant:
         self.roller = np.exp(2j * np.pi * np.arange(self.rollers) / self.rollers)
         self.planet = r["crank_circle_radius"] * r["first_stage_ratio"] / (1.0 + r["first_stage_ratio"])
 
-    def closest(self, centre, phi):
+    def closest(self, centre: Complex, phi: Floats) -> tuple[Floats, Complex]:
         """Signed distance of pin centres to the centre curve, and its outward normal."""
         lobes, throw = self.lobes, self.throw
         for _ in range(20):
@@ -46,7 +56,9 @@ class NumpyPlant:
         normal = -1j * first / abs(first)
         return (away * normal.conj()).real, normal
 
-    def mesh(self, ideal, disc_centre, disc_turn, ring_turn):
+    def mesh(
+        self, ideal: float, disc_centre: Complex, disc_turn: Floats, ring_turn: float
+    ) -> tuple[Floats, Complex, Complex, Complex]:
         """Penetrations [disc, pin], normals, and arms about disc and ring."""
         along = (self.lobes * (self.pin_angle - ideal) + self.offset[:, None]) / (2.0 * np.pi)
         root = np.round(along)
@@ -56,16 +68,19 @@ class NumpyPlant:
         distance, normal = self.closest(arm / frame, 2.0 * np.pi * (along - root))
         return -distance, normal * frame, arm, pin
 
-    def force(self, depth, rate, constant, exponent, damping):
+    def force(self, depth: Floats, rate: Floats | None, constant: float, exponent: float, damping: float) -> Floats:
         """Elastic force with step damping; never pulls."""
         pressed = np.maximum(depth, 0.0)
         elastic = constant * pressed**exponent
         if rate is None:
             return elastic
         share = np.minimum(1.0, pressed / self.r["damping_depth"])
-        return np.maximum(elastic + damping * share * share * (3.0 - 2.0 * share) * rate, 0.0)
+        found: Floats = np.maximum(elastic + damping * share * share * (3.0 - 2.0 * share) * rate, 0.0)
+        return found
 
-    def bearing(self, lobe, hole_direction, cage, disc_centre):
+    def bearing(
+        self, lobe: Complex, hole_direction: Complex, cage: float, disc_centre: Complex
+    ) -> tuple[Floats, Complex, Floats, Complex]:
         """Approaches [disc, crank, roller], their directions, twists, and holes from the discs' centres."""
         hole = self.r["crank_circle_radius"] * hole_direction
         direction = hole_direction[..., None] * np.exp(1j * cage) * self.roller
@@ -73,7 +88,7 @@ class NumpyPlant:
         turned = shift[..., None] * direction.conj()
         return turned.real - self.r["bearing_clearance"], direction, turned.imag, hole
 
-    def out_of_balance(self, z, ideal, cage):
+    def out_of_balance(self, z: Floats, ideal: float, cage: float) -> Floats:
         """Residual of the equilibrium for the free coordinates: discs and carrier turning."""
         r = self.r
         eccentric = np.exp(1j * (self.offset - self.lobes * ideal))
@@ -96,7 +111,7 @@ class NumpyPlant:
         out[self.carrier] = cross(seat + per_turn * throw, pull).sum() + r["load_torque"]
         return out
 
-    def forces(self, z, ideal, cage):
+    def forces(self, z: Floats, ideal: float, cage: float) -> Floats:
         """Contact forces of an equilibrium, for its accuracy."""
         r = self.r
         eccentric = np.exp(1j * (self.offset - self.lobes * ideal))
@@ -105,7 +120,7 @@ class NumpyPlant:
         depth, *_ = self.mesh(ideal, centre, ideal + of_disc[:, 2], 0.0)
         return self.force(depth, None, r["mesh_constant"], r["mesh_exponent"], 0.0)
 
-    def rate_of_change(self, y):
+    def rate_of_change(self, y: Floats) -> Floats:
         """dy/dt of y = (places, velocities, cage angle) of all bodies, sun and load."""
         r, n, carrier, ring = self.r, self.ring + 3, self.carrier, self.ring
         q, v, cage = y[:n], y[n : 2 * n], y[2 * n]
@@ -164,7 +179,9 @@ class NumpyPlant:
         out[carrier + 3 : ring : 3], out[carrier + 4 : ring : 3] = on_crank.real, on_crank.imag
         return np.concatenate([v, -out / r["mass"], [cage_speed]])
 
-    def teeth(self, out, q, v, crank, crank_rate, cranks, crank_rates):
+    def teeth(
+        self, out: Floats, q: Floats, v: Floats, crank: Complex, crank_rate: Complex, cranks: Floats, crank_rates: Floats
+    ) -> Complex:
         """Sun and planets, both flanks; adds to sun and cranks' turning, returns the force on the cranks' centres."""
         r, carrier, sun = self.r, self.carrier, self.ring + 1
         small = self.planet / r["first_stage_ratio"]

@@ -3,7 +3,7 @@
 import math
 import os
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from time import process_time
 
@@ -98,10 +98,10 @@ def cost_at(points: list[tuple[float, float]], error: float) -> float:
     (c0, e0), (c1, e1) = points[last_bad - 1 : last_bad + 1]
     if e1 <= 0.0:
         return c1
-    return c0 * (c1 / c0) ** (math.log(e0 / error) / math.log(e0 / e1))
+    return float(c0 * (c1 / c0) ** (math.log(e0 / error) / math.log(e0 / e1)))
 
 
-def exponent(points: list[tuple[float, float]]) -> float:
+def exponent(points: Sequence[tuple[float, float]]) -> float:
     """p of cost ~ size^p by least squares in logarithms over the larger half of the sizes."""
     points = sorted(points)[len(points) // 2 - (len(points) <= 3) :]
     xs, ys = [math.log(x) for x, _ in points], [math.log(y) for _, y in points]
@@ -109,7 +109,7 @@ def exponent(points: list[tuple[float, float]]) -> float:
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
 
-def machine() -> dict[str, str | int]:
+def machine() -> dict[str, str | float]:
     """What the figures were measured on."""
     model = platform.processor() or platform.machine()
     try:

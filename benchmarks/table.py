@@ -29,7 +29,7 @@ def amount(value: float, unit: str) -> str:
 
 
 def ratio_rows(found: dict[str, Measured]) -> list[tuple[str, ...]]:
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for measured in found.values():
         for r in measured.ratios:
             target = "" if r.target is None else f">= {r.target:g}"
@@ -41,7 +41,7 @@ def ratio_rows(found: dict[str, Measured]) -> list[tuple[str, ...]]:
 
 
 def figure_rows(found: dict[str, Measured]) -> list[tuple[str, ...]]:
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for measured in found.values():
         for f in measured.figures:
             wanted = f"<= {f.at_most:g}" if f.at_most is not None else f">= {f.at_least:g}" if f.at_least is not None else ""
@@ -60,7 +60,7 @@ def show(found: dict[str, Measured]) -> None:
         console.print(table, markup=False) if rows else None
 
 
-def write(found: dict[str, Measured], machine: dict, quick: bool, output: Path) -> None:
+def write(found: dict[str, Measured], machine: dict[str, str | float], quick: bool, output: Path) -> None:
     """Both files, whole after every item."""
     output.parent.mkdir(parents=True, exist_ok=True)
     content = {"machine": machine, "quick": quick} | {
@@ -75,7 +75,7 @@ def write(found: dict[str, Measured], machine: dict, quick: bool, output: Path) 
     output.with_suffix(".html").write_text(page(found, machine, quick), encoding="utf-8")
 
 
-def page(found: dict[str, Measured], machine: dict, quick: bool) -> str:
+def page(found: dict[str, Measured], machine: dict[str, str | float], quick: bool) -> str:
     curves = [curve for measured in found.values() for curve in measured.curves]
     plots = "".join(plot(curve).to_html(full_html=False, include_plotlyjs=i == 0) for i, curve in enumerate(curves))
     warning = "<p><b>Quick form: figures mean little.</b></p>" if quick else ""

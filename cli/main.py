@@ -29,7 +29,8 @@ class PrintVersion(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from fmu_src.project import NAME, project
 
-        parser.exit(message=f"{NAME} {project().version}\n")
+        print(NAME, project().version)
+        parser.exit()
 
 
 def main(arguments: list[str] | None = None) -> int:

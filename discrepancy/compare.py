@@ -1,8 +1,10 @@
 """Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
 
 from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import Floats
 
 # A run whose error is this many times its noise is worth a look.
 CONSPICUOUS = 1.5
@@ -29,13 +32,13 @@ class Comparison:
 
     model: PhysicalModel
     diagnostician: Diagnostician
-    runs: list[dict]
-    signals: list[dict]
+    runs: list[dict[str, Any]]
+    signals: list[dict[str, Any]]
     nuisances: dict[str, float]
     warnings: list[str]
-    predictions: list[np.ndarray]
+    predictions: list[Floats]
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         return {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": self.signals, "runs": self.runs,
             "nuisances": self.nuisances, "warnings": self.warnings, "not_predicted": self.model.unpredicted,
@@ -67,9 +70,9 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
                       warnings_of(model, list(space.noise.warnings)), predictions)
 
 
-def by_signal(runs: list[dict]) -> list[dict]:
+def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Root mean squares over the runs of a signal, training and held-out apart."""
-    cells = defaultdict(list)
+    cells: dict[tuple[str, bool], list[dict[str, Any]]] = defaultdict(list)
     for run in runs:
         cells[run["signal"], run["held_out"]].append(run)
     return [
@@ -82,7 +85,7 @@ def by_signal(runs: list[dict]) -> list[dict]:
     ]  # fmt: skip
 
 
-def rms(values) -> float:
+def rms(values: Iterable[float]) -> float:
     return float(np.sqrt(np.mean(np.square(list(values)))))
 
 

@@ -6,6 +6,7 @@ environment variable RVWEAR_EFFECTS, it is compiled into the units and found by 
 
 from pathlib import Path
 
+from discrepancy.inference.law.recover import Recovered
 from discrepancy.verdict import Answer
 
 # Signals whose missing part is a loss at the input, and those that are worn depths.
@@ -42,7 +43,7 @@ def draft_effect(answer: Answer, target: Path) -> Path | None:
     return None
 
 
-def text_of(name: str, law, unit: str, x: str) -> str:
+def text_of(name: str, law: Recovered, unit: str, x: str) -> str:
     """The effect's file: a term that is added (plant) or a factor (wear), off at amplitude 0."""
     form = law.forms[0]
     scale = repr(max(abs(v) for v in law.points["x"]) or 1.0)

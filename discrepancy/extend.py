@@ -6,14 +6,17 @@ runs that the parameters were fitted to is never called a success.
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import by_signal, compare
-from discrepancy.inference.held_out.held_out import HeldOutJudge
-from discrepancy.inference.refit.refit import Refit, estimates
+from discrepancy.compare import Comparison, by_signal, compare
+from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.held_out.held_out import HeldOut, HeldOutJudge
+from discrepancy.inference.refit.refit import estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import Candidate
 from fmu_src.faults import InputFault
 from studies import building
 
@@ -29,10 +32,10 @@ class Extension:
     """The extended model and the step of its ladder; ``file`` is the old one where the step did not help."""
 
     file: ModelFile
-    step: dict
+    step: dict[str, Any]
     verdict: str
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         return {"model": self.file.name, "verdict": self.verdict, "step": self.step, "effects": self.file.effects}
 
 
@@ -60,7 +63,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     after = compare(extended, campaign, settings, PhysicalModel(extended, campaign, zeros=before.model.zeros))
     judge = HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders)
     judged = judge.judge(fit) if diagnostician.space.held_out else None
-    outcome, reason = verdict_of(judged, fit, before, after)
+    outcome, reason = verdict_of(judged)
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
         "training_before": total(before, False), "training_after": total(after, False),
@@ -78,7 +81,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome)
 
 
-def resolved(name: str, diagnostician):
+def resolved(name: str, diagnostician: Diagnostician) -> list[Candidate]:
     """Candidates of a name: one variant, or the variant of an effect that fits best."""
     if name in diagnostician.by_name:
         return [diagnostician.by_name[name]]
@@ -89,13 +92,13 @@ def resolved(name: str, diagnostician):
     return [min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)]
 
 
-def total(comparison, held_out: bool) -> float | None:
+def total(comparison: Comparison, held_out: bool) -> float | None:
     """Error over noise, root mean square over the signals of training or held-out runs."""
     cells = [s["ratio"] for s in comparison.signals if s["held_out"] == held_out]
     return float((sum(r * r for r in cells) / len(cells)) ** 0.5) if cells else None
 
 
-def verdict_of(judged, fit: Refit, before, after) -> tuple[str, str]:
+def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
     if judged is None:
         return NOT_PROVEN, (
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"

@@ -16,8 +16,10 @@
 import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import tomlkit
+from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
@@ -37,8 +39,8 @@ class ModelFile:
     name: str
     reducer: Reducer
     settings: dict[str, float] = field(default_factory=dict)
-    effects: dict[str, dict[str, dict]] = field(default_factory=dict)
-    steps: tuple[dict, ...] = ()
+    effects: dict[str, dict[str, dict[str, Any]]] = field(default_factory=dict)
+    steps: tuple[dict[str, Any], ...] = ()
     path: Path | None = None
 
     def values(self) -> dict[str, float]:
@@ -70,7 +72,7 @@ def load_model(name_or_path: str | Path) -> ModelFile:
     path = Path(name_or_path)
     if path.suffix == ".toml" and path.is_file():
         try:
-            content = tomllib.loads(path.read_text(encoding="utf-8"))
+            content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
             raise InputFault(f"{path}: not a TOML file: {problem}") from None
         if "model" in content:
@@ -81,7 +83,7 @@ def load_model(name_or_path: str | Path) -> ModelFile:
     return ModelFile(reducer.name, reducer)
 
 
-def model_of(content: dict, path: Path) -> ModelFile:
+def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     head = content["model"]
     for key in ("name", "reducer"):
         if not isinstance(head.get(key), str):
@@ -141,7 +143,7 @@ def extended_reducer(file: ModelFile) -> Reducer:
     return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
 
 
-def inline(entry: dict):
+def inline(entry: dict[str, Any]) -> InlineTable:
     table = tomlkit.inline_table()
     table.update(entry)
     return table

@@ -1,18 +1,23 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.inference.next_experiment import Experiment, NextExperiment, next_experiment, rival_of
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.next_experiment import Experiment, NextExperiment, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.noise.stream_noise import StreamNoise
+from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 from discrepancy.verdict import Answer, diagnose
 from studies.hysteresis import torque_way
 
@@ -26,12 +31,22 @@ LOOP_STEPS = 9
 MOST_RIVALS = 4
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {
-    "transmission_error": {"noise": 2.5e-6}, "hysteresis": {"noise": 5e-6}, "lost_motion": {"noise": 1e-5}, "torsional_stiffness": {"noise": 2e3},
-    "input_torque": {"noise": 0.02}, "no_load_torque": {"noise": 0.01}, "cage_speed": {"noise": 0.01},
-    "wear_depth": {"noise": 1e-7, "tags": tuple({"surface": s} for s in ("flank", "pin", "inner_race", "outer_race"))},
+    "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
+    "input_torque": 0.02, "no_load_torque": 0.01, "cage_speed": 0.01, "wear_depth": 1e-7,
+}  # fmt: skip
+# What can be meant by a quantity that was not measured yet.
+TAGS: dict[str, tuple[dict[str, str], ...]] = {
+    "wear_depth": tuple({"surface": s} for s in ("flank", "pin", "inner_race", "outer_race")),
 }  # fmt: skip
 # Several runs of a proposed experiment are averaged.
 REPEATS = 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measurement(Experiment):
+    """An experiment on the rig: ``record`` is what it would measure, its values still empty."""
+
+    record: Record
 
 
 @dataclass(frozen=True)
@@ -43,7 +58,7 @@ class NextRun:
     rivals: list[str]
     verdict: str
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         plain = self.result.to_dict() if self.result else {"separable": None, "proposals": [], "at_stake": {}}
         return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict}
 
@@ -52,8 +67,8 @@ def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     """Diagnose, and propose what to measure next."""
     answer = diagnose(file, campaign, settings, jobs=jobs)
     fits = answer.diagnosis.fits
-    members = list(fits["members"]) or list(fits["rivals"])[:MOST_RIVALS]
-    names: dict[str, object] = {}
+    members = fits.members or fits.rivals[:MOST_RIVALS]
+    names: dict[str, Refit] = {}
     for member in members:
         # Variants of one effect need no separation: the effect is known.
         names.setdefault(member.name.partition(".")[0], member)
@@ -64,37 +79,34 @@ def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     rivals = [rival_of(member, None, least) for member in chosen]
-    experiments = possible(answer.model, campaign, fits["space"])
+    experiments = possible(answer.model, campaign, fits.space)
 
-    def predict(rival, values, experiment) -> np.ndarray:
-        return answer.model.one(experiment.settings["record"], {**answer.model.zeros, **values})
+    def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:
+        return answer.model.one(experiment.record, {**answer.model.zeros, **values})
 
-    shown = [replace(e, settings={k: v for k, v in e.settings.items() if k != "record"}) for e in experiments]
     result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model))
-    plain = {e.name: e.settings for e in shown}
-    result = replace(result, proposals=[replace(p, settings=plain[p.experiment]) for p in result.proposals])
     return NextRun(answer, result, [r.name for r in rivals], result.verdict)
 
 
-def at_rated(model: PhysicalModel) -> list[Experiment]:
+def at_rated(model: PhysicalModel) -> list[Measurement]:
     """Every signal at rated speed and load: what the rivals disagree about where the reducer is used."""
     found = {}
     for record in model.records:
         rated = {"speed": model.bench.rated_speed, "load": model.bench.rated_load, "temperature": 293.15}
         if record.quantity in AGED:
             rated["hours"] = 6000.0 * HOUR
-        found[stream_of(record)] = Experiment(f"{stream_of(record)} at {describe(rated)}", 0.0, settings={"record": blank(record, rated)})
+        found[stream_of(record)] = Measurement(f"{stream_of(record)} at {describe(rated)}", 0.0, record=blank(record, rated))
     return list(found.values())
 
 
-def possible(model: PhysicalModel, campaign: Campaign, space) -> list[Experiment]:
+def possible(model: PhysicalModel, campaign: Campaign, space: Workspace) -> list[Measurement]:
     """Every experiment of a grid over what the rig can set and measure."""
     rig = campaign.rig
     signals = {stream_of(r): r for r in model.records}
     measured = set(rig.quantities) if rig and rig.quantities else {r.quantity for r in model.records}
     for quantity in sorted(measured - {r.quantity for r in model.records}):
         # Not measured so far, but the rig could.
-        for tags in UNMEASURED[quantity].get("tags", ({},)) if quantity in UNMEASURED else ():
+        for tags in TAGS.get(quantity, ({},)) if quantity in UNMEASURED else ():
             axes = {"transmission_error": {"angle": np.zeros(1)},
                     "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS)[1:]}}.get(quantity, {})
             example = Record("proposed", quantity, QUANTITIES[quantity].unit, "", 1, np.zeros(1), axes, {"direction": 1}, tags=tags)
@@ -109,15 +121,15 @@ def possible(model: PhysicalModel, campaign: Campaign, space) -> list[Experiment
             hours = condition.get("hours", 0.0) if example.quantity in AGED else 0.0
             run_cost, hour_cost = (rig.cost_per_run, rig.cost_per_hour) if rig else (1.0, 0.01)
             cost = REPEATS * run_cost + hour_cost * hours / HOUR
-            noise = stream.scale * correlation_loss(stream, record) if stream else UNMEASURED[example.quantity]["noise"]
-            found.append(Experiment(
+            noise = stream.scale * correlation_loss(stream, record) if stream else UNMEASURED[example.quantity]
+            found.append(Measurement(
                 f"{signal} at {describe(condition)}", cost, noise / np.sqrt(REPEATS),
-                settings={**condition, "record": record},
+                settings=condition, record=record,
             ))  # fmt: skip
     return found
 
 
-def correlation_loss(stream, record: Record) -> float:
+def correlation_loss(stream: StreamNoise, record: Record) -> float:
     """How much worse correlated samples average than independent ones."""
     if "angle" not in record.axes or not stream.length:
         return 1.0
@@ -152,7 +164,7 @@ def limits(name: str, model: PhysicalModel, rig: Rig | None, campaign: Campaign)
 
 def blank(example: Record, condition: dict[str, float]) -> Record:
     """A record of that quantity at another condition, with nothing measured yet."""
-    axes = {}
+    axes: dict[str, Floats] = {}
     if "angle" in example.axes and example.quantity == "transmission_error":
         axes = {"angle": np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)}
     elif example.quantity in ("hysteresis", "wear_profile", "vibration_order"):

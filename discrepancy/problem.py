@@ -6,9 +6,14 @@ predictions; between them the statistics knows neither files nor reducers.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
+import numpy.typing as npt
+
+# Measured or computed numbers, rows or columns of them; and which of them are meant.
+Floats = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -30,8 +35,8 @@ class Record:
     unit: str
     condition: str
     replicate: int
-    values: np.ndarray
-    axes: Mapping[str, np.ndarray]
+    values: Floats
+    axes: Mapping[str, Floats]
     factors: Mapping[str, float]
     mounting: str = "1"
     held_out: bool = False
@@ -86,10 +91,24 @@ class Candidate:
 class Model(Protocol):
     """Predicts all records.  Names of parameters are unique over nuisances and candidates."""
 
-    records: Sequence[Record]
-    nuisances: tuple[Parameter, ...]
-    candidates: tuple[Candidate, ...]
+    @property
+    def records(self) -> Sequence[Record]: ...
 
-    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
+    @property
+    def nuisances(self) -> tuple[Parameter, ...]: ...
+
+    @property
+    def candidates(self) -> tuple[Candidate, ...]: ...
+
+    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """Predicted ``values`` of the records ``which`` (all by default), parameters not named being off."""
+        ...
+
+
+@runtime_checkable
+class FirstOrder(Protocol):
+    """What a model may have besides: predictions next to others, to first order and cheaper."""
+
+    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """``Model.predict`` for values next to ``base``."""
         ...

@@ -6,6 +6,7 @@ centre, or oval).  Here they are put together under the effect's name.
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import warnings_of
@@ -24,12 +25,12 @@ class Answer:
     model: PhysicalModel
     diagnosis: Diagnosis
     verdict: str
-    effects: list[dict]
+    effects: list[dict[str, Any]]
     confusable: list[str]
     laws: list[Recovered]
     warnings: list[str]
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         plain = self.diagnosis.to_dict()
         return plain | {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict,
@@ -54,17 +55,17 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     confusable = names if verdict == SET else []
     laws = []
     if verdict in (UNKNOWN, INCOMPLETE):
-        space = found.fits["space"]
-        fit = found.fits["members"][0].fit if found.fits["members"] else space.base
+        space = found.fits.space
+        fit = found.fits.members[0].fit if found.fits.members else space.base
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         laws = recover(space, fit, sorted(touched) or None)
     warnings = warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, effects, confusable, laws, list(dict.fromkeys(warnings)))
 
 
-def merged(effects: list[dict], verdict: str) -> list[dict]:
+def merged(effects: list[dict[str, Any]], verdict: str) -> list[dict[str, Any]]:
     """Variants of one effect under its name; the best variant speaks for those that are alternatives."""
-    found: dict[str, dict] = {}
+    found: dict[str, dict[str, Any]] = {}
     for entry in effects:
         name, _, variant = entry["name"].partition(".")
         entry = entry | {"name": name, "variant": variant, "candidates": [entry["name"]]}

@@ -116,7 +116,7 @@ def read_scenario(path: str | Path, step: float | None = None, isolate: bool = F
     if not path.is_file():
         raise InputFault(f"no scenario file at {path}")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         content = ScenarioFile(**tomllib.loads(text))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}") from None

@@ -45,7 +45,7 @@ def read_series(path: Path) -> dict[str, np.ndarray]:
 
 
 def read_csv(path: Path) -> dict[str, np.ndarray]:
-    with path.open(newline="", encoding="utf-8") as file:
+    with path.open(newline="", encoding="utf-8-sig") as file:
         rows = list(csv.reader(file))
     if not rows:
         raise InputFault(f"{path} is empty")

@@ -1,6 +1,8 @@
 """Charts of the claims: curves with a legend, in the look of the reports."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +26,10 @@ class Curve:
     width: float = 1.8
 
 
-def chart(name, title, caption, curves, x_title, y_title, columns=6, height=300, marks=(), x_axis=None, y_axis=None):
+def chart(
+    name: str, title: str, caption: str, curves: Sequence[Curve], x_title: str, y_title: str, columns: int = 6, height: int = 300,
+    marks: Sequence[tuple[float, str]] = (), x_axis: dict[str, Any] | None = None, y_axis: dict[str, Any] | None = None,
+) -> Figure:  # fmt: skip
     """A figure of curves; ``marks`` are (x, text) of vertical dotted lines."""
     traces = []
     for i, curve in enumerate(curves):
@@ -56,7 +61,7 @@ def degrees_axis(last: float = 180.0) -> dict:
 PHASE = "phase on the tooth [°]: 0 root, 180 tip"
 
 
-def picture(name, title, caption, curves, columns=6, height=340):
+def picture(name: str, title: str, caption: str, curves: Sequence[Curve], columns: int = 6, height: int = 340) -> Figure:
     """Curves of complex points to scale, without axes."""
     traces = []
     for i, curve in enumerate(curves):
@@ -71,7 +76,7 @@ def picture(name, title, caption, curves, columns=6, height=340):
                   height)
 
 
-def polar(name, title, caption, curves, columns=6, height=360):
+def polar(name: str, title: str, caption: str, curves: Sequence[Curve], columns: int = 6, height: int = 360) -> Figure:
     """Closed rows over the angle [deg]: radius is the value."""
     traces = []
     for i, curve in enumerate(curves):

@@ -104,7 +104,7 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
             f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
         )
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}") from None
     head = checked(Head, content.pop("reducer", None), path, "reducer")

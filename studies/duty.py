@@ -52,7 +52,7 @@ def load_duty(path: str | Path) -> tuple[Segment, ...]:
     if not path.is_file():
         raise InputFault(f"no duty file at {path}")
     try:
-        content = DutyFile(**tomllib.loads(path.read_text(encoding="utf-8")))
+        content = DutyFile(**tomllib.loads(path.read_text(encoding="utf-8-sig")))
     except tomllib.TOMLDecodeError as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}") from None
     except ValidationError as problem:

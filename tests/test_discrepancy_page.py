@@ -90,7 +90,7 @@ def compared(model):
 
 def diagnosed(model):
     found = Diagnostician(model).run()
-    laws = recover(found.fits["space"], found.fits["space"].base, ["transmission_error"]) if found.verdict == UNKNOWN else []
+    laws = recover(found.fits.space, found.fits.space.base, ["transmission_error"]) if found.verdict == UNKNOWN else []
     effects = merged([e.to_dict() for e in found.effects], found.verdict)
     return Answer(model, found, found.verdict, effects, found.confusable, laws, list(found.warnings))
 
@@ -233,7 +233,7 @@ def test_law_without_a_name(tmp_path):
     assert form.text in page and f"{100 * form.confidence:.0f} %" in page
     curve = figure(page, "law_transmission_error")
     assert {t["name"] for t in curve["data"]} >= {"95 %", "measured, averaged", "curve"}
-    bare = replace(found, laws=[], diagnosis=replace(found.diagnosis, fits={}, rejected=[], localisation={"findings": [], "map": [], "conditions": {}, "level": 0.001}))
+    bare = replace(found, laws=[], diagnosis=replace(found.diagnosis, rejected=[], localisation={"findings": [], "map": [], "conditions": {}, "level": 0.001}))
     empty = written(bare, tmp_path)
     assert "too few points or conditions to recover a law" in empty and "No rival came near" in empty
 

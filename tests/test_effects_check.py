@@ -237,3 +237,29 @@ def test_drafts_pass(tmp_path):
             law = SimpleNamespace(text="law", signal=signal, points={"x": [10.0, 200.0]}, forms=[SimpleNamespace(name=form, confidence=0.9)])
             for x in names.values():
                 assert told(tmp_path, text_of("draft", law, unit, x), unit=unit, name="draft") == []
+
+
+def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
+    """Compiled, packed in every flavour, and acting there as in process."""
+    text = hook("r.compliance[r.z.shape[0] - 1] += r.my_size", "prepare(r)")
+    written(tmp_path, text, name="my_ring")
+    program = (
+        "from pathlib import Path; import fmpy, sys; from fmu_src.link import NativeFault, compiler, host_platform\n"
+        "from fmu_src.package import build_fmu, build_native, validate; from orchestrator.component import InProcess\n"
+        "from reducers.reducer import load_reducer\n"
+        "wanted = load_reducer('RV20E-121').specification('rv_plant'); folder = Path(sys.argv[1])\n"
+        "paths = [build_fmu('RvPlant', wanted, 1e-3, 'test', folder)]\n"
+        "try:\n    compiler(host_platform(), False); paths += build_native('RvPlant', wanted, 1e-3, 'test', folder)\n"
+        "except NativeFault:\n    pass\n"
+        "plant = InProcess('plant', wanted); plant.set('my_size', 1e-6); plant.exit_initialisation(); plant.step(0.0, 1e-3)\n"
+        "print(repr(plant.get('lag')))\n"
+        "for path in paths:\n"
+        "    validate(path)\n"
+        "    seen = fmpy.simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3, start_values={'my_size': 1e-6}, output=['lag'])\n"
+        "    print(repr(float(seen['lag'][-1])))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program, str(tmp_path / "fmus")], capture_output=True, text=True, timeout=300,
+                          env={**os.environ, "RVWEAR_EFFECTS": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path)})
+    assert done.returncode == 0, done.stderr
+    in_process, *as_fmus = done.stdout.split()
+    assert as_fmus and set(as_fmus) == {in_process}

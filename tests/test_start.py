@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from cli.main import parser
+from fmu_src.project import project
 
 HEAVY = {"numpy", "numba", "llvmlite", "pandas", "xarray", "plotly", "scipy", "pydantic", "rich", "fmpy", "jinja2", "pint"}
 # CPU seconds, the interpreter's own start included.
@@ -58,3 +59,9 @@ def test_the_shell_is_offered_commands_options_and_reducers(tmp_path, line, offe
     }  # fmt: skip
     subprocess.run([sys.executable, "-m", "cli"], env=environment, cwd=tmp_path, check=True)
     assert [word.strip() for word in answer.read_text().split("\n")] == offered
+
+
+@pytest.mark.parametrize("started", [("-m", "cli"), ("-c", "import sys; from cli.main import main; sys.exit(main())")])
+def test_version_is_that_of_the_project(started):
+    done = subprocess.run([sys.executable, *started, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout == f"rvwear {project().version}\n"

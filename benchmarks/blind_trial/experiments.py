@@ -14,10 +14,12 @@ import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.designs import Series, there_and_back
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Run, Series, there_and_back
 from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
 from benchmarks.blind_trial.generator.noise import noise_for, round_to
@@ -36,7 +38,7 @@ cost_per_hour = 0.01
 REPLICATES = 2
 
 
-def chosen(folder: Path, cases: int) -> list[dict]:
+def chosen(folder: Path, cases: int) -> list[dict[str, Any]]:
     """Results of single effects that ended in a set which holds the truth."""
     found = []
     for _, result in sorted(finished(folder).items()):
@@ -57,24 +59,27 @@ def rig_of(made: Drawn) -> str:
 def series_of(name: str, settings: dict[str, float], made: Drawn, rng: np.random.Generator) -> Series:
     """The series that a proposal asks for, with the noise of this bench."""
     signal = name.partition(" at ")[0]
-    quantity, _, tags = signal.partition("[")
-    tags = dict(pair.split("=") for pair in tags.rstrip("]").split(",")) if tags else {}
+    quantity, _, words = signal.partition("[")
+    pairs = (word.partition("=") for word in words.rstrip("]").split(",") if word)
+    tags = {key: value for key, _, value in pairs}
     known = next((s for s in made.design.series if s.quantity == quantity), None)
     noise = known.noise if known else noise_for(rng, quantity)
     setting = Setting(settings.get("speed", 200.0), settings.get("load", 167.0), settings.get("temperature", 293.15), settings.get("hours", 0.0))
-    axes, rows = {}, []
+    axes: dict[str, Floats] = {}
+    rows = []
     if quantity == "transmission_error":
         axes = {"angle": np.linspace(0.0, 2.0 * np.pi, 450, endpoint=False)}
     elif quantity == "hysteresis":
         axes, tags = {"torque": there_and_back(167.0, 10)}, {"locked": "input"}
     elif quantity in ("vibration_order", "wear_profile"):
+        assert known is not None, f"{quantity}: no series of this campaign says over which axes"
         axes = known.axes
     else:
         rows = [setting]
     return Series(quantity, "added", setting, noise, axes, rows, tags, REPLICATES)
 
 
-def one(result: dict, folder: Path) -> dict:
+def one(result: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Proposal and random choice for one campaign, and what came of them."""
     from benchmarks.blind_trial.tool import MODEL, answer_of
     from discrepancy.campaign.load import load_campaign
@@ -86,14 +91,14 @@ def one(result: dict, folder: Path) -> dict:
     design, rng = made.design, np.random.default_rng([task.seed, 77])
     runs = measure(made.rng, design, made.bench, made.truths)
 
-    def write(name: str, more: list[dict]) -> Path:
-        every = [{**run, "values": round_to(run["values"], run["series"].noise.quantum)} for run in runs + more]
+    def write(name: str, more: list[Run]) -> Path:
+        every: list[Run] = [{**run, "values": round_to(run["values"], run["series"].noise.quantum)} for run in runs + more]
         conditions = design.conditions | {run["series"].condition: run["series"].setting for run in more}
         target = folder / "experiments" / task.name / name
         write_campaign(target, task.name, replace(design, conditions=conditions), every, result["seal"], rig=rig_of(made))
         return target
 
-    found = {"number": task.number, "law": list(task.laws), "strength": task.strength}
+    found: dict[str, Any] = {"number": task.number, "law": list(task.laws), "strength": task.strength}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         proposed = next_run(load_model(MODEL), load_campaign(write("before", [])))

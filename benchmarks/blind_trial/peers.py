@@ -7,6 +7,7 @@ every shape of its grid, by finite differences.  None of them knows the noise fr
 import tempfile
 import time
 import warnings
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +15,15 @@ import numpy as np
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import Floats, Record
 
 MODEL = "RV20E-121"
 MOST_TERMS = 5
+# Of every candidate the numbers of its columns.
+Owners = list[tuple[str, list[int]]]
 
 
-def library(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[tuple[str, list[int]]]]:
+def library(folder: Path) -> tuple[Floats, Floats, Floats, Owners]:
     """(residual, nuisance columns, columns, [(candidate, its columns)]), quantities scaled to one residual size."""
     campaign = load_campaign(folder)
     model = PhysicalModel(load_model(MODEL), campaign)
@@ -28,10 +32,10 @@ def library(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[tupl
     values = {p.name: p.off for p in model.nuisances}
     quantities = [r.quantity for r in records]
 
-    def stack(arrays):
-        return np.concatenate([np.asarray(a, float) for a in arrays])
+    def stack(arrays: Iterable[Floats]) -> Floats:
+        return np.concatenate([np.asarray(a, np.float64) for a in arrays])
 
-    def difference(change: dict[str, float], base: list[np.ndarray]) -> np.ndarray:
+    def difference(change: dict[str, float], base: list[Floats]) -> Floats:
         return stack([a - b for a, b in zip(model.predict({**values, **change}, which), base)])
 
     measured = stack([r.values for r in records])
@@ -49,7 +53,8 @@ def library(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[tupl
     base = model.predict(values, which)
     residual = measured - stack(base)
     weights = weights_of(residual, quantities, records)
-    columns, owners = [], []
+    columns: list[Floats] = []
+    owners: Owners = []
     for c in model.candidates:
         own = []
         for shapes in c.shape_grid or ({},):
@@ -67,10 +72,11 @@ def library(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[tupl
     return (residual * weights)[ok], free, np.column_stack(columns)[ok], owners
 
 
-def weights_of(residual, quantities, records) -> np.ndarray:
+def weights_of(residual: Floats, quantities: Sequence[str], records: Sequence[Record]) -> Floats:
     """One over the size of the residual of a record's quantity: no quantity outweighs another by its unit."""
-    sizes, start = {}, 0
-    parts: dict[str, list] = {}
+    sizes: dict[str, float] = {}
+    parts: dict[str, list[Floats]] = {}
+    start = 0
     for q, r in zip(quantities, records):
         parts.setdefault(q, []).append(residual[start : start + len(r.values)])
         start += len(r.values)
@@ -79,7 +85,7 @@ def weights_of(residual, quantities, records) -> np.ndarray:
     return np.concatenate([np.full(len(r.values), 1.0 / sizes[q]) for q, r in zip(quantities, records)])
 
 
-def squares(residual: np.ndarray, columns: np.ndarray) -> float:
+def squares(residual: Floats, columns: Floats) -> float:
     if not columns.shape[1]:
         return float(residual @ residual)
     left = residual - columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
@@ -88,10 +94,10 @@ def squares(residual: np.ndarray, columns: np.ndarray) -> float:
 
 def criterion(rss: float, n: int, k: int, kind: str) -> float:
     """AIC or BIC of white normal noise of unknown size."""
-    return n * np.log(max(rss, 1e-300) / n) + (np.log(n) if kind == "BIC" else 2.0) * (k + 1)
+    return float(n * np.log(max(rss, 1e-300) / n) + (np.log(n) if kind == "BIC" else 2.0) * (k + 1))
 
 
-def best_of(residual, free, columns, own: list[int], chosen: list[int], groups: int) -> tuple[float, list[int]]:
+def best_of(residual: Floats, free: Floats, columns: Floats, own: list[int], chosen: list[int], groups: int) -> tuple[float, list[int]]:
     """Least squares of one candidate beside those chosen: its best shape."""
     found = (np.inf, own)
     for k in range(0, len(own), groups):
@@ -100,9 +106,11 @@ def best_of(residual, free, columns, own: list[int], chosen: list[int], groups: 
     return found
 
 
-def forward(residual, free, columns, owners, kind: str, most: int) -> list[str]:
+def forward(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind: str, most: int) -> list[str]:
     """Candidates added while the criterion falls."""
-    n, names, chosen = len(residual), [], []
+    n = len(residual)
+    names: list[str] = []
+    chosen: list[int] = []
     now = criterion(squares(residual, free), n, free.shape[1], kind)
     while len(names) < most:
         trials = []
@@ -119,7 +127,7 @@ def forward(residual, free, columns, owners, kind: str, most: int) -> list[str]:
     return names
 
 
-def sparse(residual, free, columns, owners) -> list[str]:
+def sparse(residual: Floats, free: Floats, columns: Floats, owners: Owners) -> list[str]:
     """PySINDy's STLSQ on the library, its threshold a tenth of what the best term alone would have."""
     from pysindy.optimizers import STLSQ
 
@@ -160,7 +168,7 @@ def peers_of(folder: Path) -> dict[str, list[str]]:
     return found
 
 
-def petab(residual, free, columns, owners, kind: str) -> list[str]:
+def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind: str) -> list[str]:
     """PEtab Select's forward method over models in which every candidate is on or off; criteria by least squares."""
     try:
         from petab_select import ESTIMATE, Criterion, Problem, ui
@@ -171,7 +179,8 @@ def petab(residual, free, columns, owners, kind: str) -> list[str]:
     names = {f"p{k}": name for k, (name, _) in enumerate(owners)}
     with tempfile.TemporaryDirectory() as folder:
         problem = Problem.from_yaml(write_problem(Path(folder), list(use), kind))
-        space, known = None, {}
+        space = None
+        known: dict[tuple[str, ...], float] = {}
         while True:
             iteration = ui.start_iteration(problem, candidate_space=space)
             for model in iteration["uncalibrated_models"]:
@@ -184,7 +193,7 @@ def petab(residual, free, columns, owners, kind: str) -> list[str]:
             if ended["terminate"] or max(map(len, known), default=0) > MOST_TERMS:
                 break
     known[()] = criterion(squares(residual, free), n, free.shape[1], kind)
-    best = min(known, key=known.get)
+    best = min(known, key=lambda on: known[on])
     # The strongest first: what its removal would cost.
     return [names[p] for p in sorted(best, key=lambda p: known.get((p,), 0.0))]
 

@@ -1,5 +1,7 @@
 """Which campaigns a trial has: kinds, laws, strengths and sizes in fixed shares, in random order."""
 
+from typing import Required, TypedDict
+
 import numpy as np
 
 from benchmarks.blind_trial.generator.faults import FAULTS
@@ -15,8 +17,19 @@ SIZE_ODDS = {"small": 0.94, "middle": 0.05, "rich": 0.01}
 NULLS, PAIRS, WRONG_BASES, POOR_EFFECTS, POOR_NULLS = 90, 40, 24, 30, 12
 
 
-def one_round(rng: np.random.Generator) -> list[dict]:
-    found = [{"kind": "null"} for _ in range(NULLS)] + [{"kind": "null", "size": "poor"} for _ in range(POOR_NULLS)]
+class Entry(TypedDict, total=False):
+    """What of a ``Task`` the plan decides."""
+
+    kind: Required[str]
+    laws: tuple[str, ...]
+    strength: float
+    size: str
+    fault: str
+
+
+def one_round(rng: np.random.Generator) -> list[Entry]:
+    found: list[Entry] = [{"kind": "null"} for _ in range(NULLS)]
+    found += [{"kind": "null", "size": "poor"} for _ in range(POOR_NULLS)]
     found += [{"kind": "effect", "laws": (law.name,), "strength": s} for law in CATALOGUE for s in STRENGTHS]
     found += [{"kind": "outside", "laws": (law.name,), "strength": s} for law in OUTSIDE for s in OUTSIDE_STRENGTHS]
     for _ in range(PAIRS):
@@ -42,7 +55,7 @@ def plan(count: int, seed: int, sizes: dict[str, float] = SIZE_ODDS) -> list[Tas
     while len(tasks) < count:
         entries = one_round(rng)
         for i in rng.permutation(len(entries)):
-            entry = dict(entries[i])
+            entry = entries[i].copy()
             entry.setdefault("size", str(rng.choice(list(sizes), p=list(sizes.values()))))
             tasks.append(Task(len(tasks), int(rng.integers(2**31)), **entry))
     return tasks[:count]
@@ -59,9 +72,9 @@ REDUCED_OUTSIDE = ("friction bump in speed and temperature", "humidity", "cage a
 def reduced_plan(seed: int, nulls: int = 26) -> list[Task]:
     """At least 60 campaigns that are cheap to make and to diagnose."""
     rng = np.random.default_rng(seed)
-    entries = [{"kind": "null"} for _ in range(nulls)]
+    entries: list[Entry] = [{"kind": "null"} for _ in range(nulls)]
     entries += [{"kind": "effect", "laws": (law,), "strength": s} for law in REDUCED_LAWS for s in (12.0, 16.0, 20.0)]
     entries.append({"kind": "effect", "laws": ("Dahl friction in the loop",), "strength": 12.0})
     entries += [{"kind": "outside", "laws": (law,), "strength": 20.0} for law in REDUCED_OUTSIDE]
     entries += [{"kind": "fault", "fault": fault} for fault in FAULTS if fault != "clock"]
-    return [Task(k, int(rng.integers(2**31)), size="tiny", **entry) for k, entry in enumerate(entries)]
+    return [Task(k, int(rng.integers(2**31)), **(entry | {"size": "tiny"})) for k, entry in enumerate(entries)]

@@ -1,6 +1,8 @@
 """docs/blind_trial.md from the results of a trial."""
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from benchmarks.blind_trial.score import CHAIN, Case, calibration, cases_of, confusion, misses, null_levels, score
 
@@ -25,17 +27,17 @@ def number(value: float | None, digits: int = 2) -> str:
     return "-" if value is None else f"{value:.{digits}f}"
 
 
-def table(head: list[str], rows: list[list]) -> list[str]:
+def table(head: list[str], rows: Sequence[Sequence[object]]) -> list[str]:
     return ["| " + " | ".join(head) + " |", "| " + " | ".join("---" for _ in head) + " |",
             *("| " + " | ".join(str(x) for x in row) + " |" for row in rows), ""]  # fmt: skip
 
 
-def publish(results: dict[int, dict], path: Path, about: dict) -> None:
+def publish(results: dict[int, dict[str, Any]], path: Path, about: dict[str, Any]) -> None:
     cases = cases_of(results)
     path.write_text("\n".join(page(results, cases, score(results), about)), encoding="utf-8")
 
 
-def page(results: dict[int, dict], cases: list[Case], figures: dict, about: dict) -> list[str]:
+def page(results: dict[int, dict[str, Any]], cases: list[Case], figures: dict[str, Any], about: dict[str, Any]) -> list[str]:
     lines = [
         "# Blind trial", "",
         "Made by `python -m benchmarks.blind_trial.run --publish`; do not edit.", "",
@@ -114,7 +116,7 @@ def page(results: dict[int, dict], cases: list[Case], figures: dict, about: dict
     return lines
 
 
-def outside_rows(cases: list[Case], strengths: list[float]) -> list[list]:
+def outside_rows(cases: list[Case], strengths: list[float]) -> list[list[str]]:
     laws = sorted({c.laws[0] for c in cases if c.kind == "outside"})
     rows = []
     for law in laws:

@@ -2,13 +2,14 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 from benchmarks.blind_trial.score import counted
 
 RESULTS, SEALS, ABOUT, EXPERIMENTS = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl"
 
 
-def finished(folder: Path) -> dict[int, dict]:
+def finished(folder: Path) -> dict[int, dict[str, Any]]:
     """Results so far; a last line that was cut off is ignored."""
     found = {}
     path = folder / RESULTS
@@ -29,8 +30,8 @@ def end_line(path: Path) -> None:
             lines.write(b"\n")
 
 
-def resolved(folder: Path) -> dict[str, dict]:
+def resolved(folder: Path) -> dict[str, dict[str, Any]]:
     """Shares of campaigns that were resolved, with 95 % intervals."""
     lines = [json.loads(line) for line in (folder / EXPERIMENTS).read_text(encoding="utf-8").splitlines()]
     both = [line for line in lines if "proposed" in line]
-    return {kind: counted(both, lambda line, kind=kind: line[kind]["resolved"]) for kind in ("proposed", "random")}
+    return {kind: counted([line[kind] for line in both], lambda found: found["resolved"]) for kind in ("proposed", "random")}

@@ -15,15 +15,16 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from pathlib import Path
+from typing import Any
 
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
 from benchmarks.blind_trial.results import ABOUT, EXPERIMENTS, RESULTS, SEALS, end_line, finished, resolved
 
 
-def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
+def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:
     """Makes, seals, diagnoses and unseals one campaign."""
     from benchmarks.blind_trial import tool
     from benchmarks.blind_trial.generator.folder import seal_of
@@ -55,13 +56,13 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict:
             "making": made, "seconds": time.perf_counter() - started}
 
 
-def shortened(answer: dict) -> dict:
+def shortened(answer: dict[str, Any]) -> dict[str, Any]:
     keys = ("verdict", "effects", "confusable", "alternatives", "captured", "held_out", "p_screen", "p_localise", "warnings", "reason",
             "error", "times", "calls")
     return {k: answer[k] for k in keys if k in answer} | {"rejected": answer.get("rejected", [])[:4]}
 
 
-def results_of(tasks: list[Task], folder: Path, keep: bool, peers: set[int], jobs: int, scheduler: str) -> Iterator[dict]:
+def results_of(tasks: list[Task], folder: Path, keep: bool, peers: Set[int], jobs: int, scheduler: str) -> Iterator[dict[str, Any]]:
     """Results as they come."""
     if scheduler:
         from dask.distributed import Client, as_completed
@@ -83,8 +84,8 @@ def commit() -> str:
     return found.stdout.strip() or "unknown"
 
 
-def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: set[int] = frozenset(), jobs: int = -1, scheduler: str = "",
-          quiet: bool = False) -> dict[int, dict]:
+def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: Set[int] = frozenset(), jobs: int = -1, scheduler: str = "",
+          quiet: bool = False) -> dict[int, dict[str, Any]]:
     """Runs what is missing; returns all results by number."""
     folder.mkdir(parents=True, exist_ok=True)
     done = finished(folder)
@@ -106,7 +107,7 @@ def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: set[int] =
     return done
 
 
-def line_of(result: dict) -> str:
+def line_of(result: dict[str, Any]) -> str:
     if "not_made" in result:
         return f"{result['number']:5d} not made: {result['not_made'][:90]}"
     truth, answer = result["truth"], result["answer"]

@@ -1,7 +1,8 @@
 """What the answers are worth: figures of a trial against the unsealed truths."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from benchmarks.blind_trial.generator.make import LAWS
 
 NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
     "none", "one effect", "set", "several effects", "named but incomplete", "unknown", "crash")  # fmt: skip
+T = TypeVar("T")
 PLAIN = (ONE, SEVERAL)
 CHAIN = ("sensor_gain", "sensor_offset", "sensor_drift", "clock_slip", "encoder_eccentricity")
 
@@ -18,7 +20,7 @@ def effect_of(name: str) -> str:
     return name.partition(".")[0]
 
 
-def meant(law: dict) -> dict[str, float]:
+def meant(law: dict[str, Any]) -> dict[str, float]:
     """Parameters of the catalogue that mean the same as numbers of a hidden law, which are sealed."""
     truth = object.__new__(LAWS[law["law"]])
     truth.__dict__.update({k: np.asarray(v) if isinstance(v, list) else v for k, v in law["numbers"].items()})
@@ -28,19 +30,22 @@ def meant(law: dict) -> dict[str, float]:
 class Case:
     """One campaign: what was hidden and what was answered, by effect."""
 
-    def __init__(self, result: dict):
+    def __init__(self, result: dict[str, Any]):
         truth, answer = result["truth"], result["answer"]
         self.result, self.truth, self.answer = result, truth, answer
-        self.number, self.kind, self.size, self.strength = result["number"], truth["kind"], truth["size"], truth["strength"]
-        self.laws = [law["law"] for law in truth["laws"]]
-        self.effects = [e for e in truth["effects"] if e]
+        self.number: int = result["number"]
+        self.kind: str = truth["kind"]
+        self.size: str = truth["size"]
+        self.strength: float = truth["strength"]
+        self.laws: list[str] = [law["law"] for law in truth["laws"]]
+        self.effects: list[str] = [e for e in truth["effects"] if e]
         self.acceptable = set(truth["acceptable"]) | set(self.effects)
-        self.verdict = answer["verdict"]
+        self.verdict: str = answer["verdict"]
         self.names = list(dict.fromkeys(effect_of(e["name"]) for e in answer["effects"]))
         more = [effect_of(n) for n in answer.get("confusable", [])]
         more += [effect_of(n) for names in answer.get("alternatives", {}).values() for n in names]
         self.set = list(dict.fromkeys(self.names + more)) if self.verdict != NONE else []
-        self.seconds = answer["times"]["whole"]
+        self.seconds: float = answer["times"]["whole"]
 
     @property
     def first(self) -> bool:
@@ -85,7 +90,7 @@ class Case:
                         yield name, entry["interval"][0] <= value <= entry["interval"][1], self.verdict == ONE
 
 
-def share(cases: list, test: Callable) -> float | None:
+def share(cases: Sequence[T], test: Callable[[T], object]) -> float | None:
     return float(np.mean([bool(test(c)) for c in cases])) if cases else None
 
 
@@ -98,21 +103,21 @@ def wilson(k: float, n: int, z: float = 1.96) -> tuple[float, float]:
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def cases_of(results: dict[int, dict]) -> list[Case]:
+def cases_of(results: dict[int, dict[str, Any]]) -> list[Case]:
     return [Case(r) for _, r in sorted(results.items()) if "truth" in r]
 
 
-def score(results: dict[int, dict]) -> dict:
+def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
     """All figures as plain data."""
     cases = cases_of(results)
-    of = defaultdict(list)
+    of: dict[str, list[Case]] = defaultdict(list)
     for c in cases:
         of[c.kind].append(c)
     nulls, faults, outside, pairs = of["null"], of["fault"], of["outside"], of["pair"]
     single = [c for c in of["effect"] if c.size != "poor"]
     named_once = [c for c in cases if c.verdict == ONE and c.kind in ("effect", "wrong base")]
     strengths = sorted({c.strength for c in of["effect"]})
-    figures = {
+    figures: dict[str, Any] = {
         "campaigns": len(cases), "not_made": sum("not_made" in r for r in results.values()),
         "crashes": [(c.number, c.answer.get("error", "")) for c in cases if c.verdict == CRASH],
         "false_alarms": counted(nulls, lambda c: c.verdict != NONE),
@@ -123,7 +128,7 @@ def score(results: dict[int, dict]) -> dict:
         "one_name_is_right_all_kinds": counted([c for c in cases if c.verdict == ONE], lambda c: c.names[0] in c.acceptable),
         "first_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.first),
         "first_without_set": counted([c for c in single if c.strength >= 10 and c.verdict != SET], lambda c: c.first),
-        "held_out_worse": counted([c for c in single if c.strength >= 10 and c.held_out and c.names_something], lambda c: c.held_out[1] > c.held_out[0]),
+        "held_out_worse": counted([c for c in single if c.strength >= 10 and c.held_out and c.names_something], lambda c: c.held_out is not None and c.held_out[1] > c.held_out[0]),
         "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
         "set_holds_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.covered),
         "set_size": mean([len(c.set) for c in single if c.verdict in (ONE, SET) and c.strength >= 6]),
@@ -152,13 +157,13 @@ def score(results: dict[int, dict]) -> dict:
     return figures
 
 
-def counted(cases: list, test: Callable) -> dict:
+def counted(cases: Sequence[T], test: Callable[[T], object]) -> dict[str, Any]:
     """Share of cases that pass, with its 95 % interval."""
     k = sum(bool(test(c)) for c in cases)
     return {"share": k / len(cases) if cases else None, "of": len(cases), "count": k, "interval": wilson(k, len(cases))}
 
 
-def mean(values: list, how: Callable = np.mean) -> float | None:
+def mean(values: Sequence[float], how: Callable[[Sequence[float]], float] = np.mean) -> float | None:
     return float(how(values)) if values else None
 
 
@@ -166,9 +171,9 @@ def quantile(cases: list[Case], q: float) -> float | None:
     return mean([c.seconds for c in cases], lambda x: np.quantile(x, q))
 
 
-def confusion(cases: list[Case]) -> dict[str, Counter]:
+def confusion(cases: list[Case]) -> dict[str, Counter[str]]:
     """Hidden effect (or kind) against what was said: name, or verdict where none is given."""
-    table: dict[str, Counter] = defaultdict(Counter)
+    table: dict[str, Counter[str]] = defaultdict(Counter)
     for c in cases:
         if c.kind in ("pair", "wrong base"):
             continue
@@ -178,7 +183,7 @@ def confusion(cases: list[Case]) -> dict[str, Counter]:
     return dict(table)
 
 
-def calibration(cases: list[Case]) -> list[dict]:
+def calibration(cases: list[Case]) -> list[dict[str, Any]]:
     """Share of right first names by what the diagnosis says it captures; p-values of the screening on null data."""
     rows = []
     for low, high in ((0.0, 0.7), (0.7, 0.8), (0.8, 0.9), (0.9, 0.97), (0.97, 1.01)):

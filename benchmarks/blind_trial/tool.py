@@ -3,7 +3,9 @@
 import json
 import time
 import warnings
+from collections.abc import Hashable
 from pathlib import Path
+from typing import Any
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
@@ -12,11 +14,11 @@ from discrepancy.verdict import diagnose
 
 MODEL = "RV20E-121"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
-SHARED: dict = {}
+SHARED: dict[Hashable, object] = {}
 MOST_SHARED = 4_000
 
 
-def answer_of(folder: Path) -> dict:
+def answer_of(folder: Path) -> dict[str, Any]:
     """The diagnosis of one campaign as plain data, with times and whatever went wrong."""
     started = time.perf_counter()
     times = {}
@@ -36,5 +38,6 @@ def answer_of(folder: Path) -> dict:
     return {**answer, "times": times}
 
 
-def plain(tree: dict) -> dict:
-    return json.loads(json.dumps(tree, default=lambda x: x.tolist() if hasattr(x, "tolist") else float(x)))
+def plain(tree: dict[str, Any]) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(json.dumps(tree, default=lambda x: x.tolist() if hasattr(x, "tolist") else float(x)))
+    return found

@@ -1,25 +1,30 @@
 """Error against work of all methods on a stretch."""
 
 import math
+from collections.abc import Callable
+from typing import Any, get_args
 
 from benchmarks.integrators.methods import OURS
-from benchmarks.integrators.runs import REFERENCE, errors, with_alpha, with_method, with_scipy
+from benchmarks.integrators.runs import REFERENCE, Seen, Solver, errors, with_alpha, with_method, with_scipy
 from benchmarks.integrators.stretches import Stretch
 
+Row = dict[str, Any]
 LEVELS = (3e-2, 1e-2, 3e-3, 1e-3)
 
 
-def smallest(run, repeats):
+def smallest(run: Callable[[], Seen | None], repeats: int) -> Seen | None:
     """A run's result with the smallest time of several."""
-    results = [run() for _ in range(repeats)]
-    return min(results, key=lambda x: x[2]) if None not in results else None
+    results = [found for _ in range(repeats) if (found := run()) is not None]
+    return min(results, key=lambda x: x[2]) if len(results) == repeats else None
 
 
-def compare(stretch: Stretch, repeats: int):
-    reference, *_ = with_scipy(stretch, "Radau", REFERENCE)
-    rows = []
+def compare(stretch: Stretch, repeats: int) -> list[Row]:
+    found = with_scipy(stretch, "Radau", REFERENCE)
+    assert found is not None, "no reference"
+    reference = found[0]
+    rows: list[Row] = []
 
-    def add(name, tolerance, run, count):
+    def add(name: str, tolerance: float, run: Callable[[], Seen | None], count: int) -> None:
         result = smallest(run, count)
         if result is None:
             rows.append({"method": name, "tolerance": tolerance, "failed": True})
@@ -40,13 +45,13 @@ def compare(stretch: Stretch, repeats: int):
     for name, method in OURS.items():
         for tolerance in ladder:
             add(name, tolerance, lambda: with_method(stretch, method, tolerance), repeats)
-    for name in ("Radau", "BDF", "LSODA"):
+    for solver in get_args(Solver):
         for tolerance in (1.0, 1e-1, 1e-2, 1e-3):
-            add(f"SciPy {name}", tolerance, lambda: with_scipy(stretch, name, tolerance), 2)
+            add(f"SciPy {solver}", tolerance, lambda: with_scipy(stretch, solver, tolerance), 2)
     return rows
 
 
-def work_at(rows, method, error):
+def work_at(rows: list[Row], method: str, error: float) -> float:
     """Assemblies with which a method's force error comes down to ``error`` for good, read in logarithms.
 
     Where its loosest run suffices, that run's.  Each assembly costs the same in all methods of
@@ -57,12 +62,12 @@ def work_at(rows, method, error):
     if k == len(points):
         return math.nan
     if k == 0:
-        return points[0][0]
+        return float(points[0][0])
     (n0, e0), (n1, e1) = points[k - 1 : k + 1]
-    return n0 * (n1 / n0) ** (math.log(e0 / error) / math.log(e0 / e1))
+    return float(n0 * (n1 / n0) ** (math.log(e0 / error) / math.log(e0 / e1)))
 
 
-def show(rows):
+def show(rows: list[Row]) -> None:
     print(f"    {'method':22}{'tolerance':>10}{'force':>10}{'rms':>10}{'angle':>10}{'ms':>9}{'x real':>8}"
           f"{'assemb.':>9}{'factor.':>9}{'steps':>8}{'reject.':>8}")
     for r in rows:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from discrepancy.problem import Floats
+
 BDF2, DIRK, ROSENBROCK = range(3)
 NOT_USED = np.zeros((1, 1))
 
@@ -20,10 +22,10 @@ class Method:
     kind: int
     order: int
     gamma: float
-    a: np.ndarray
-    c: np.ndarray
-    b: np.ndarray
-    e: np.ndarray
+    a: Floats
+    c: Floats
+    b: Floats
+    e: Floats
 
 
 def tr_bdf2() -> Method:

@@ -1,20 +1,28 @@
 """A stretch gone through by the plant's own integrator, by a method of this folder, or by SciPy."""
 
+from collections.abc import Callable
 from time import thread_time
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from benchmarks.integrators.first_order import jacobian, rate_of_change
 from benchmarks.integrators.methods import Method
 from benchmarks.integrators.steps import advance_by
 from benchmarks.integrators.stretches import Stretch, observe
+from discrepancy.problem import Floats
 from rv_plant import plant
 
 REFERENCE = 1e-5
+Solver = Literal["Radau", "BDF", "LSODA"]
+# What was seen (rows as ``observe``), counts (assemblies, factorisations, steps, rejected), time [s].
+Seen = tuple[Floats, npt.NDArray[np.int64], float]
 
 
-def with_alpha(stretch: Stretch, tolerance: float, radius: float = 0.5, observing=observe):
+def with_alpha(stretch: Stretch, tolerance: float, radius: float = 0.5,
+               observing: Callable[[np.ndarray], Floats] = observe) -> Seen | None:  # fmt: skip
     """The plant's own integrator: what was seen, and counts."""
     records = stretch.start.copy()
     records["dynamic_tolerance"], records["spectral_radius"] = tolerance, radius
@@ -32,7 +40,7 @@ def with_alpha(stretch: Stretch, tolerance: float, radius: float = 0.5, observin
     return np.array(seen), counts, spent
 
 
-def with_method(stretch: Stretch, method: Method, tolerance: float):
+def with_method(stretch: Stretch, method: Method, tolerance: float) -> Seen | None:
     records = stretch.start.copy()
     records["dynamic_tolerance"] = tolerance
     n = records["q"].shape[1]
@@ -49,7 +57,7 @@ def with_method(stretch: Stretch, method: Method, tolerance: float):
     return np.array(seen), counts, spent
 
 
-def with_scipy(stretch: Stretch, name: str, tolerance: float):
+def with_scipy(stretch: Stretch, name: Solver, tolerance: float) -> Seen | None:
     """SciPy's solver from communication point to communication point."""
     records = stretch.start.copy()
     r = records[0]
@@ -59,11 +67,11 @@ def with_scipy(stretch: Stretch, name: str, tolerance: float):
     small = tolerance * np.concatenate([r["length_scale"], 2e4 * r["length_scale"], [1e-4]])
     dy, matrix, counts, seen, spent = np.zeros(2 * n + 1), np.zeros((2 * n + 1, 2 * n + 1)), np.zeros(4, int), [], 0.0
 
-    def right_hand_side(_, y):
+    def right_hand_side(_: float, y: Floats) -> Floats:
         rate_of_change(records, y, dy)
         return dy.copy()
 
-    def tangent(_, y):
+    def tangent(_: float, y: Floats) -> Floats:
         jacobian(records, y, matrix)
         return matrix.copy()
 
@@ -82,7 +90,7 @@ def with_scipy(stretch: Stretch, name: str, tolerance: float):
     return np.array(seen), counts, spent
 
 
-def errors(seen, reference):
+def errors(seen: Floats, reference: Floats) -> tuple[float, float, float]:
     """Largest and root mean square error of the forces over the largest force; largest of the output angle [arcsec]."""
     scale = reference[:, :-1].max()
     away = seen - reference

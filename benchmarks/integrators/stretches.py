@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.numba_peer import njit
+from discrepancy.problem import Floats
+from fmu_src.variables import Table
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion
 
@@ -17,11 +19,11 @@ class Stretch:
     """Where a motion starts, and load torque and duration of each communication step."""
 
     start: np.ndarray
-    loads: np.ndarray
+    loads: Floats
     step: float
 
 
-def rated(table) -> Stretch:
+def rated(table: Table) -> Stretch:
     records, turn = begin(table)
     step = turn / 72
     for _ in range(72):
@@ -29,7 +31,7 @@ def rated(table) -> Stretch:
     return Stretch(records, np.full(18, float(records["load_torque"][0])), step)
 
 
-def reversal(table) -> Stretch:
+def reversal(table: Table) -> Stretch:
     records, _ = begin(table, backlash=10e-6, first_stage_compliance=1e-8)
     for _ in range(20):
         assert plant.step(records, 0.0, 1e-3) == 0
@@ -37,7 +39,7 @@ def reversal(table) -> Stretch:
     return Stretch(records, loads, 5e-4)
 
 
-def begin(table, **values):
+def begin(table: Table, **values: float) -> tuple[np.ndarray, float]:
     records = table.new_records()
     values = {"fidelity": 1, "drive": 1, "sun_inertia": FLYWHEEL, "dynamic_tolerance": 1e-4, **values}
     for name, value in values.items():
@@ -49,12 +51,12 @@ def begin(table, **values):
 
 
 @njit
-def contact_forces(records):
+def contact_forces(records: np.ndarray) -> None:
     """Forces at the present state."""
     assemble_motion(records[0], 1.0)
 
 
-def observe(records):
+def observe(records: np.ndarray) -> Floats:
     contact_forces(records)
     r = records[0]
     return np.concatenate([r["mesh_force_now"].ravel(), r["roller_force_now"].ravel(), r["q"][-1:]])

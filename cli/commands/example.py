@@ -26,7 +26,7 @@ EXAMPLES = {
 # Where a copy goes, so that every command in README, docs and the examples themselves finds it.
 TARGET = Path("examples")
 ROOT = Path(__file__).resolve().parents[2]
-LITTER = shutil.ignore_patterns("__pycache__")
+LITTER = "__pycache__"
 
 
 def add_commands(sub: argparse._SubParsersAction) -> None:
@@ -80,9 +80,10 @@ def copy(name: str) -> Path:
     source, target = shipped() / found[0], TARGET / found[0]
     if target.exists():
         raise InputFault(f"{target} exists already and is not overwritten; move it away, or go to another folder")
-    TARGET.mkdir(exist_ok=True)
-    if source.is_dir():
-        shutil.copytree(source, target, ignore=LITTER)
-    else:
-        shutil.copyfile(source, target)
+    files = sorted(path for path in source.rglob("*") if path.is_file() and LITTER not in path.parts) if source.is_dir() else [source]
+    for path in files:
+        place = target / path.relative_to(source)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        # The contents alone: an installation may be read-only, a copy is to be worked on.
+        shutil.copyfile(path, place)
     return target

@@ -164,7 +164,7 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) ->
 def dynamics_wear(options: argparse.Namespace) -> int:
     """``rvwear dynamics-wear``: wear of both fidelities, and where they differ."""
     from cli import screen
-    from cli.show.life import show_dynamics
+    from cli.show.dynamics import show_dynamics
     from reducers.reducer import load_reducer
     from studies.dynamics_wear import as_json, compare
     from studies.report.dynamics import write_dynamics_page

@@ -85,7 +85,7 @@ def hysteresis(options: argparse.Namespace) -> int:
 def modes(options: argparse.Namespace) -> int:
     """``rvwear modes``: natural frequencies about the loaded equilibrium."""
     from cli import screen
-    from cli.show.life import show_modes
+    from cli.show.modes import show_modes
     from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 

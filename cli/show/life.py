@@ -1,12 +1,10 @@
-"""Lives, modes and wear in motion on the screen."""
+"""Lives on the screen."""
 
 import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
-from studies.dynamics_wear import MAPS, VOLUMES, Comparison
 from studies.life import Life
-from studies.modes import Mode
 
 
 def jump_line(life: Life) -> str:
@@ -40,30 +38,3 @@ def life_table(dataset: xr.Dataset) -> None:
         table.add_row(f"{hours:.0f}", *cells)
     # Wide enough for all columns, also where the output goes to a file.
     Console(width=max(Console().width, 130)).print(table)
-
-
-def show_modes(title: str, found: list[Mode]) -> None:
-    """Frequency, damping and the bodies that move."""
-    table = Table(title=title, title_justify="left")
-    for head in ("frequency Hz", "damping %", "kinetic energy in"):
-        table.add_column(head, justify="left" if "energy" in head else "right")
-    for mode in found:
-        shares = sorted(mode.energy_share.items(), key=lambda item: -item[1])
-        bodies = ", ".join(f"{body} {100 * share:.0f} %" for body, share in shares if share > 0.02)
-        table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", bodies)
-    Console().print(table)
-
-
-def show_dynamics(found: Comparison) -> None:
-    """Change of wear by dynamics at each operating point, in percent."""
-    title = f"{found.reducer}: wear in motion against equilibria, {found.hours:g} h, lowest mode {found.lowest_mode_Hz:.1f} Hz"
-    table = Table(title=title, title_justify="left")
-    table.add_column("point")
-    heads = [name.replace("_", " ") + " %" for name in VOLUMES] + [f"{label} profile %" for label in MAPS.values()]
-    for head in ("teeth pass Hz", *heads, "dynamics"):
-        table.add_column(head, justify="right")
-    for p in found.points:
-        cells = [f"{v:+.2f}" for v in p.volume_change.values()] + [f"{v:.2f}" for v in p.map_difference.values()]
-        table.add_row(p.name, f"{p.passing_Hz:.1f}", *cells, "matters" if p.largest > found.limit else "no matter")
-    Console(width=max(Console().width, 130)).print(table)
-    print(found.sentence())

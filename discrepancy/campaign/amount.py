@@ -1,5 +1,7 @@
 """Numbers with units as a campaign file states them."""
 
+from typing import TypeGuard
+
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.settings import NUMBER
@@ -19,7 +21,7 @@ def to_si(unit: str, target: str, place: str) -> tuple[float, float]:
         raise InputFault(f"{place}: {problem}") from None
 
 
-def split(given, target: str, place: str) -> tuple[float, str]:
+def split(given: object, target: str, place: str) -> tuple[float, str]:
     """Number and unit of ``"15 rpm"`` or ``{ value = 15, unit = "rpm" }``."""
     if isinstance(given, dict) and given.keys() == {"value", "unit"} and is_number(given["value"]):
         return float(given["value"]), str(given["unit"])
@@ -34,11 +36,11 @@ def split(given, target: str, place: str) -> tuple[float, str]:
     )
 
 
-def is_number(value) -> bool:
+def is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def amount(given, target: str, place: str) -> float:
+def amount(given: object, target: str, place: str) -> float:
     """The stated number in the unit ``target``; finite."""
     number, unit = split(given, target, place)
     factor, offset = to_si(unit, target, f"{place} = {number:g} {unit}")

@@ -1,6 +1,7 @@
 """What is missing in a campaign, and which effects it cannot tell apart."""
 
 from dataclasses import asdict, dataclass
+from typing import Any
 
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import PROBLEM, SEARCHES, WARNING, Finding
@@ -15,13 +16,13 @@ class Check:
     campaign: Campaign
     findings: tuple[Finding, ...]
     pairs: tuple[Verdict, ...]
-    summary: tuple[dict, ...]
+    summary: tuple[dict[str, Any], ...]
 
     @property
     def problems(self) -> list[Finding]:
         return [finding for finding in self.findings if finding.level == PROBLEM]
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         return {
             "campaign": self.campaign.name,
             "folder": str(self.campaign.folder),
@@ -45,7 +46,7 @@ def check_campaign(campaign: Campaign) -> Check:
     return Check(campaign, tuple(findings), verdicts, tuple(summarise(design, q) for q in campaign.quantities))
 
 
-def summarise(design: Design, quantity: str) -> dict:
+def summarise(design: Design, quantity: str) -> dict[str, Any]:
     """One row of the overview."""
     records = design.campaign.of(quantity)
     return {

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 
 # Two numbers nearer than this are one level: a share of the largest, or for temperatures an absolute difference.
 SAME_SHARE = 0.03
@@ -62,11 +62,11 @@ class Design:
 
     def replicates(self, quantity: str) -> dict[str, int]:
         """By condition, the runs that repeat each other most often."""
-        counts: Counter = Counter(
-            (r.condition, r.mounting, r.factors["direction"], *sorted(r.tags.items())) for r in self.of(quantity)
+        counts = Counter(
+            (r.condition, (r.mounting, r.factors["direction"], *sorted(r.tags.items()))) for r in self.of(quantity)
         )
         best: dict[str, int] = {}
-        for (condition, *_), count in counts.items():
+        for (condition, _), count in counts.items():
             best[condition] = max(best.get(condition, 0), count)
         return best
 
@@ -110,7 +110,7 @@ class Design:
         return found
 
 
-def values_of(record: Record, factor: str) -> np.ndarray:
+def values_of(record: Record, factor: str) -> Floats:
     """A record's values of a factor: row by row, one, or none."""
     if factor in record.axes:
         return record.axes[factor]
@@ -141,7 +141,7 @@ def highest_order(record: Record) -> float:
     return 0.5 * (len(record.values) - 1) / span if span > 0.0 else 0.0
 
 
-def worst_gap(axis: np.ndarray) -> float:
+def worst_gap(axis: Floats) -> float:
     """Largest step of an axis over its median step."""
     steps = np.abs(np.diff(axis))
     steps = steps[steps > 0.0]

@@ -5,6 +5,7 @@
 writes them anew below the mark in the page.
 """
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from discrepancy.campaign.pairs import PAIRS
@@ -14,12 +15,12 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "campaigns.md"
 MARK = "<!-- From here on made by: python -m discrepancy.campaign.documentation -->\n"
 
 
-def table(heads: tuple[str, ...], rows: list[tuple]) -> str:
-    lines = [heads, ("---",) * len(heads), *rows]
+def table(heads: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    lines: list[Sequence[object]] = [heads, ("---",) * len(heads), *rows]
     return "\n".join(f"| {' | '.join(str(cell).replace('|', '/') for cell in line)} |" for line in lines) + "\n"
 
 
-def code(names) -> str:
+def code(names: Iterable[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 

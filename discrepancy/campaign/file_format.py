@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError, field_validator
+from pydantic import Field, ValidationError, ValidationInfo, field_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
 from fmu_src.faults import InputFault
@@ -147,7 +147,7 @@ class RigEntry(Strict):
 
     @field_validator("quantities", "interventions")
     @classmethod
-    def known(cls, names: list[str], info) -> list[str]:
+    def known(cls, names: list[str], info: ValidationInfo) -> list[str]:
         known = QUANTITIES if info.field_name == "quantities" else INTERVENTIONS
         for name in names:
             if name not in known:
@@ -169,7 +169,7 @@ def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
     if not path.is_file():
         raise InputFault(f"no campaign file at {path}; rvwear campaign template FOLDER writes one")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         content = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}; see docs/campaigns.md") from None
@@ -180,7 +180,7 @@ def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
         raise InputFault(f"{path}: {describe(problem, content)}; see docs/campaigns.md") from None
 
 
-def lay_out(content: dict, path: Path) -> None:
+def lay_out(content: dict[str, Any], path: Path) -> None:
     """Fill each run from the layout that it names; what the run states itself wins."""
     layouts = content.pop("layouts", {})
     runs = content.get("runs", [])
@@ -200,7 +200,7 @@ def lay_out(content: dict, path: Path) -> None:
         runs[i] = layouts[name] | run
 
 
-def describe(problem: ValidationError, content: dict) -> str:
+def describe(problem: ValidationError, content: dict[str, Any]) -> str:
     """Key, value and remedy of the first fault."""
     first = problem.errors()[0]
     location, kind = first["loc"], first["type"]
@@ -217,12 +217,13 @@ def describe(problem: ValidationError, content: dict) -> str:
     return f"{place} = {first['input']!r}: {message}"
 
 
-def key_path(location: tuple, content: dict) -> str:
+def key_path(location: tuple[int | str, ...], content: dict[str, Any]) -> str:
     """The place as written in the file, runs counted from 1 and with their id.
 
     pydantic also names the members of a union; they are no keys of the file and are left out.
     """
-    place, item = "", content
+    place = ""
+    item: Any = content
     for part in location:
         if isinstance(item, list) and isinstance(part, int):
             item = item[part]
@@ -234,7 +235,7 @@ def key_path(location: tuple, content: dict) -> str:
 
 
 # The keys below a key, for the hints of ``describe``.
-SECTIONS = {
+SECTIONS: dict[str, type[Strict]] = {
     "campaign": Head, "conditions": ConditionEntry, "runs": Run, "nuisances": NuisanceEntry, "rig": RigEntry,
     "columns": Column, "table": Inline, "average": Average, "where": Range,
 }  # fmt: skip

@@ -52,20 +52,21 @@ class Files:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        self.read: dict[tuple, Series] = {}
+        self.read: dict[tuple[str, Options, frozenset[str]], Series] = {}
 
-    def columns(self, run: Run, place: str) -> Series:
+    def columns(self, file: str, run: Run, place: str) -> Series:
         options = Options(**{name: getattr(run, name) for name in Options.__dataclass_fields__})
         names = frozenset(str(column.column) for column in run.columns.values()) | frozenset(run.where)
-        key = (run.file, options, names)
+        key = (file, options, names)
         if key not in self.read:
-            self.read[key] = read_columns(self.folder / run.file, set(names), options, place)
+            self.read[key] = read_columns(self.folder / file, set(names), options, place)
         return self.read[key]
 
 
 def require_distinct(runs: list[Run], conditions: dict[str, Condition], places: list[str]) -> None:
     """Every run is named once, belongs to a condition, and repeats no replicate."""
-    ids, replicates = {}, {}
+    ids: dict[str, str] = {}
+    replicates: dict[tuple[object, ...], str] = {}
     for run, place in zip(runs, places):
         if run.id in ids:
             raise InputFault(f"{place}: id = {run.id!r} is used twice, first in {ids[run.id]}; give every run its own")
@@ -109,7 +110,7 @@ def measured(run: Run, scales: Scales, files: Files, place: str) -> tuple[Series
     kind = "columns" if run.file is not None else "table"
     require_roles(list(stated), quantity, f"{place}.{kind}")
     if run.file is not None:
-        return series_of(run, roles, files.columns(run, place), scales, place)
+        return series_of(run, roles, files.columns(run.file, run, place), scales, place)
     series = {}
     for role, entry in run.table.items():
         factor, offset = scales.conversion(roles[role], entry.unit, f"{place}.table.{role}.unit = {entry.unit!r}")
@@ -140,7 +141,7 @@ def require_roles(given: list[str], quantity: Quantity, place: str) -> None:
 def record_of(run: Run, condition: Condition, series: Series, scales: Scales, place: str) -> Record:
     quantity = QUANTITIES[run.quantity]
     # What a row says of itself is nearer to the truth than the condition's nominal number.
-    factors = condition.factors | scales.factors(run.actual, f"{place}.actual")
+    factors = dict(condition.factors) | scales.factors(run.actual, f"{place}.actual")
     factors = {name: number for name, number in factors.items() if name not in series}
     if run.direction is not None:
         factors["direction"] = float(DIRECTIONS[run.direction])

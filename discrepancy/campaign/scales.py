@@ -1,5 +1,6 @@
 """From what the file states to the records' SI numbers: units, the reducer's ratio, shares of the rated torque."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,7 +37,7 @@ class Scales:
             factor, offset = scale * factor, scale * offset
         return factor, offset
 
-    def number(self, key: Key, given, place: str) -> float:
+    def number(self, key: Key, given: object, place: str) -> float:
         """One stated number; checked against what physics allows."""
         example_unit = key.example.split()[-1]
         number, unit = split(given, example_unit, place)
@@ -48,7 +49,7 @@ class Scales:
             raise InputFault(f"{place} = {number:g} {unit}: a finite number{lowest} is needed{hint}")
         return value
 
-    def factors(self, stated: dict, place: str) -> dict[str, float]:
+    def factors(self, stated: Mapping[str, object], place: str) -> dict[str, float]:
         """The factors that a condition or a run states, by name."""
         found: dict[str, float] = {}
         for name, given in stated.items():

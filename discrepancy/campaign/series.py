@@ -1,5 +1,7 @@
 """From a file's columns to the arrays of a record: select, convert, drop what is missing, average."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import pandas as pd
 
@@ -50,7 +52,7 @@ def complete(series: Series, run: Run, selected: int, place: str) -> tuple[Serie
     return series, Rows(selected, selected - int(whole.sum()), len(series[VALUE]))
 
 
-def selection(where: dict, columns: Series, place: str) -> np.ndarray:
+def selection(where: Mapping[str, float | str | Range], columns: Series, place: str) -> np.ndarray:
     """Rows that meet all conditions of ``where``, in the file's own units."""
     kept = np.ones(len(next(iter(columns.values()))), bool)
     if not len(kept):
@@ -72,7 +74,7 @@ def selection(where: dict, columns: Series, place: str) -> np.ndarray:
     return kept
 
 
-def numbers(column: np.ndarray, entry: Column, missing: list, place: str) -> np.ndarray:
+def numbers(column: np.ndarray, entry: Column, missing: Sequence[float | str], place: str) -> np.ndarray:
     """Floats in the file's unit; NaN where nothing was measured.
 
     A start is taken off in the file's own type: a clock in ns since 1970 would lose its last
@@ -94,7 +96,7 @@ def numbers(column: np.ndarray, entry: Column, missing: list, place: str) -> np.
     return values
 
 
-def from_text(column: np.ndarray, entry: Column, missing: list, place: str) -> np.ndarray:
+def from_text(column: np.ndarray, entry: Column, missing: Sequence[float | str], place: str) -> np.ndarray:
     """Numbers out of a column in which some cell is a text."""
     texts = pd.Series(column)
     values = pd.to_numeric(texts, errors="coerce")

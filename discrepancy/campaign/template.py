@@ -98,7 +98,7 @@ def write_template(
     return [folder / FILE, *files]
 
 
-def campaign_text(name: str, quantities: tuple[str, ...], runs: list, kind: str, reducer: str) -> str:
+def campaign_text(name: str, quantities: tuple[str, ...], runs: list[tuple[Quantity, str, int]], kind: str, reducer: str) -> str:
     tribology = any("normal_force" in QUANTITIES[q].factors for q in quantities)
     name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in name).lstrip(" ._-") or "campaign"
     parts = [HEAD.format(name=name, reducer=reducer, pin_on_disc=PIN_ON_DISC if tribology else "")]

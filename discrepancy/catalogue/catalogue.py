@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from discrepancy.catalogue.examples import Case, cases, part_of
 from discrepancy.effects import EFFECTS as CHAIN
@@ -24,7 +25,7 @@ class Entry:
         """Its number in the physics audit; the measuring chain's own have none."""
         return str(self.effect.number) if self.effect.number else "-"
 
-    def as_json(self) -> dict:
+    def as_json(self) -> dict[str, Any]:
         e = self.effect
         return {
             "name": self.name, "number": e.number, "title": e.title, "part": self.part, "law": e.law, "source": e.source,
@@ -32,7 +33,7 @@ class Entry:
         }  # fmt: skip
 
 
-def parameter_json(p: EffectParameter) -> dict:
+def parameter_json(p: EffectParameter) -> dict[str, Any]:
     v = p.variable
     return {
         "name": v.name, "kind": p.kind, "unit": v.unit, "off": float(v.start), "minimum": v.minimum, "maximum": v.maximum,

@@ -135,7 +135,7 @@ def computed_part(entry: Entry, found: list[Signature]) -> str:
 
 def wear_table(s: Signature) -> str:
     """Depth with over depth without the effect, by condition and surface."""
-    rows = {}
+    rows: dict[str, list[str]] = {}
     for r in s.rows:
         if r.figure.endswith(DEPTH):
             rows.setdefault(r.condition, []).append(f"{r.present / r.without:.2f}")

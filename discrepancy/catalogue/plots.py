@@ -1,7 +1,7 @@
 """The picture of an effect's signature: the quantity that shows it best, without it and with each of its cases."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,8 @@ from discrepancy.catalogue.signature import (
     ARCSEC, MICRO, ORDERS, SURFACES, amplitudes, cage_order, changed, conditions, observed, rated, turn, worn,
 )
 from discrepancy.effects import MODULES
-from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.problem import Floats
 from pages import look
 from pages.look import Figure
 from pages.charts import COLOURS, Curve, chart
@@ -57,7 +58,7 @@ def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     return Figure(name, "Orders of the transmission error", "Rated speed and load, one turn of the output.", data, layout, 12, 320)
 
 
-def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tuple[np.ndarray, np.ndarray]]) -> list[Curve]:
+def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tuple[Floats, Floats]]) -> list[Curve]:
     """One curve per version; grey is the reducer without the effect."""
     found = []
     for i, (label, values) in enumerate(versions(name, cases)):
@@ -76,7 +77,7 @@ def loop(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 def torque(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at, shares = rated(bench), np.geomspace(0.01, 2.0, 24)
 
-    def against_speed(values):
+    def against_speed(values: Values) -> tuple[Floats, Floats]:
         found = [observed(bench, "input_torque", replace(at, speed=s * at.speed), values) for s in shares]
         return shares * at.speed * 30.0 / math.pi, np.array(found)
 
@@ -87,16 +88,19 @@ def torque(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 def cage(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at, shares = rated(bench), np.linspace(0.02, 1.5, 24)
 
-    def against_load(values):
+    def against_load(values: Values) -> tuple[Floats, Floats]:
         return shares * at.load, np.array([cage_order(bench, replace(at, load=s * at.load), values) for s in shares])
 
     return chart(name, "Order of the roller cages", "Turns against the disc per turn of the output.",
                  curves_of(name, cases, against_load), "load [N m]", "order", 12, 320)
 
 
-def wear_against(bench, name, cases, what, title, x_title, places, condition, scale):
+def wear_against(
+    bench: Bench, name: str, cases: tuple[Case, ...], what: str, title: str, x_title: str, places: Sequence[float],
+    condition: Callable[[float], Condition], scale: float,
+) -> Figure:  # fmt: skip
     """Deepest wear of the surface that changes most, over a setting of the bench."""
-    def all_depths(values):
+    def all_depths(values: Values) -> dict[str, Floats]:
         return {s: np.array([worn(bench, condition(p), values)[s] for p in places]) for s in SURFACES}
 
     found = [(label, all_depths(v)) for label, v in versions(name, cases)]
@@ -124,7 +128,7 @@ def speed_wear(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 def hours(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at, times = rated(bench), np.array([100.0, 200.0, 400.0, 700.0, 1000.0, 2000.0, 3000.0, 4000.0, 5000.0])
 
-    def over_time(values):
+    def over_time(values: Values) -> tuple[Floats, Floats]:
         found = [sum(worn(bench, at, values, float(h))[s] for s in ("inner_race", "outer_race")) for h in times]
         return np.append(0.0, times), np.append(0.0, found)
 
@@ -133,7 +137,7 @@ def hours(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 
 
 def pin_print(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
-    def around(values):
+    def around(values: Values) -> tuple[Floats, Floats]:
         w = bench.worn(rated(bench), values, 1000.0 * HOUR)[0]
         both = (w["pin_wear"] + w["pin_even_wear"][..., None]).sum(axis=0).mean(axis=0)
         return (np.arange(len(both)) + 0.5) / len(both) * 180.0 - 90.0, both * MICRO
@@ -145,7 +149,7 @@ def pin_print(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 def housing(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at, shares = rated(bench), np.linspace(0.1, 2.0, 12)
 
-    def against_speed(values):
+    def against_speed(values: Values) -> tuple[Floats, Floats]:
         found = [amplitudes(turn(bench, replace(at, speed=s * at.speed), values, "housing_force_x"))[39] for s in shares]
         return shares * at.speed * 30.0 / math.pi, np.array(found)
 
@@ -154,7 +158,7 @@ def housing(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
 
 
 def burst(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
-    def short(values):
+    def short(values: Values) -> tuple[Floats, Floats]:
         force = turn(bench, rated(bench), values, "housing_force_x")
         part = len(force) // 13
         return np.arange(part) / len(force) * 360.0, force[:part]

@@ -15,7 +15,7 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench, Condition
 from discrepancy.prediction.observe import OBSERVED
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 from reducers.reducer import load_reducer
 from studies.coupled import COLUMNS
 from studies.life import peak_of_circle
@@ -82,18 +82,18 @@ def conditions(bench: Bench) -> dict[str, Condition]:
     }  # fmt: skip
 
 
-def turn(bench: Bench, condition: Condition, values: Mapping[str, float], column: str = "transmission_error") -> np.ndarray:
+def turn(bench: Bench, condition: Condition, values: Mapping[str, float], column: str = "transmission_error") -> Floats:
     """One turn of the output, SAMPLES long."""
     angles = np.linspace(0.0, 2.0 * math.pi, SAMPLES, endpoint=False)
     return bench.running(condition, values, angles)[:, COLUMNS.index(column)]
 
 
-def amplitudes(series: np.ndarray) -> np.ndarray:
+def amplitudes(series: Floats) -> Floats:
     """Amplitude of every order of a series over one whole turn."""
     return 2.0 * np.abs(np.fft.rfft(series)) / len(series)
 
 
-def record_of(quantity: str, condition: Condition, axes: Mapping[str, np.ndarray] | None = None, **tags: str) -> Record:
+def record_of(quantity: str, condition: Condition, axes: Mapping[str, Floats] | None = None, **tags: str) -> Record:
     """A record to be predicted at a condition."""
     axes = axes or {}
     count = max((len(a) for a in axes.values()), default=1)
@@ -127,7 +127,7 @@ def cage_order(bench: Bench, condition: Condition, values: Mapping[str, float]) 
     return observed(bench, "cage_speed", condition, values) * abs(bench.ratio) / condition.speed
 
 
-def depths(wear: np.ndarray) -> dict[str, float]:
+def depths(wear: Floats) -> dict[str, float]:
     """Deepest wear [m] of each kind of surface: the worst disc's mean lobe, the mean pin, the worst race."""
     w = wear[0]
     discs = w["disc_wear"].shape[0]
@@ -147,7 +147,7 @@ def worn(bench: Bench, condition: Condition, values: Mapping[str, float], hours:
 
 
 # figure: (unit, conditions, factor to the unit, function).
-FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable]] = {
+FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable[[Bench, Condition, Mapping[str, float]], float]]] = {
     "lost motion": ("arcsec", ("rated", "40 K warmer"), ARCSEC, lambda b, c, v: observed(b, "lost_motion", c, v)),
     "loop width at half torque": ("arcsec", ("rated",), ARCSEC, loop_width),
     "stiffness": ("N m/arcmin", ("rated", "40 K warmer"), 60.0 / ARCSEC, lambda b, c, v: observed(b, "torsional_stiffness", c, v)),
@@ -195,7 +195,7 @@ def spectrum_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, 
     return rows
 
 
-def wear_rows(bench: Bench, base, values, everywhere: bool) -> list[Row]:
+def wear_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, float], everywhere: bool) -> list[Row]:
     """Depths after as many turns; for effects of the wear unit at all conditions and with time."""
     at, rows = conditions(bench), []
     for c in ("rated", *(WEAR_AT if everywhere else ())):
@@ -224,13 +224,13 @@ def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
     return rows
 
 
-def changed(name: str, case: Case, quantity: str, condition: Condition, series: np.ndarray) -> np.ndarray:
+def changed(name: str, case: Case, quantity: str, condition: Condition, series: Floats) -> Floats:
     """A series over one turn as the sensor shows it."""
     record = record_of(quantity, condition, {"angle": np.linspace(0.0, 2.0 * math.pi, len(series), endpoint=False)})
     return MODULES[name].change(series, record, lambda p: case.values.get(p, 0.0), max(abs(series.mean()), series.std()))
 
 
-def tilt(series: np.ndarray) -> float:
+def tilt(series: Floats) -> float:
     """Rise of the straight line through a series, end over start."""
     return float(np.polyfit(np.linspace(0.0, 1.0, len(series)), series, 1)[0])
 

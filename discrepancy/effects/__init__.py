@@ -6,8 +6,22 @@ its name exists once per quantity (or mounting, where its ``per`` says so).
 parameter's present value for the record.  They act in the order of STAGES.
 """
 
+from collections.abc import Callable
+from typing import Protocol, cast
+
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, effect_modules
 
+
+class ChainModule(Protocol):
+    """A file of this folder."""
+
+    PER: str
+    EFFECT: Effect
+
+    def change(self, values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats: ...
+
+
 STAGES = ("clock_slip", "encoder_eccentricity", "sensor_gain", "sensor_offset", "sensor_drift")
-MODULES = {name: effect_modules(__name__)[name] for name in STAGES}
+MODULES = {name: cast(ChainModule, effect_modules(__name__)[name]) for name in STAGES}
 EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in MODULES.items()}

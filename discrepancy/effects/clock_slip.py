@@ -3,8 +3,11 @@
 Source: free-running sample clocks, 10 to 1000 ppm; lost encoder pulses.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, amplitude
 
 PER = "campaign"
@@ -16,7 +19,7 @@ EFFECT = Effect(
 )
 
 
-def change(values, record, at, size):
+def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
     slip = at("clock_slip")
     name = next((n for n in ("angle", "time") if n in record.axes), None)
     if slip == 0.0 or name is None or len(values) < 3:

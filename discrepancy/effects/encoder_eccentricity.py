@@ -7,8 +7,11 @@ An eccentricity eps on a graduation of diameter D gives 2 eps/D at order 1.
 Source: encoder data sheets; 5 um on 50 mm: 20 to 40 arcsec.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, amplitude
 
 PER = "mounting"
@@ -21,7 +24,7 @@ EFFECT = Effect(
 )  # fmt: skip
 
 
-def change(values, record, at, size):
+def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
     if record.quantity != "transmission_error" or "angle" not in record.axes:
         return values
     angle = np.asarray(record.axes["angle"])

@@ -3,8 +3,11 @@
 Source: warming amplifiers.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, amplitude
 
 PER = "quantity"
@@ -14,6 +17,6 @@ EFFECT = Effect(
 )
 
 
-def change(values, record, at, size):
+def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
     n = len(values)
     return values + at("sensor_drift") * size * ((np.arange(n) + 0.5) / n - 0.5) if n > 1 else values

@@ -3,6 +3,9 @@
 Source: data sheets; a percent or so.
 """
 
+from collections.abc import Callable
+
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, amplitude
 
 PER = "quantity"
@@ -12,5 +15,5 @@ EFFECT = Effect(
 )
 
 
-def change(values, record, at, size):
+def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
     return values * (1.0 + at("sensor_gain"))

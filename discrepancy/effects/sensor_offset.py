@@ -3,6 +3,9 @@
 Source: data sheets; a percent or so of the range.
 """
 
+from collections.abc import Callable
+
+from discrepancy.problem import Floats, Record
 from fmu_src.effect import Effect, amplitude
 
 PER = "quantity"
@@ -13,5 +16,5 @@ EFFECT = Effect(
 )
 
 
-def change(values, record, at, size):
+def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
     return values + at("sensor_offset") * size

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +14,9 @@ from discrepancy.inference.misfit.localise import Localisation, Localiser
 from discrepancy.inference.refit.confusable import canonical_correlation, confusable_set, penalised
 from discrepancy.inference.refit.effect_fit import renew
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
-from discrepancy.inference.screening.screen import Score, candidate_columns, joint_gain, screen
-from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Settings, decide
-from discrepancy.problem import Model
+from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
+from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Fits, Settings, decide
+from discrepancy.problem import Candidate, Model
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
@@ -62,7 +63,7 @@ class Diagnostician:
         self.localisation = self.localiser.test(self.space.base, self.settings.localise_level)
         return self.localisation
 
-    def screened(self):
+    def screened(self) -> Screen:
         """Score tests of all candidates against the base fit."""
         self.columns = candidate_columns(self.space, self.candidates, self.space.base.values)
         self.screening = screen(self.space, self.candidates, self.columns, self.space.base, self.settings.seed, self.settings.draws)
@@ -146,11 +147,11 @@ class Diagnostician:
         return joint
 
     # judgement ----------------------------------------------------------------------------
-    def leftover(self, result: Refit) -> tuple[bool, float, dict, float]:
+    def leftover(self, result: Refit) -> tuple[bool, float, dict[str, Any], float]:
         """Whether ``result`` leaves a significant misfit, its size, what it is, and its inflation."""
         local = self.localiser.test(result.fit, self.settings.leftover_level)
         shape = lack_of_fit(self.space, result)
-        worst = {}
+        worst: dict[str, float] = {}
         inflation = 1.0
         for g in local.findings:
             worst[g.signal] = max(worst.get(g.signal, 0.0), g.statistic - g.width)
@@ -158,7 +159,7 @@ class Diagnostician:
         failing = {k: v for k, v in shape.items() if v[2] < self.settings.leftover_level}
         size = max(sum(worst.values()), max((s - w for s, w, _ in failing.values()), default=0.0))
         inflation = max([inflation, *(s / w for s, w, _ in failing.values())])
-        text = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
+        text: dict[str, Any] = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
                 "dependence": {k: {"statistic": s, "width": w, "p": p} for k, (s, w, p) in shape.items()}}
         return bool(worst or failing), size, text, inflation
 
@@ -174,13 +175,13 @@ class Diagnostician:
         if not by_candidate:
             verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
             rivals = self.singles() if by_place else []
-            return self._answer(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, [])
+            return self._answer(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
         rivals = self.singles()
         final = self.several(rivals[0])
         over, size, text, inflation = self.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = self._dof(final)
-        alternatives = {}
+        alternatives: dict[str, list[str]] = {}
         if len(final.candidates) == 1:
             members = confusable_set(rivals, inflation if over else 1.0, dof, settings.margin)
             if final not in members:
@@ -204,7 +205,7 @@ class Diagnostician:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else HeldOutJudge(self.space, local, members, self.orders)
-        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, [shown], inflation if over else 1.0)
+        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown, inflation if over else 1.0)
 
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
@@ -213,11 +214,11 @@ class Diagnostician:
         near = [r for r in rivals if r not in members and penalised(r) - least <= margin]
         return [r for r in near if not self.leftover(r)[0]]
 
-    def _dof(self, result):
+    def _dof(self, result: Refit) -> float:
         dofs = [e.dof for e in estimates(self.space, result)]
         return min(dofs) if dofs else 1e6
 
-    def _stand_ins(self, final, member, inflation, dof):
+    def _stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
         """Effects that could replace ``member`` beside the others."""
         rest = [c.name for c in final.candidates if c is not member]
         result = []
@@ -233,9 +234,12 @@ class Diagnostician:
                 result.append(s.name)
         return result
 
-    def _answer(self, verdict, reason, members, rivals, captured, leftover, p_screen, p_local, alternatives, judges, inflation=1.0):
-        judge = judges[0] if judges else None
-        effects, held_out = [], {}
+    def _answer(
+        self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
+        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None, inflation: float = 1.0,
+    ) -> Diagnosis:  # fmt: skip
+        effects = []
+        held_out: dict[str, dict[str, Any]] = {}
         several = bool(members) and len(members[0].candidates) > 1
         warnings = list(self.space.noise.warnings)
         for member in members:
@@ -251,14 +255,14 @@ class Diagnostician:
                 effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() for p in c.parameters},
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
-                if before is not None and after is not None and after > before:
+                if after > before:
                     warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
             effects.sort(key=lambda e: -e.gain)
         if self.space.held_out == []:
             warnings.append("no runs are held out: the errors given are by leaving out one condition at a time")
         names = {e.name for e in effects}
-        rejected = []
+        rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)
         for r in rivals:
             if r.name not in names:
@@ -281,14 +285,16 @@ class Diagnostician:
                          float(captured), float(p_screen), float(p_local), held_out, {p.name: base.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
-                         {"space": self.space, "members": members, "rivals": rivals, "localiser": self.localiser})
+                         Fits(self.space, list(members), list(rivals)))
 
-    def _gain_of(self, joint: Refit, candidate) -> float:
+    def _gain_of(self, joint: Refit, candidate: Candidate) -> float:
         """What one of several effects adds to the others."""
         rest = self.fitted.get(frozenset(c.name for c in joint.candidates if c is not candidate))
         return drop_cost(joint, candidate) if rest is None else rest.fit.chi2 - joint.fit.chi2
 
-    def _errors(self, judge, member, captured, held_out):
+    def _errors(
+        self, judge: HeldOutJudge | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
+    ) -> tuple[float, float]:
         if judge is not None and self.space.held_out:
             judged = judge.judge(member)
             if judged is not None:

@@ -8,8 +8,12 @@ terms experiments are proposed whose difference the parameters would swallow.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Any, TypeVar
 
 import numpy as np
+
+from discrepancy.inference.refit.refit import Refit
+from discrepancy.problem import Floats
 
 ENOUGH = 6.0
 """Separation (chi-square) from which two rivals count as told apart."""
@@ -21,8 +25,8 @@ class Experiment:
 
     name: str
     cost: float
-    deviation: np.ndarray | float = 1.0
-    covariance: np.ndarray | None = None
+    deviation: Floats | float = 1.0
+    covariance: Floats | None = None
     settings: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -33,8 +37,8 @@ class RivalLaw:
     name: str
     values: Mapping[str, float]
     names: Sequence[str]
-    covariance: np.ndarray
-    scales: np.ndarray
+    covariance: Floats
+    scales: Floats
     weight: float = 1.0
 
 
@@ -49,7 +53,7 @@ class Proposal:
     least: float
     separation: dict[str, float]
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return dict(self.__dict__)
 
 
@@ -62,15 +66,16 @@ class NextExperiment:
     proposals: list[Proposal]
     at_stake: dict[str, float]
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return {"separable": self.separable, "verdict": self.verdict, "proposals": [p.to_dict() for p in self.proposals], "at_stake": self.at_stake}
 
 
-Predict = Callable[[RivalLaw, Mapping[str, float], Experiment], np.ndarray]
+E = TypeVar("E", bound=Experiment)
+Predict = Callable[[RivalLaw, Mapping[str, float], E], Floats]
 """Prediction of an experiment by a rival with given parameter values."""
 
 
-def separation(predict: Predict, experiment: Experiment, rivals: Sequence[RivalLaw]) -> dict[tuple[str, str], float]:
+def separation(predict: Predict[E], experiment: E, rivals: Sequence[RivalLaw]) -> dict[tuple[str, str], float]:
     """Chi-square by which the experiment would tell each pair apart."""
     responses, spreads = {}, {}
     for rival in rivals:
@@ -99,8 +104,8 @@ def separation(predict: Predict, experiment: Experiment, rivals: Sequence[RivalL
     return result
 
 
-def next_experiment(predict: Predict, experiments: Sequence[Experiment], rivals: Sequence[RivalLaw],
-                    interests: Sequence[Experiment] = (), enough: float = ENOUGH) -> NextExperiment:
+def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Sequence[RivalLaw],
+                    interests: Sequence[E] = (), enough: float = ENOUGH) -> NextExperiment:
     """The cheapest experiment that separates all pairs, or the best there is.
 
     ``interests`` are conditions whose outcome matters: the difference of the rivals there is what
@@ -130,7 +135,7 @@ def next_experiment(predict: Predict, experiments: Sequence[Experiment], rivals:
     return NextExperiment(bool(good), verdict, good + rest, stake)
 
 
-def rival_of(refit, weight: float | None = None, least: float | None = None) -> RivalLaw:
+def rival_of(refit: Refit, weight: float | None = None, least: float | None = None) -> RivalLaw:
     """A rival from a refit; the weight follows from its chi-square above the ``least``."""
     parameters = refit.fit.parameters
     if weight is None:

@@ -1,6 +1,10 @@
 """What may be said: the rules from tests and fits to a verdict, and the result as plain data."""
 
 from dataclasses import dataclass, field
+from typing import Any
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.refit import Refit
 
 NONE = "none"
 ONE = "one effect"
@@ -38,16 +42,25 @@ class Effect:
     name: str
     title: str
     part: str
-    parameters: dict[str, dict]
+    parameters: dict[str, dict[str, Any]]
     share_explained: float
     gain: float
-    held_out_error_before: float | None
-    held_out_error_after: float | None
+    held_out_error_before: float
+    held_out_error_after: float
     at_bounds: tuple[str, ...]
     p: float
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return {**self.__dict__, "at_bounds": list(self.at_bounds)}
+
+
+@dataclass(frozen=True)
+class Fits:
+    """What a diagnosis computed with: the records with their noise, the fits of what is named, and those of its rivals."""
+
+    space: Workspace
+    members: list[Refit]
+    rivals: list[Refit]
 
 
 @dataclass(frozen=True)
@@ -64,22 +77,22 @@ class Diagnosis:
     confusable: list[str]
     alternatives: dict[str, list[str]]
     correlations: dict[str, float]
-    rejected: list[dict]
-    localisation: dict
-    leftover: dict
+    rejected: list[dict[str, Any]]
+    localisation: dict[str, Any]
+    leftover: dict[str, Any]
     captured: float
     p_screen: float
     p_localise: float
-    held_out: dict
+    held_out: dict[str, dict[str, Any]]
     nuisances: dict[str, float]
-    noise: dict
+    noise: dict[str, dict[str, Any]]
     warnings: list[str]
     calls: int
     seconds: float
     reason: str
-    fits: dict = field(default_factory=dict, repr=False)
+    fits: Fits = field(repr=False)
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         plain = {k: v for k, v in self.__dict__.items() if k != "fits"}
         plain["effects"] = [e.to_dict() for e in self.effects]
         return plain

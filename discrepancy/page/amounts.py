@@ -1,9 +1,12 @@
 """SI values in the units of a bench, for axes and for text."""
 
 import math
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from discrepancy.problem import Floats
 from discrepancy.scales import USUAL
 from fmu_src.units import UnitError, conversion, parse, registry
 from pages.words import number
@@ -57,9 +60,9 @@ def text(value: float | None, unit: str) -> str:
     return f"{number(factor * value)} {name}".rstrip()
 
 
-def axis_values(name: str, values) -> np.ndarray:
+def axis_values(name: str, values: npt.ArrayLike) -> Floats:
     _, factor, offset = AXES.get(name, ("", 1.0, 0.0))
-    return np.asarray(values, float) * factor + offset
+    return np.asarray(values, np.float64) * factor + offset
 
 
 def axis_title(name: str) -> str:
@@ -92,7 +95,7 @@ def signal_axis(signal: str, unit: str) -> str:
     return signal_title(signal.partition("[")[0]) + (f" [{name}]" if name else "")
 
 
-def estimate(entry: dict) -> tuple[str, str, str]:
+def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     low, high = entry["interval"]
     size = max((abs(v) for v in (entry["value"], low, high) if math.isfinite(v)), default=0.0)

@@ -13,15 +13,15 @@ TONES = {ONE: "good", NONE: "good", SEVERAL: "good", SET: "fair", INCOMPLETE: "f
 
 def page(answer: Answer) -> Page:
     diagnosis = answer.diagnosis
-    space = diagnosis.fits.get("space")
-    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records))))) if space else []
+    space = diagnosis.fits.space
+    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records)))))
     place = diagnosis.localisation
     localised = comparison.localisation_section(place.get("map", []), place.get("conditions", {}), place.get("level", 0.0))
     laws_found = [recovered(answer)] if answer.verdict in (UNKNOWN, INCOMPLETE) or answer.laws else []
     if answer.effects:
         sections = [
             effects(answer),
-            *([response.section(answer)] if space and diagnosis.fits.get("members") else []),
+            *([response.section(answer)] if diagnosis.fits.members else []),
             held_out(answer),
             *([confusable(answer)] if answer.confusable or diagnosis.alternatives or diagnosis.correlations else []),
             *laws_found,
@@ -30,10 +30,10 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
-    where = comparison.conditions(answer.model, runs) if runs else ""
+    where = comparison.conditions(answer, runs) if runs else ""
     return Page(
         "Diagnosis: which effect does the model lack?",
-        comparison.title(answer.model),
+        comparison.title(answer),
         where,
         sentence(answer),
         cards(answer),

@@ -1,6 +1,7 @@
 """Bars of errors over the noise, before and after."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from discrepancy.page.amounts import signal_title
 from pages import look
@@ -9,9 +10,9 @@ from pages.look import Figure, short
 BEFORE, AFTER = look.START, look.NOW
 
 
-def noise_line(horizontal: bool = True) -> tuple[dict, dict]:
+def noise_line(horizontal: bool = True) -> tuple[dict[str, Any], dict[str, Any]]:
     """The line at 1, where an error is the noise: (shape, label)."""
-    line = {"type": "line", "line": {"color": "#00705a", "width": 1.2, "dash": "dot"}, "layer": "above"}
+    line: dict[str, Any] = {"type": "line", "line": {"color": "#00705a", "width": 1.2, "dash": "dot"}, "layer": "above"}
     if horizontal:
         line |= {"xref": "paper", "x0": 0, "x1": 1, "y0": 1, "y1": 1}
         label = look.note(1.0, 1.0, "noise", xref="paper", xanchor="right", yanchor="bottom", font={"size": 11, "color": "#00705a"})
@@ -76,7 +77,7 @@ def single(
     colours: Sequence[str],
     texts: Sequence[str],
     columns: int = 6,
-    **axis,
+    **axis: Any,
 ) -> Figure:
     """One horizontal bar per group."""
     data = [
@@ -102,6 +103,6 @@ def single(
     return Figure(name, title, caption, data, layout, columns, 80 + 30 * max(len(groups), 2))
 
 
-def signal_rows(rows: Sequence[dict]) -> list[str]:
+def signal_rows(rows: Sequence[dict[str, Any]]) -> list[str]:
     """Names of signals, held-out ones marked."""
     return [signal_title(r["signal"]) + (", held out" if r["held_out"] else ", fitted") for r in rows]

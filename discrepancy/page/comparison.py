@@ -1,10 +1,12 @@
 """The page of a comparison: measured against predicted, and where they differ."""
 
 from dataclasses import asdict
+from typing import Any
 
 from discrepancy.compare import CONSPICUOUS, Comparison
-from discrepancy.page import amounts, maps, numbers, series
+from discrepancy.page import amounts, maps, numbers, panels, series
 from discrepancy.page.runs import Run, by_signal, runs_of
+from discrepancy.verdict import Answer
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import number
@@ -30,8 +32,8 @@ def page(result: Comparison) -> Page:
     ]
     return Page(
         "Model against measurement",
-        title(result.model),
-        conditions(result.model, runs),
+        title(result),
+        conditions(result, runs),
         finding(result),
         cards(result),
         sections,
@@ -39,16 +41,16 @@ def page(result: Comparison) -> Page:
     )
 
 
-def title(model) -> str:
-    name, campaign = model.file.name, model.campaign.name
+def title(result: Comparison | Answer) -> str:
+    name, campaign = result.model.file.name, result.model.campaign.name
     return f"{name} against {campaign}" if campaign else name
 
 
-def conditions(model, runs: list[Run]) -> str:
+def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     """How much was measured, and what the model carries."""
     held = sum(run.record.held_out for run in runs)
     count = len({run.record.condition for run in runs})
-    effects = ", ".join(name.replace("_", " ") for name in model.file.effects)
+    effects = ", ".join(name.replace("_", " ") for name in result.model.file.effects)
     return f"{len(runs)} runs at {count} conditions, {held} of them held out; " + (
         f"model with {effects}" if effects else "model without further effects"
     )
@@ -75,7 +77,7 @@ def finding(result: Comparison) -> str:
     )
 
 
-def place(row: dict) -> str:
+def place(row: dict[str, Any]) -> str:
     return f"{amounts.signal_title(row['signal'])} ({HELD if row['held_out'] else FITTED})"
 
 
@@ -129,7 +131,7 @@ def errors(result: Comparison) -> Section:
     return Section("errors", "Error against noise", lead, [heat] if cells else [], [table])
 
 
-def localisation_section(places: list[dict], by_condition: dict[str, dict[str, float]], level: float) -> Section:
+def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, dict[str, float]], level: float) -> Section:
     """Where the misfit is; also of a diagnosis."""
     findings = [p for p in places if p["p"] <= level]
     lead = (
@@ -156,16 +158,16 @@ def localisation_section(places: list[dict], by_condition: dict[str, dict[str, f
     return Section("localisation", "Where the model fails", lead, figures)
 
 
-def run_figures(prefix: str, runs: list[Run], **words) -> list[Figure]:
+def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = panels.WORDS) -> list[Figure]:
     """A figure per signal: series over their axis, numbers over their factors; series first."""
     drawn = []
     for signal, members in by_signal(runs).items():
         lines = [r for r in members if r.series]
         single = [r for r in members if not r.series]
         if lines:
-            drawn.append(series.figure(prefix, signal, lines, **words))
+            drawn.append(series.figure(prefix, signal, lines, words))
         if single:
-            drawn.append(numbers.figure(f"{prefix}_number", signal, single, **words))
+            drawn.append(numbers.figure(f"{prefix}_number", signal, single, words))
     return sorted(drawn, key=lambda f: -f.columns)
 
 

@@ -1,5 +1,7 @@
 """The parts of a diagnosis's page: effects, unused conditions, what cannot be separated, rivals, laws."""
 
+from typing import Any
+
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
@@ -13,7 +15,7 @@ from pages.words import number
 MOST_RIVALS = 12
 
 
-def named(effect: dict) -> str:
+def named(effect: dict[str, Any]) -> str:
     return words(effect["name"]) + (f" ({effect['variant'].replace('_', ' ')})" if effect.get("variant") else "")
 
 
@@ -75,19 +77,18 @@ def held_out(answer: Answer) -> Section:
     before, after = [e["held_out_error_before"] for e in measured], [e["held_out_error_after"] for e in measured]
     hover = [f"{number(v)} times the noise" for v in before], [f"{number(v)} times the noise" for v in after]
     figures = [bars.pairs("held_out", "Error before and after", "In the patterns that matter.", names, before, after, hover)]
-    signals = next((v["rms"] for v in rows.values() if v.get("rms")), {})
+    signals: dict[str, dict[str, float]] = next((v["rms"] for v in rows.values() if v.get("rms")), {})
     if signals:
         figures.append(by_signal(answer, signals, names[0]))
     return Section("held-out", "On unused conditions", lead, figures)
 
 
-def by_signal(answer: Answer, signals: dict, effect: str) -> Figure:
+def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
     """Plain root mean squares of every sample, signal by signal."""
-    space = answer.diagnosis.fits.get("space")
-    units = {stream_of(r): r.unit for r in space.records} if space else {}
+    units = {stream_of(r): r.unit for r in answer.diagnosis.fits.space.records}
     names = list(signals)
     ratio = {k: [signals[n][k] / signals[n]["floor"] if signals[n]["floor"] > 0.0 else None for n in names] for k in ("before", "after")}
-    hover = tuple(
+    before, after = (
         [f"{amounts.text(signals[n][k], units.get(n, '1'))}, noise {amounts.text(signals[n]['floor'], units.get(n, '1'))}" for n in names]
         for k in ("before", "after")
     )
@@ -98,7 +99,7 @@ def by_signal(answer: Answer, signals: dict, effect: str) -> Figure:
         [amounts.signal_title(n) for n in names],
         ratio["before"],
         ratio["after"],
-        hover,
+        (before, after),
     )
 
 
@@ -176,8 +177,7 @@ def recovered(answer: Answer) -> Section:
     """Laws without a name."""
     if not answer.laws:
         return Section("laws", "The law without a name", "The campaign has too few points or conditions to recover a law.")
-    space = answer.diagnosis.fits.get("space")
-    units = {stream_of(r): r.unit for r in space.records} if space else {}
+    units = {stream_of(r): r.unit for r in answer.diagnosis.fits.space.records}
     figures = [f for law in answer.laws for f in laws.figures(law, units.get(law.signal, "1"))]
     lead = "How what is missing depends on the conditions, as curves with 95 % bands and as closed forms. " + " ".join(
         laws.sentence(law) for law in answer.laws

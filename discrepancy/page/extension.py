@@ -1,5 +1,7 @@
 """The pages of an extension and of a model with its ladder."""
 
+from typing import Any
+
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder
@@ -68,7 +70,7 @@ def conditions(file: ModelFile) -> str:
     return f"Reducer {file.reducer.name} with {effects}"
 
 
-def cards(step: dict) -> list[Card]:
+def cards(step: dict[str, Any]) -> list[Card]:
     made = [
         Card(ladder.label(step), step["verdict"], "kept" if step.get("kept", True) else "not kept", tone=TONES.get(step["verdict"], "fair"))
     ]
@@ -84,10 +86,10 @@ def cards(step: dict) -> list[Card]:
     return made
 
 
-def signal_figure(step: dict, place: int = 0) -> Figure:
+def signal_figure(step: dict[str, Any], place: int = 0) -> Figure:
     rows = step["signals"]
     ratio = {k: [r[k] / r["noise_floor"] if r["noise_floor"] > 0.0 else None for r in rows] for k in ("before", "after")}
-    hover = tuple(
+    before, after = (
         [f"{amounts.text(r[k], r['unit'])}, noise {amounts.text(r['noise_floor'], r['unit'])}" for r in rows] for k in ("before", "after")
     )
     title = f"Step {place}: {ladder.label(step)}" if place else "Error over noise per signal"
@@ -97,11 +99,11 @@ def signal_figure(step: dict, place: int = 0) -> Figure:
         else "Root mean square of all samples over the noise of replicates."
     )
     return bars.pairs(
-        f"signals_{place}", title, caption, bars.signal_rows(rows), ratio["before"], ratio["after"], hover, 6 if place else 12
+        f"signals_{place}", title, caption, bars.signal_rows(rows), ratio["before"], ratio["after"], (before, after), 6 if place else 12
     )
 
 
-def signals_section(step: dict) -> Section:
+def signals_section(step: dict[str, Any]) -> Section:
     rows = [
         [
             amounts.signal_title(r["signal"]),
@@ -146,7 +148,7 @@ def ladder_section(file: ModelFile) -> Section:
     )
 
 
-def change(step: dict, key: str) -> str:
+def change(step: dict[str, Any], key: str) -> str:
     before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
     return "–" if before is None or after is None else f"{number(before)} → {number(after)}"
 

@@ -1,6 +1,7 @@
 """The ladder as a figure: the error over the noise, attempt by attempt."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from discrepancy.page.bars import noise_line
 from pages import look
@@ -11,9 +12,10 @@ WIDE = 8.0
 KINDS = (("training", "fitted runs", look.START, 2.0), ("held_out", "unused runs", look.NOW, 3.0))
 
 
-def stairs(steps: Sequence[dict], kind: str) -> tuple[list, list]:
+def stairs(steps: Sequence[dict[str, Any]], kind: str) -> tuple[list[float | None], list[float | None]]:
     """Corners of the line through the kept steps: step k falls at x = k."""
-    x, y = [], []
+    x: list[float | None] = []
+    y: list[float | None] = []
     for k, step in enumerate(steps, start=1):
         before, after = step.get(f"{kind}_before"), step.get(f"{kind}_after")
         if before is None or after is None:
@@ -31,7 +33,7 @@ def stairs(steps: Sequence[dict], kind: str) -> tuple[list, list]:
     return x, y
 
 
-def attempts(steps: Sequence[dict], kind: str) -> list[tuple[int, float, float, dict]]:
+def attempts(steps: Sequence[dict[str, Any]], kind: str) -> list[tuple[int, float, float, dict[str, Any]]]:
     """(place, before, after, step) of the steps that were not kept."""
     return [
         (k, s[f"{kind}_before"], s[f"{kind}_after"], s)
@@ -40,11 +42,11 @@ def attempts(steps: Sequence[dict], kind: str) -> list[tuple[int, float, float, 
     ]
 
 
-def label(step: dict) -> str:
+def label(step: dict[str, Any]) -> str:
     return " + ".join(name.replace("_", " ").replace(".", ": ") for name in step["effects"])
 
 
-def figure(steps: Sequence[dict], name: str = "ladder") -> Figure:
+def figure(steps: Sequence[dict[str, Any]], name: str = "ladder") -> Figure:
     traces, values = [], []
     for kind, title, colour, width in KINDS:
         x, y = stairs(steps, kind)
@@ -107,11 +109,14 @@ def figure(steps: Sequence[dict], name: str = "ladder") -> Figure:
     return Figure(name, "Error over noise, step by step", caption, traces, layout, 12, 380)
 
 
-def clean(values: Sequence[float | None]) -> list:
-    return short([float("nan") if v is None else v for v in values], 4)
+def clean(values: Sequence[float | None]) -> list[float | None]:
+    shown: list[float | None] = short([float("nan") if v is None else v for v in values], 4)
+    return shown
 
 
-def marks(x, y, colour: str, symbol: str, texts: list[str], labelled: bool, where: str = "top right") -> dict:
+def marks(
+    x: Sequence[float | None], y: Sequence[float], colour: str, symbol: str, texts: list[str], labelled: bool, where: str = "top right"
+) -> dict[str, Any]:
     return {
         "type": "scatter",
         "mode": "markers+text" if labelled else "markers",

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import escape
 
 from discrepancy.model_file import ModelFile
@@ -49,7 +50,7 @@ class Scale:
         return [k * step for k in range(int(self.high / step) + 1)]
 
 
-def svg(name: str, steps: Sequence[dict]) -> str:
+def svg(name: str, steps: Sequence[dict[str, Any]]) -> str:
     drawn = {kind: stairs(steps, kind) for kind, *_ in KINDS}
     lost = {kind: attempts(steps, kind) for kind, *_ in KINDS}
     values = [v for _, ys in drawn.values() for v in ys if v is not None] + [after for rows in lost.values() for _, _, after, _ in rows]
@@ -82,11 +83,12 @@ def svg(name: str, steps: Sequence[dict]) -> str:
     return "\n".join([*parts, "</svg>", ""])
 
 
-def staircase(xs, ys, scale: Scale, colour: str, thick: float) -> list[str]:
+def staircase(xs: Sequence[float | None], ys: Sequence[float | None], scale: Scale, colour: str, thick: float) -> list[str]:
     """Polylines, broken where a step was not judged."""
-    found, run = [], []
+    found: list[str] = []
+    run: list[str] = []
     for x, y in [*zip(xs, ys), (None, None)]:
-        if y is not None:
+        if x is not None and y is not None:
             run.append(f"{scale.x(x):.1f},{scale.y(y):.1f}")
         elif run:
             found.append(
@@ -96,7 +98,7 @@ def staircase(xs, ys, scale: Scale, colour: str, thick: float) -> list[str]:
     return found
 
 
-def failed(row, scale: Scale, colour: str, labelled: bool) -> list[str]:
+def failed(row: tuple[int, float, float, dict[str, Any]], scale: Scale, colour: str, labelled: bool) -> list[str]:
     """A dotted way to a cross."""
     k, before, after, _ = row
     x, y = scale.x(k), scale.y(after)
@@ -108,7 +110,7 @@ def failed(row, scale: Scale, colour: str, labelled: bool) -> list[str]:
     return found + ([text(x + 9, y + (-6 if after > before else 15), f"{after:.2f}", colour)] if labelled else [])
 
 
-def caption(k: int, step: dict, scale: Scale) -> list[str]:
+def caption(k: int, step: dict[str, Any], scale: Scale) -> list[str]:
     """Effect and verdict below, numbers at the corners of the unused runs."""
     x, base, kept = scale.x(k), TOP + HEIGHT, step.get("kept", True)
     verdict = step["verdict"] + ("" if kept else ", not kept")

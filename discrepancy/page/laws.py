@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from discrepancy.inference.law.closed_forms import Form, _forms
+from discrepancy.inference.law.closed_forms import Form, closed_forms
 from discrepancy.inference.law.recover import Recovered
+from discrepancy.inference.law.splines import Curve
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
+from discrepancy.problem import Floats
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
@@ -54,7 +56,7 @@ def sentence(law: Recovered) -> str:
     return text[:1].upper() + text[1:] + more + "."
 
 
-def leading(name: str, law: Recovered, curve, factor: float, title: str, columns: int) -> Figure:
+def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, columns: int) -> Figure:
     x, y, deviation = (np.asarray(law.points[k], float) for k in ("x", "y", "deviation"))
     # Curves are centred; the points carry the level.
     weight = 1.0 / np.maximum(deviation, 1e-300) ** 2
@@ -78,13 +80,13 @@ def leading(name: str, law: Recovered, curve, factor: float, title: str, columns
     ]
     best = law.forms[0] if law.forms else None
     drawn = evaluated(best, x, curve.x) if best else None
-    if drawn is not None:
+    if best is not None and drawn is not None:
         traces.append(
             look.line(short(grid, 5), short(factor * drawn, 4), FORM_COLOUR, 1.8, "dash", hover="closed form: %{y} at %{x}")
             | {"name": f"{best.name}: {best.text}"}
         )
     held = ""
-    if law.held_out_error_before is not None:
+    if law.held_out_error_before is not None and law.held_out_error_after is not None:
         held = (
             f" With this law the error on runs that were not used goes from {number(law.held_out_error_before)} to "
             f"{number(law.held_out_error_after)} times the noise."
@@ -109,9 +111,9 @@ def leading(name: str, law: Recovered, curve, factor: float, title: str, columns
     )
 
 
-def evaluated(form: Form, x: np.ndarray, grid: np.ndarray) -> np.ndarray | None:
+def evaluated(form: Form, x: Floats, grid: Floats) -> Floats | None:
     """A closed form along the curve; None where it is not finite."""
-    known = _forms(x)
+    known = closed_forms(x)
     if form.name not in known:
         return None
     y = known[form.name][2](grid, **form.parameters)

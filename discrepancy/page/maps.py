@@ -1,9 +1,11 @@
 """Heat maps: error over noise by signal and condition, and where the misfit is."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.page.amounts import chance, signal_title
 from discrepancy.page.runs import slug
@@ -22,17 +24,17 @@ GOOD = "#e6f3ec"
 
 
 def heat(
-    z,
+    z: npt.ArrayLike,
     x: list[str],
     y: list[str],
-    text,
-    hover,
+    text: list[list[str]],
+    hover: list[list[str]],
     title: str,
     low: float,
     high: float,
     ticks: Mapping[float, str] | None = None,
     colours: tuple[str, ...] = (GOOD, *look.DEPTH),
-) -> dict:
+) -> dict[str, Any]:
     """A heat map trace with its numbers in the cells."""
     bar = {
         "thickness": 10,
@@ -62,7 +64,7 @@ def heat(
     }
 
 
-def layout(y: Sequence[str], **more) -> dict:
+def layout(y: Sequence[str], **more: Any) -> dict[str, Any]:
     """Names at the left, columns' names on top."""
     return look.layout(
         xaxis=look.axis("", type="category", side="top", showgrid=False, ticks="", tickangle=0 if more.pop("level", True) else -35),
@@ -73,7 +75,7 @@ def layout(y: Sequence[str], **more) -> dict:
 
 
 def grid(
-    title: str, caption: str, name: str, cells: Mapping[tuple[str, str], float], held: set[str] = frozenset(), bar: str = "error / noise"
+    title: str, caption: str, name: str, cells: Mapping[tuple[str, str], float], held: Set[str] = frozenset(), bar: str = "error / noise"
 ) -> Figure:
     """Ratios over the noise by (row, condition); ``held`` marks conditions that were never fitted."""
     rows, columns = list(dict.fromkeys(r for r, _ in cells)), list(dict.fromkeys(c for _, c in cells))
@@ -91,7 +93,7 @@ def grid(
     return Figure(name, title, caption, [trace], layout(names, level=few and max(map(len, columns)) < 16), 12, max(height, 190))
 
 
-def localisation(prefix: str, places: Sequence[Mapping], level: float) -> list[Figure]:
+def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> list[Figure]:
     """The map of all signals, feature by dependence, coloured by significance; and the single orders of each signal."""
     named = [p for p in places if not p["feature"].startswith("order ")]
     figures = [place_map(prefix, named, level)] if named else []
@@ -102,8 +104,8 @@ def localisation(prefix: str, places: Sequence[Mapping], level: float) -> list[F
     return figures
 
 
-def place_map(prefix: str, places: Sequence[Mapping], level: float) -> Figure:
-    def row_of(p) -> str:
+def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> Figure:
+    def row_of(p: Mapping[str, Any]) -> str:
         return f"{signal_title(p['signal'])} · {p['feature']}"
 
     at = {(row_of(p), p["dependence"]): p for p in places}
@@ -141,14 +143,14 @@ def percent(share: float) -> str:
     return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
 
 
-def described(place: Mapping | None, level: float) -> str:
+def described(place: Mapping[str, Any] | None, level: float) -> str:
     if place is None:
         return "not tested"
     verdict = f"{percent(place['share'])} of the misfit" if place["p"] <= level else "not significant"
     return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {place['statistic']:.1f} against {place['width']} expected"
 
 
-def comb(prefix: str, signal: str, places: Sequence[Mapping], level: float) -> Figure:
+def comb(prefix: str, signal: str, places: Sequence[Mapping[str, Any]], level: float) -> Figure:
     """Single orders of the output's turn as bars."""
     places = sorted(places, key=lambda p: float(p["feature"].split()[1]))
     x = [float(p["feature"].split()[1]) for p in places]

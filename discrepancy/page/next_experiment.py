@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.inference.next_experiment import ENOUGH, Proposal
+from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps
 from discrepancy.page.amounts import effect_title
@@ -21,7 +21,7 @@ GOOD, POOR = "#00705a", "#98a3af"
 def page(run: NextRun) -> Page:
     currency = run.answer.model.campaign.rig.currency if run.answer.model.campaign.rig else ""
     sections = (
-        [proposals(run, currency), stake(run)]
+        [proposals(run.result, currency), stake(run.result)]
         if run.result
         else [Section("proposals", "Proposals", "There is nothing to separate, so nothing to propose.")]
     )
@@ -30,7 +30,7 @@ def page(run: NextRun) -> Page:
     finding = verdict[:1].upper() + verdict[1:] + "."
     where = f"To separate {rivals}" if len(run.rivals) > 1 else "Diagnosis: " + run.answer.verdict
     return Page(
-        "The next experiment", comparison.title(run.answer.model), where, finding, cards(run, currency), sections, run.answer.warnings
+        "The next experiment", comparison.title(run.answer), where, finding, cards(run, currency), sections, run.answer.warnings
     )
 
 
@@ -52,8 +52,8 @@ def cards(run: NextRun, currency: str) -> list[Card]:
     ]
 
 
-def proposals(run: NextRun, currency: str) -> Section:
-    best = run.result.proposals
+def proposals(result: NextExperiment, currency: str) -> Section:
+    best = result.proposals
     good = sum(p.least >= ENOUGH for p in best)
     lead = (
         f"{good} of {len(best)} possible experiments would separate every pair of rivals (least separation {ENOUGH:g} or more)."
@@ -214,10 +214,10 @@ def cloud(best: Sequence[Proposal], currency: str) -> Figure:
     return Figure("cloud", "All experiments within the rig's limits", "Separations below 0.01 are drawn there.", [dots], layout, 12, 300)
 
 
-def stake(run: NextRun) -> Section:
+def stake(result: NextExperiment) -> Section:
     """What is unknown as long as the rivals are not told apart."""
     rows = []
-    for name, size in run.result.at_stake.items():
+    for name, size in result.at_stake.items():
         quantity = QUANTITIES.get(name.partition(" at ")[0].partition("[")[0])
         rows.append([readable(name), amounts.text(size, quantity.unit) if quantity else f"{number(size)} (SI unit)"])
     lead = (

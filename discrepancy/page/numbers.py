@@ -1,11 +1,13 @@
 """Single numbers over the factors of their conditions, with error bars."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, slug
+from discrepancy.problem import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
@@ -16,7 +18,7 @@ def figure(
     prefix: str,
     signal: str,
     runs: Sequence[Run],
-    words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+    words: tuple[str, str, str] = panels.WORDS,
     caption: str = "",
 ) -> Figure:
     """All numbers of one signal; the selector chooses what they are drawn over."""
@@ -41,24 +43,32 @@ def varying(runs: Sequence[Run]) -> list[str]:
     names = dict.fromkeys(n for run in runs for n in (*run.record.factors, *run.record.axes))
     found = []
     for name in names:
-        values = [places(run, name) for run in runs]
-        if all(v is not None and np.all(np.isfinite(v)) for v in values):
+        values = [v for run in runs if (v := places(run, name)) is not None]
+        if len(values) == len(runs) and all(np.all(np.isfinite(v)) for v in values):
             every = np.concatenate(values)
             if np.ptp(every) > 1e-9 * np.max(np.abs(every)):
                 found.append(name)
     return found
 
 
-def places(run: Run, name: str) -> np.ndarray | None:
+def places(run: Run, name: str) -> Floats | None:
     """The factor's value at each number of a run."""
     if name in run.record.axes and np.size(run.record.axes[name]) == run.kept.size:
-        return np.asarray(run.record.axes[name], float)[run.kept]
+        return np.asarray(run.record.axes[name], np.float64)[run.kept]
     if name in run.record.factors:
         return np.full(run.measured.size, float(run.record.factors[name]))
     return None
 
 
-def template(words: tuple[str, str, str]) -> list[dict]:
+def placed(run: Run, name: str) -> Floats:
+    """``places`` of a name that ``varying`` found."""
+    values = places(run, name)
+    if values is None:
+        raise KeyError(f"{run.record.name} has no {name}")
+    return values
+
+
+def template(words: tuple[str, str, str]) -> list[dict[str, Any]]:
     """Measured (fitted, held out), predicted, differences (fitted, held out)."""
     traces = []
     for label, colour, symbol in (("fitted runs", panels.MEASURED, "circle"), ("held-out runs", panels.HELD, "diamond")):
@@ -86,7 +96,7 @@ def template(words: tuple[str, str, str]) -> list[dict]:
     ]
 
 
-def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict]:
+def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
     factor, _ = amounts.scale(unit)
     found = []
     for held in (False, True):
@@ -108,11 +118,12 @@ def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict]:
     return [*found, {"x": [a for a, _ in marks], "y": [b for _, b in marks]}]
 
 
-def where(runs: Sequence[Run], name: str) -> list:
+def where(runs: Sequence[Run], name: str) -> list[Any]:
     if name == CONDITION:
         return [r.record.condition for r in runs for _ in r.measured]
-    return short(amounts.axis_values(name, joined(runs, lambda r: places(r, name))), 5)
+    found: list[float | None] = short(amounts.axis_values(name, joined(runs, lambda r: placed(r, name))), 5)
+    return found
 
 
-def joined(runs: Sequence[Run], take) -> np.ndarray:
+def joined(runs: Sequence[Run], take: Callable[[Run], Floats]) -> Floats:
     return np.concatenate([take(r) for r in runs]) if runs else np.zeros(0)

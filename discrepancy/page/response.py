@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.page import comparison, spectra
 from discrepancy.page.amounts import effect_title
-from discrepancy.page.runs import Run, axis_name, by_signal, runs_of
+from discrepancy.page.runs import Run, axis_of, by_signal, runs_of
 from discrepancy.verdict import Answer
 from pages.content import Section
 
@@ -16,7 +16,7 @@ WORDS = ("measured − base model", "effect", "what the effect leaves")
 
 def section(answer: Answer) -> Section:
     """The best fit (one effect, or several together) over the signals that it touches."""
-    space, best = answer.diagnosis.fits["space"], answer.diagnosis.fits["members"][0]
+    space, best = answer.diagnosis.fits.space, answer.diagnosis.fits.members[0]
     every = list(range(len(space.records)))
     base = space.predictions(space.base.values, every)
     full = space.predictions(best.fit.values, every)
@@ -49,11 +49,10 @@ def section(answer: Answer) -> Section:
 
 def averaged(runs: list[Run]) -> list[Run]:
     """Replicates of a series in one, where they share their samples; noise falls with their number."""
-    cells: dict[tuple, list[Run]] = {}
+    cells: dict[tuple[str, str, str, bool, bytes | str], list[Run]] = {}
     for run in runs:
-        axis = axis_name(run.record)
         key = (stream_of(run.record), run.record.condition, run.record.mounting, run.record.held_out)
-        alike = np.asarray(run.record.axes[axis])[run.kept].tobytes() if run.series else run.record.name
+        alike = np.asarray(run.record.axes[axis_of(run)])[run.kept].tobytes() if run.series else run.record.name
         cells.setdefault((*key, alike), []).append(run)
     return [
         replace(members[0], measured=np.mean([r.measured for r in members], axis=0), noise=members[0].noise / np.sqrt(len(members)))

@@ -8,7 +8,7 @@ import numpy as np
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Mask, Record
 
 
 @dataclass(frozen=True)
@@ -16,10 +16,10 @@ class Run:
     """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included."""
 
     record: Record
-    kept: np.ndarray
-    measured: np.ndarray
-    predicted: np.ndarray
-    noise: np.ndarray
+    kept: Mask
+    measured: Floats
+    predicted: Floats
+    noise: Floats
 
     @property
     def series(self) -> bool:
@@ -35,7 +35,15 @@ def axis_name(record: Record) -> str | None:
     return None
 
 
-def runs_of(space: Workspace, predicted: list[np.ndarray], minus: list[np.ndarray] | None = None) -> list[Run]:
+def axis_of(run: Run) -> str:
+    """The axis that a series is drawn over; only series have one."""
+    name = axis_name(run.record)
+    if name is None:
+        raise ValueError(f"{run.record.name}: no axis to draw it over")
+    return name
+
+
+def runs_of(space: Workspace, predicted: list[Floats], minus: list[Floats] | None = None) -> list[Run]:
     """All runs; ``minus`` is taken off the measured values."""
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):

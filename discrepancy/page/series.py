@@ -1,33 +1,35 @@
 """Measured and predicted series, one figure per signal, condition by condition."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.page import amounts, panels
-from discrepancy.page.runs import Run, axis_name, slug
+from discrepancy.page.runs import Run, axis_of, slug
+from discrepancy.problem import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
 # Samples drawn of one series: fewer where there are many conditions, so that the page stays small.
 SAMPLES, FEWEST, MOST = 40_000, 800, 3_000
 MOST_REPLICATES = 4
-EMPTY = {"x": [], "y": []}
+EMPTY: dict[str, list[float]] = {"x": [], "y": []}
 
 
 def figure(
     prefix: str,
     signal: str,
     runs: Sequence[Run],
-    words: tuple[str, str, str] = ("measured", "predicted", "measured − predicted"),
+    words: tuple[str, str, str] = panels.WORDS,
     caption: str = "",
 ) -> Figure:
     """Every condition of one signal behind a selector; ``words`` name measured, predicted and their difference."""
     unit = runs[0].record.unit
     cells = by_condition(runs)
     width = min(max(len(members) for members in cells.values()), MOST_REPLICATES)
-    axis = axis_name(runs[0].record)
-    title = amounts.axis_title(axis)
+    title = amounts.axis_title(axis_of(runs[0]))
     traces = template(words, width)
     most = min(max(SAMPLES // len(cells), FEWEST), MOST)
     choices = [Choice(label, updates(members[:width], unit, width, most)) for label, members in cells.items()]
@@ -64,10 +66,10 @@ def by_condition(runs: Sequence[Run]) -> dict[str, list[Run]]:
     return cells
 
 
-def template(words: tuple[str, str, str], width: int) -> list[dict]:
+def template(words: tuple[str, str, str], width: int) -> list[dict[str, Any]]:
     """The traces without data: bands, measured, predicted, differences."""
-    area = {"type": "scatter", "mode": "lines", "fill": "toself", "fillcolor": panels.BAND, "line": {"width": 0}, "hoverinfo": "skip"}
-    dots = {"type": "scatter", "mode": "lines", "line": {"color": panels.MEASURED, "width": 1}}
+    area: dict[str, Any] = {"type": "scatter", "mode": "lines", "fill": "toself", "fillcolor": panels.BAND, "line": {"width": 0}, "hoverinfo": "skip"}
+    dots: dict[str, Any] = {"type": "scatter", "mode": "lines", "line": {"color": panels.MEASURED, "width": 1}}
     traces = [area | {"name": "noise, 2 σ"}, area | {"yaxis": "y2", "showlegend": False}]
     for k in range(width):
         look_of = {"opacity": 0.9 - 0.15 * k, "hovertemplate": f"{words[0]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"}
@@ -94,13 +96,13 @@ def template(words: tuple[str, str, str], width: int) -> list[dict]:
     return traces
 
 
-def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[dict]:
+def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[dict[str, Any]]:
     """What the traces show at one condition."""
     factor, _ = amounts.scale(unit)
     first = thinned(members[0], most)
     x, predicted, noise = first[0], factor * first[2], 2.0 * factor * rms(members[0].noise)
     ends = np.array([x.min(), x.max()])
-    found = [
+    found: list[dict[str, Any]] = [
         points(panels.band(x, predicted - noise, predicted + noise, "")),
         points(panels.band(ends, np.full(2, -noise), np.full(2, noise), "")),
     ]
@@ -111,16 +113,17 @@ def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[di
             found.append({"x": short(at, 5), "y": short(factor * (measured - own), 3)})
         else:
             found += [EMPTY, EMPTY]
-    return [*found, {"x": short(x, 5), "y": short(predicted, 4)}]
+    found.append({"x": short(x, 5), "y": short(predicted, 4)})
+    return found
 
 
-def points(trace: dict) -> dict:
+def points(trace: dict[str, Any]) -> dict[str, Any]:
     return {k: trace[k] for k in ("x", "y")}
 
 
-def thinned(run: Run, most: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def thinned(run: Run, most: int) -> tuple[Floats, Floats, Floats]:
     """(axis, measured, predicted) with at most ``most`` samples."""
-    name, step = axis_name(run.record), stride(run, most)
+    name, step = axis_of(run), stride(run, most)
     x = amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])
     return x[::step], run.measured[::step], run.predicted[::step]
 
@@ -129,7 +132,7 @@ def stride(run: Run, most: int) -> int:
     return max(1, int(np.ceil(run.measured.size / most)))
 
 
-def rms(values) -> float:
+def rms(values: npt.ArrayLike) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 

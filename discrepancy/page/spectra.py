@@ -7,6 +7,7 @@ import numpy as np
 from discrepancy.page import amounts
 from discrepancy.page.runs import Run, slug
 from discrepancy.page.series import by_condition
+from discrepancy.problem import Floats
 from pages import look
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
@@ -29,12 +30,12 @@ def turns(run: Run) -> int:
     return int(round(whole)) if whole > 0.5 and abs(whole - round(whole)) < 1e-3 else 0
 
 
-def bridged(run: Run, values: np.ndarray) -> np.ndarray:
+def bridged(run: Run, values: Floats) -> Floats:
     """Values of the kept samples at all samples."""
     return np.interp(np.arange(run.kept.size), np.flatnonzero(run.kept), values)
 
 
-def amplitudes(values: np.ndarray, whole: int) -> np.ndarray:
+def amplitudes(values: Floats, whole: int) -> Floats:
     """Amplitude at orders 0, 1, 2 ..."""
     found = 2.0 * np.abs(np.fft.rfft(values)) / values.size
     return found[::whole][: MOST_ORDERS + 1]

@@ -11,23 +11,23 @@ from discrepancy.verdict import Answer
 from pages.content import Page
 from pages.render import rendered_sections, written
 
-MAKERS = {
-    Comparison: comparison.page,
-    Answer: answer.page,
-    Extension: extension.extension_page,
-    ModelFile: extension.model_page,
-    NextRun: next_experiment.page,
-}
 
-
-def page_of(result) -> Page:
+def page_of(result: object) -> Page:
     """What the page of a result says and shows."""
-    for kind, make in MAKERS.items():
-        if isinstance(result, kind):
-            return make(result)
-    raise TypeError(f"no page for {type(result).__name__}: {', '.join(k.__name__ for k in MAKERS)} have one")
+    match result:
+        case Comparison():
+            return comparison.page(result)
+        case Answer():
+            return answer.page(result)
+        case Extension():
+            return extension.extension_page(result)
+        case ModelFile():
+            return extension.model_page(result)
+        case NextRun():
+            return next_experiment.page(result)
+    raise TypeError(f"no page for {type(result).__name__}: Comparison, Answer, Extension, ModelFile and NextRun have one")
 
 
-def write_page(result, path: Path) -> Path:
+def write_page(result: object, path: Path) -> Path:
     """Write the page of a comparison, diagnosis, extension, ladder or proposal; equal results give equal bytes."""
     return written(rendered_sections(page_of(result)), path)

@@ -4,11 +4,13 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar, cast
 
 import numpy as np
 
+from discrepancy.problem import Floats
 from fmu_src.faults import RunFault
 from fmu_src.variables import Table
 from reducers.reducer import Reducer
@@ -38,6 +40,9 @@ TOLERANCE = 1e-7
 # Held test: turning is averaged over positions of the cranks.
 HELD_ANGLES = 8
 KEPT_RUNS = 4000
+# The values that a run depends on, by name.
+Relevant = tuple[tuple[str, float], ...]
+Run = TypeVar("Run")
 
 
 @dataclass(frozen=True)
@@ -66,22 +71,22 @@ class Bench:
             if "tolerance" in table.by_name:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
-        self.runs: dict[tuple, object] = {}
+        self.runs: dict[Hashable, object] = {}
         self.most_runs = KEPT_RUNS
         topology = reducer.topology
-        self.ratio = total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes)
+        self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
         self.rated_speed = float(self.templates[0]["input_speed"][0])
         self.rated_load = float(self.templates[0]["load_torque"][0])
 
-    def kept(self, key: tuple, make):
+    def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
         if key not in self.runs:
             if len(self.runs) > self.most_runs:
                 self.runs.clear()
             self.runs[key] = make()
-        return self.runs[key]
+        return cast(Run, self.runs[key])
 
-    def relevant(self, values: Mapping[str, float], worn: bool) -> tuple:
+    def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
         """The values that a run depends on, without those that stand at their start."""
         tables = self.tables if worn else self.tables[:1]
         templates = self.templates if worn else self.templates[:1]
@@ -91,7 +96,7 @@ class Bench:
         ))  # fmt: skip
 
     def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
-             **plant_values):
+             **plant_values: float) -> tuple[np.ndarray, np.ndarray]:
         """Records of both units, initialised at a condition and an output angle [rad].
 
         ``cage`` is how far the roller cages stand ahead of where rolling from 0 brings them [rad].
@@ -115,7 +120,7 @@ class Bench:
         return records
 
     def new_plant(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
-                  **plant_values) -> np.ndarray:
+                  **plant_values: float) -> np.ndarray:
         """The plant's records, see ``pair``: all that runs of a new unit need."""
         plants = self.set_up(0, values, condition)
         plants["input_speed"] = self.input_speed(condition)
@@ -137,7 +142,7 @@ class Bench:
         """Speed of the sun [rad/s] with its sign."""
         return condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
 
-    def check(self, status: tuple[int, int], plants, wears) -> None:
+    def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
         for code, faults, table, records in zip(status, (plant.FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
             if code:
                 raise RunFault(faults[code].format(**scalars(table, records)))
@@ -162,7 +167,7 @@ class Bench:
         fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
         key = ("life", fresh, tuple(inspections), turns, self.relevant(values, True))
 
-        def run():
+        def run() -> dict[float, np.ndarray]:
             plants, wears = self.pair(fresh, values, largest_crank_step=1.0)
             step, steps = self.wear_steps(condition, turns)
             wears["acceleration"] = 0.0
@@ -178,20 +183,20 @@ class Bench:
 
         return self.kept(key, run)
 
-    def running(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray, cage: float = 0.0) -> np.ndarray:
+    def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS.
 
         ``cage`` is how far the roller cages stand ahead at the first angle [rad].
         """
         return self.running_places(condition, values, angles, cage)[0]
 
-    def running_places(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray, cage: float = 0.0):
+    def running_places(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> tuple[Floats, Floats]:
         """(series, equilibria): the equilibria of the base model are where others start."""
         relevant = self.relevant(values, condition.hours > 0.0)
         key = ("running", condition, relevant, angles.tobytes(), cage)
 
-        def run():
-            plants = self.new_plant(condition, values, angles[0], cage=cage, largest_crank_step=1.0)
+        def run() -> tuple[Floats, Floats]:
+            plants = self.new_plant(condition, values, float(angles[0]), cage=cage, largest_crank_step=1.0)
             # The wear unit of a new reducer has nothing to do.
             wears = self.templates[1]
             if condition.hours > 0.0:
@@ -213,14 +218,14 @@ class Bench:
 
         return self.kept(key, run)
 
-    def error_beside(self, condition: Condition, values: Mapping[str, float], angles: np.ndarray,
-                     base: Mapping[str, float], base_angles: np.ndarray) -> np.ndarray:
+    def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
+                     base: Mapping[str, float], base_angles: Floats) -> Floats:
         """Transmission error [rad] of a new reducer with ``values``, to first order beside the run with ``base``."""
         key = ("beside", condition, self.relevant(values, False), self.relevant(base, False), angles.tobytes(), base_angles.tobytes())
 
-        def run():
+        def run() -> Floats:
             similar = self.running_places(condition, base, base_angles)[1]
-            plants = self.new_plant(condition, values, angles[0])
+            plants = self.new_plant(condition, values, float(angles[0]))
             durations = np.abs(np.diff(angles, prepend=angles[0])) / (condition.speed / abs(self.ratio))
             errors = np.zeros(len(angles))
             self.check((coupled.sweep_beside(plants, durations, errors, similar), 0), plants, self.templates[1])
@@ -238,22 +243,22 @@ class Bench:
         series = self.running(condition, values, angles)[-MEAN_POSITIONS:]
         return dict(zip(coupled.COLUMNS, series.mean(axis=0)))
 
-    def held(self, condition: Condition, values: Mapping[str, float], torques: np.ndarray) -> np.ndarray:
+    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
         """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""
         return self.held_places(condition, values, torques)[0]
 
-    def held_places(self, condition: Condition, values: Mapping[str, float], torques: np.ndarray):
+    def held_places(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> tuple[Floats, Floats]:
         """(turning, equilibria by crank position): those of the base model are where others start."""
         relevant = self.relevant(values, condition.hours > 0.0)
         key = ("held", condition, relevant, torques.tobytes())
 
-        def run():
+        def run() -> tuple[Floats, Floats]:
             total = np.zeros(len(torques))
             places = np.zeros((HELD_ANGLES, len(torques), self.templates[0]["z"].shape[1]))
             similar = self.held_places(condition, {}, torques)[1] if relevant else places
             for k in range(HELD_ANGLES):
                 angle = 2.0 * math.pi * k / (HELD_ANGLES * self.reducer.topology.lobes)
-                plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=torques[0])
+                plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
                 if condition.hours > 0.0:
                     self.put_wear(condition, values, plants)
                 turning = np.zeros(len(torques))
@@ -266,7 +271,7 @@ class Bench:
 
         return self.kept(key, run)
 
-    def put_wear(self, condition, values, plants):
+    def put_wear(self, condition: Condition, values: Mapping[str, float], plants: np.ndarray) -> None:
         """Profile errors of the worn surfaces at the present angles."""
         wears = self.worn(condition, values, condition.hours).copy()
         for name in ("crank_angle", "output_angle", "cage_angle"):

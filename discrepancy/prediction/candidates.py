@@ -28,7 +28,7 @@ def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
 
 def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[EffectParameter]]]:
     """Amplitudes and shapes of each group of an effect."""
-    found: dict[str, tuple[list, list]] = {}
+    found: dict[str, tuple[list[EffectParameter], list[EffectParameter]]] = {}
     for p in effect.amplitudes():
         found.setdefault(p.group, ([], []))[0].append(p)
     for p in effect.parameters:
@@ -81,7 +81,9 @@ def candidates(
     return tuple(found)
 
 
-def chain_candidates(name, effect, signals, quantities, mountings, taken_names) -> list[Candidate]:
+def chain_candidates(
+    name: str, effect: Effect, signals: tuple[str, ...], quantities: list[str], mountings: list[str], taken_names: set[str]
+) -> list[Candidate]:
     per = MODULES[name].PER
     places = {"quantity": quantities, "mounting": mountings, "campaign": [""]}[per]
     if per == "quantity" and name == "sensor_offset":

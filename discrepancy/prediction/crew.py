@@ -12,17 +12,26 @@ import sys
 import weakref
 from collections.abc import Callable, Sequence
 from multiprocessing import resource_tracker
-from typing import Any
+from multiprocessing.process import BaseProcess
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.interrupts import interrupts_later
 
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+    from multiprocessing.context import ForkContext, SpawnContext
+
+    Pipe = Connection[Any, Any]
+
+Way = Literal["fork", "spawn"]
+
 # Says how processes begin, before what is usual on this system.
 HOW = "RVWEAR_PROCESSES"
-WAYS = ("fork", "spawn")
+WAYS: tuple[Way, ...] = ("fork", "spawn")
 
 # Equilibria that a sample asks for, roughly: a locked loop is averaged over positions of the cranks, a mean over a turn
 # runs through one, a life through some wear cycles.
@@ -34,16 +43,17 @@ FEW = 8
 class Crew:
     """``jobs`` processes, this one among them, that answer ``predict(record index, arguments)``."""
 
-    def __init__(self, records: Sequence[Record], predict: Callable[..., np.ndarray], jobs: int):
+    def __init__(self, records: Sequence[Record], predict: Callable[..., Floats], jobs: int):
         self.predict = predict
         self.worker_of = shares(records, jobs)
         self.rounds = 0
         way = way_to_begin()
-        context = multiprocessing.get_context(way)
+        context: ForkContext | SpawnContext = multiprocessing.get_context("fork") if way == "fork" else multiprocessing.get_context("spawn")
         if way == "spawn":
             # It begins with the first process, and its beginning lets Ctrl-C through.
             resource_tracker.ensure_running()
-        self.pipes, self.processes = [], []
+        self.pipes: list[Pipe] = []
+        self.processes: list[BaseProcess] = []
         for _ in range(1, jobs):
             here, there = context.Pipe()
             # A forked process has a copy of the other pipes' ends, which would keep them open when this one ends.
@@ -62,7 +72,7 @@ class Crew:
             self.processes.append(process)
         self.close = weakref.finalize(self, dismiss, self.pipes, self.processes)
 
-    def __call__(self, which: Sequence[int], arguments: tuple) -> list[np.ndarray]:
+    def __call__(self, which: Sequence[int], arguments: tuple[Any, ...]) -> list[Floats]:
         """Predictions of the records ``which``, in their order."""
         parts: dict[int, list[int]] = {}
         for i in which:
@@ -71,7 +81,8 @@ class Crew:
         self.rounds += 1
         for worker, indices in parts.items():
             self.send(worker, (self.rounds, indices, arguments))
-        fault, found = None, {}
+        fault: Exception | None = None
+        found: dict[int, Floats] = {}
         try:
             found.update((i, self.predict(i, *arguments)) for i in own)
         except Exception as problem:  # noqa: BLE001 - raised below, when the others' answers are in
@@ -86,7 +97,7 @@ class Crew:
             raise fault
         return [found[i] for i in which]
 
-    def send(self, worker: int, request: tuple) -> None:
+    def send(self, worker: int, request: tuple[int, list[int], tuple[Any, ...]]) -> None:
         try:
             self.pipes[worker - 1].send(request)
         except OSError:
@@ -111,13 +122,16 @@ class Crew:
         )
 
 
-def way_to_begin() -> str:
+def way_to_begin() -> Way:
     """fork, or spawn where processes cannot be forked (Windows) or libraries do not survive it (macOS)."""
     chosen = os.environ.get(HOW)
     possible = [way for way in WAYS if way in multiprocessing.get_all_start_methods()]
-    if chosen and chosen not in possible:
-        raise InputFault(f"{HOW} = {chosen!r}: processes begin by {' or '.join(possible)} here")
-    return chosen or ("spawn" if sys.platform == "darwin" else possible[0])
+    if not chosen:
+        return "spawn" if sys.platform == "darwin" else possible[0]
+    for way in possible:
+        if way == chosen:
+            return way
+    raise InputFault(f"{HOW} = {chosen!r}: processes begin by {' or '.join(possible)} here")
 
 
 def shares(records: Sequence[Record], jobs: int) -> list[int]:
@@ -128,14 +142,15 @@ def shares(records: Sequence[Record], jobs: int) -> list[int]:
         each = DEAR.get(record.quantity, 1 if size > FEW and "angle" in record.axes else DEAR_NUMBER)
         # Runs of one condition that differ by nothing but noise cost once; most are so.
         cost[record.condition] = max(cost.get(record.condition, 0.0), float(each * size))
-    loads, owner = [0.0] * jobs, {}
+    loads = [0.0] * jobs
+    owner: dict[str, int] = {}
     for condition in sorted(cost, key=lambda c: (-cost[c], c)):
         owner[condition] = int(np.argmin(loads))
         loads[owner[condition]] += cost[condition]
     return [owner[record.condition] for record in records]
 
 
-def serve(pipe, predict: Callable[..., np.ndarray], others: list) -> None:
+def serve(pipe: "Pipe", predict: Callable[..., Floats], others: "list[Pipe]") -> None:
     """The other process: answers until its pipe is closed.  Ctrl-C is for the first process to hear."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for other in others:
@@ -146,7 +161,7 @@ def serve(pipe, predict: Callable[..., np.ndarray], others: list) -> None:
         except (EOFError, OSError):
             return
         try:
-            answer = [(i, predict(i, *arguments)) for i in indices]
+            answer: list[tuple[int, Floats]] | Exception = [(i, predict(i, *arguments)) for i in indices]
         except Exception as problem:  # noqa: BLE001 - sent to whoever asked
             answer = problem
         try:
@@ -156,7 +171,7 @@ def serve(pipe, predict: Callable[..., np.ndarray], others: list) -> None:
             return
 
 
-def dismiss(pipes: list, processes: list) -> None:
+def dismiss(pipes: "list[Pipe]", processes: list[BaseProcess]) -> None:
     for pipe in pipes:
         pipe.close()
     for process in processes:

@@ -10,7 +10,7 @@ as the wear unit's FMU state, and that unit is led to the plant's angles.
 import contextlib
 import math
 import weakref
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,6 +26,7 @@ from discrepancy.prediction.bench import (
     stretches,
     within_turn,
 )
+from discrepancy.problem import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
@@ -89,7 +90,7 @@ class FmuBench(Bench):
 
     def age_plant(self, condition: Condition, values: Mapping[str, float]) -> None:
         """The plant where it stands, with grease as old as the condition says: its age is fixed in a unit's life."""
-        angle = self.plant.get("input_angle") / self.ratio
+        angle = float(self.plant.get("input_angle")) / self.ratio
         self.start_plant(condition, values, condition.direction * condition.load)
         self.turn_plant(condition, angle)
         self.plant.set("input_speed", self.input_speed(condition))
@@ -115,7 +116,9 @@ class FmuBench(Bench):
             return None
         return self.states_to(condition, values, [condition.hours], SHORT_CYCLE)[condition.hours]
 
-    def wear_to(self, condition, values, inspections, turns):
+    def wear_to(
+        self, condition: Condition, values: Mapping[str, float], inspections: list[float], turns: int
+    ) -> dict[float, np.ndarray]:
         records = {}
         for target, state in self.states_to(condition, values, inspections, turns).items():
             self.wear.restore(state)
@@ -128,7 +131,7 @@ class FmuBench(Bench):
         """The wear unit's FMU states at several operating times [s], see ``Bench.wear_to``."""
         fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
 
-        def run():
+        def run() -> dict[float, bytes]:
             self.renew_plant(fresh, values, fresh.direction * fresh.load)
             self.renew(self.wear, {**values, "temperature": fresh.temperature})
             with refusal_as_run_fault():
@@ -151,12 +154,12 @@ class FmuBench(Bench):
 
         return self.kept(("life", fresh, tuple(inspections), turns, self.relevant(values, True)), run)
 
-    def running(self, condition, values, angles, cage=0.0):
+    def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         if cage != 0.0:
             # No FMU can be told where its cages stand; what they change is the same in process.
             return super().running_places(condition, values, angles, cage)[0]
 
-        def run():
+        def run() -> Floats:
             worn = self.worn_state(condition, values)
             self.start_plant(condition, values, condition.direction * condition.load)
             start = within_turn(angles[0])
@@ -178,15 +181,18 @@ class FmuBench(Bench):
         key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
         return self.kept(key, run)
 
-    def running_places(self, condition, values, angles, cage=0.0):
+    def running_places(
+        self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0
+    ) -> tuple[Floats, Floats]:
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
-    def error_beside(self, condition, values, angles, base, base_angles):
+    def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
+                     base: Mapping[str, float], base_angles: Floats) -> Floats:
         # There is no equilibrium to start from: the whole run.
         return self.running(condition, values, angles)[:, COLUMNS.index("transmission_error")]
 
-    def held(self, condition, values, torques):
-        def run():
+    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
+        def run() -> Floats:
             worn = self.worn_state(condition, values)
             total = np.zeros(len(torques))
             self.start_plant(condition, values, torques[0])
@@ -211,7 +217,7 @@ class FmuBench(Bench):
 
 
 @contextlib.contextmanager
-def refusal_as_run_fault():
+def refusal_as_run_fault() -> Iterator[None]:
     """Values come from a search here: those that a unit refuses end a run, they are no fault of the user's."""
     try:
         yield

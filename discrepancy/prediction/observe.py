@@ -1,13 +1,14 @@
 """One function per measured quantity: what the bench would have shown on a record's axes, in SI units."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
@@ -27,7 +28,7 @@ LEAST_WORN = 0.1
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
-def settings_of(bench: Bench, record: Record) -> list:
+def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
     """Speed, load, temperature and hours, each one number or one a row."""
     defaults = {**DEFAULTS, "speed": bench.rated_speed, "load": bench.rated_load}
     return [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
@@ -37,31 +38,34 @@ def row_conditions(bench: Bench, record: Record) -> list[Condition]:
     """The condition of every row (rows may differ in speed, load, temperature, hours)."""
     columns = [np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)]
     direction = int(record.factors.get("direction", 1))
-    return [Condition(*map(float, row), direction) for row in zip(*columns)]
+    return [
+        Condition(float(speed), float(load), float(temperature), float(hours), direction)
+        for speed, load, temperature, hours in zip(*columns)
+    ]
 
 
 def condition_of(bench: Bench, record: Record) -> Condition:
     """The one condition of a record whose rows share it."""
-    first = (float(c if np.ndim(c) == 0 else c[0]) for c in settings_of(bench, record))
-    return Condition(*first, int(record.factors.get("direction", 1)))
+    speed, load, temperature, hours = (float(np.ravel(c)[0]) for c in settings_of(bench, record))
+    return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)))
 
 
-def identity(record: Record) -> tuple:
+def identity(record: Record) -> tuple[Hashable, ...]:
     """What a prediction depends on in a record: equal for runs that repeat each other."""
     axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
     return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
 
 
-def angles_of(bench: Bench, record: Record, zero: float) -> np.ndarray:
+def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
     """Output angles [rad] of the samples."""
     condition = condition_of(bench, record)
     if "angle" in record.axes:
-        return np.asarray(record.axes["angle"], float) + zero
-    time = np.asarray(record.axes["time"], float)
-    return condition.direction * condition.speed / abs(bench.ratio) * (time - time[0]) + zero
+        return np.asarray(record.axes["angle"], np.float64) + zero
+    time = np.asarray(record.axes["time"], np.float64)
+    return condition.direction * condition.speed / abs(bench.ratio) * (time - float(time[0])) + zero
 
 
-def as_turned(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
     """The record's angles in the order in which they are passed, and the place of each sample among them."""
     angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
     order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
@@ -70,10 +74,11 @@ def as_turned(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray,
     return angles[order], place
 
 
-def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> np.ndarray:
+def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> Floats:
     """A column of the running bench at the record's angles (or times)."""
     angles, place = as_turned(bench, record, values)
-    return bench.running(condition_of(bench, record), values, angles, cage)[place, COLUMNS.index(name)]
+    series = bench.running(condition_of(bench, record), values, angles, cage)
+    return series[:, COLUMNS.index(name)][place]
 
 
 def angle_zero(record: Record) -> str:
@@ -81,30 +86,34 @@ def angle_zero(record: Record) -> str:
     return f"angle_zero[{record.mounting}]"
 
 
-def transmission_error(bench, record, values):
+def centred(values: Floats) -> Floats:
+    return values - float(values.mean())
+
+
+def transmission_error(bench: Bench, record: Record, values: Values) -> Floats:
     error = along(bench, record, values, "transmission_error")
-    return error - error.mean()
+    return centred(error)
 
 
-def transmission_error_beside(bench, record, values, base):
+def transmission_error_beside(bench: Bench, record: Record, values: Values, base: Values) -> Floats:
     """To first order beside the one with the values ``base``."""
     condition = condition_of(bench, record)
     if condition.hours > 0.0:
         return transmission_error(bench, record, values)
     angles, place = as_turned(bench, record, values)
     error = bench.error_beside(condition, values, angles, base, as_turned(bench, record, base)[0])[place]
-    return error - error.mean()
+    return centred(error)
 
 
-def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> np.ndarray:
+def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
     """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
     return along(bench, record, values, "transmission_error", share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
 
-def hysteresis(bench, record, values):
+def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
     if record.tags.get("locked") == "output":
         return locked_output(bench, record, values)
-    torques = np.asarray(record.axes["torque"], float)
+    torques = np.asarray(record.axes["torque"], np.float64)
     condition = held_condition(bench, record)
     # The loop is entered from little torque; with none the output floats and has no place.
     first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
@@ -113,9 +122,9 @@ def hysteresis(bench, record, values):
     return turning
 
 
-def locked_output(bench: Bench, record: Record, values: Values) -> np.ndarray:
+def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
-    applied = np.asarray(record.axes["torque"], float)
+    applied = np.asarray(record.axes["torque"], np.float64)
     elastic = {name: value for name, value in values.items() if name not in DRIVE_FRICTION} | WITHOUT_FRICTION
     # Finely about no torque, where play is.
     rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
@@ -140,7 +149,7 @@ def at_rest(bench: Bench, c: Condition) -> Condition:
     return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
 
 
-def loop(bench: Bench, condition: Condition, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def loop(bench: Bench, condition: Condition, values: Values) -> tuple[Floats, Floats]:
     """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
     way = torque_way(bench.rated_load, TORQUE_STEPS)
     quarter = len(way) // 4
@@ -149,7 +158,7 @@ def loop(bench: Bench, condition: Condition, values: Values) -> tuple[np.ndarray
     return np.concatenate([way, first[1:]]), turning
 
 
-def lost_motion(bench, record, values):
+def lost_motion(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
     rows = row_conditions(bench, record)
     by_condition = {c: lost_motion_at(bench, c, values) for c in dict.fromkeys(rows)}
@@ -169,24 +178,24 @@ def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
     return float(middle[0] - middle[1])
 
 
-def torsional_stiffness(bench, record, values):
+def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
     torque = bench.rated_load
     turning = bench.held(held_condition(bench, record), values, np.array([0.0, 0.25, 0.5, 0.75, 1.0]) * torque)
     return np.full(len(record.values), 0.5 * torque / (turning[4] - turning[2]))
 
 
-def input_torque(bench, record, values):
+def input_torque(bench: Bench, record: Record, values: Values) -> Floats:
     if "angle" in record.axes or "time" in record.axes:
         return np.abs(along(bench, record, values, "drive_torque"))
     return np.array([abs(bench.averages(c, values)["drive_torque"]) for c in row_conditions(bench, record)])
 
 
-def no_load_torque(bench, record, values):
+def no_load_torque(bench: Bench, record: Record, values: Values) -> Floats:
     free = Record(**{**record.__dict__, "factors": {**record.factors, "load": 0.0}})
     return input_torque(bench, free, values)
 
 
-def efficiency(bench, record, values):
+def efficiency(bench: Bench, record: Record, values: Values) -> Floats:
     found = []
     for c in row_conditions(bench, record):
         torque = abs(bench.averages(c, values)["drive_torque"])
@@ -194,54 +203,54 @@ def efficiency(bench, record, values):
     return np.array(found)
 
 
-def vibration(bench, record, values):
+def vibration(bench: Bench, record: Record, values: Values) -> Floats:
     """Acceleration of a rigid housing on soft mounts: force of the pins over the mass that moves."""
     angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
     spectrum_angles, force = housing_force(bench, record, values)
     return np.interp(angles % (2.0 * math.pi), spectrum_angles, force, period=2.0 * math.pi) / values.get("housing_mass", 10.0)
 
 
-def housing_force(bench: Bench, record: Record, values: Values) -> tuple[np.ndarray, np.ndarray]:
+def housing_force(bench: Bench, record: Record, values: Values) -> tuple[Floats, Floats]:
     """Force of the pins on their ring along x over one output turn, less its mean."""
     condition = condition_of(bench, record)
     angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
     series = bench.running(condition, values, angles if condition.direction > 0 else angles[::-1])
     force = series[:, COLUMNS.index("housing_force_x")]
     force = force if condition.direction > 0 else force[::-1]
-    return angles, force - force.mean()
+    return angles, centred(force)
 
 
-def vibration_order(bench, record, values):
+def vibration_order(bench: Bench, record: Record, values: Values) -> Floats:
     _, force = housing_force(bench, record, values)
     amplitudes = 2.0 * np.abs(np.fft.rfft(force)) / len(force)
-    orders = np.asarray(record.axes["order"], float)
+    orders = np.asarray(record.axes["order"], np.float64)
     return np.interp(orders, np.arange(len(amplitudes)), amplitudes) / values.get("housing_mass", 10.0)
 
 
-def temperature(bench, record, values):
+def temperature(bench: Bench, record: Record, values: Values) -> Floats:
     condition = condition_of(bench, record)
     steady = bench.averages(condition, {**values, "thermal_time": 0.0})["reducer_temperature"]
     constant = values.get("thermal_time", 0.0)
-    time = np.asarray(record.axes["time"], float)
+    time = np.asarray(record.axes["time"], np.float64)
     rise = 1.0 - np.exp(-(time - time[0]) / constant) if constant > 0.0 else np.ones(len(time))
     return condition.temperature + (steady - condition.temperature) * rise
 
 
-def cage_speed(bench, record, values):
+def cage_speed(bench: Bench, record: Record, values: Values) -> Floats:
     return np.array([abs(bench.averages(c, values)["cage_speed"]) for c in row_conditions(bench, record)])
 
 
-def worn_difference(measure: Callable[..., np.ndarray]) -> Callable[[Bench, Record, Values], np.ndarray]:
+def worn_difference(measure: Callable[..., Floats]) -> Callable[[Bench, Record, Values], Floats]:
     """The base model's wear from full meshing cycles, changed as short cycles change with the values.
 
     In proportion: what short cycles get wrong they get wrong alike for all values.
     """
 
-    def observed(bench: Bench, record: Record, values: Values) -> np.ndarray:
+    def observed(bench: Bench, record: Record, values: Values) -> Floats:
         full, base, share = bench.kept(("in proportion", measure.__name__, *identity(record)), lambda: in_proportion(bench, record))
         return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
 
-    def in_proportion(bench: Bench, record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def in_proportion(bench: Bench, record: Record) -> tuple[Floats, Floats, Floats]:
         full, base = (measure(bench, record, {}, turns) for turns in (bench.reducer.topology.lobes, SHORT_CYCLE))
         worn = np.abs(base) > LEAST_WORN * np.abs(base).max()
         return full, base, np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
@@ -262,7 +271,7 @@ def inspections(bench: Bench, record: Record, values: Values, turns: int) -> lis
     return [found[row] for row in range(len(found))]
 
 
-def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:
+def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> Floats:
     """Profile(s) of the tagged surface; flanks and pins as the mean of those that are not told apart."""
     w = wear[0]
 
@@ -273,24 +282,27 @@ def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> np.ndarray:
     if surface == "flank":
         discs = w["disc_wear"].shape[0]
         teeth = w["disc_wear"].reshape(discs, -1, w["slide"].shape[0])[part("disc")]
-        profiles = teeth[..., part("tooth"), :] if "tooth" in tags else teeth
-        return profiles.reshape(-1, profiles.shape[-1]).mean(axis=0)
+        return mean_profile(teeth[..., part("tooth"), :] if "tooth" in tags else teeth)
     if surface == "pin":
         both = (w["pin_wear"] + w["pin_even_wear"][..., None]).sum(axis=0)
-        profiles = both[part("tooth")]
-        return profiles.reshape(-1, profiles.shape[-1]).mean(axis=0)
+        return mean_profile(both[part("tooth")])
     field = {"inner_race": "inner_race_wear", "outer_race": "outer_race_wear"}[surface]
-    profiles = w[field][part("disc")]
-    profiles = profiles[..., part("crank"), :]
-    profiles = profiles.reshape(-1, profiles.shape[-1])
-    return profiles[profiles.max(axis=1).argmax()]
+    races: Floats = w[field][part("disc")][..., part("crank"), :]
+    profiles = races.reshape(-1, races.shape[-1])
+    deepest: Floats = profiles[profiles.max(axis=1).argmax()]
+    return deepest
+
+
+def mean_profile(profiles: Floats) -> Floats:
+    mean: Floats = profiles.reshape(-1, profiles.shape[-1]).mean(axis=0)
+    return mean
 
 
 @worn_difference
-def wear_profile(bench, record, values, turns):
+def wear_profile(bench: Bench, record: Record, values: Values, turns: int) -> Floats:
     wear = inspections(bench, record, values, turns)[0]
     profile = surface_of(wear, record.tags)
-    angle = np.asarray(record.axes["depth_angle"], float)
+    angle = np.asarray(record.axes["depth_angle"], np.float64)
     if record.tags["surface"] == "pin":
         places = (angle / math.pi + 0.5) * len(profile) - 0.5
         return np.interp(places, np.arange(len(profile)), profile)
@@ -300,7 +312,7 @@ def wear_profile(bench, record, values, turns):
     return np.interp(sense * angle, bins, smooth(profile), period=2.0 * math.pi)
 
 
-def smooth(profile: np.ndarray, harmonics: int = 24) -> np.ndarray:
+def smooth(profile: Floats, harmonics: int = 24) -> Floats:
     """The profile's first harmonics: a cycle's ripple is not wear."""
     spectrum = np.fft.rfft(profile)
     spectrum[harmonics + 1 :] = 0.0
@@ -308,7 +320,7 @@ def smooth(profile: np.ndarray, harmonics: int = 24) -> np.ndarray:
 
 
 @worn_difference
-def wear_depth(bench, record, values, turns):
+def wear_depth(bench: Bench, record: Record, values: Values, turns: int) -> Floats:
     found = []
     for wear in inspections(bench, record, values, turns):
         if record.tags["surface"] == "pin":
@@ -319,7 +331,7 @@ def wear_depth(bench, record, values, turns):
 
 
 @worn_difference
-def mass_loss(bench, record, values, turns):
+def mass_loss(bench: Bench, record: Record, values: Values, turns: int) -> Floats:
     """Of the part named by the tag: reducer, discs, pins, cranks."""
     parts = {
         "disc": ("flank_volume", "outer_race_volume"), "pin": ("pin_volume",), "crank": ("inner_race_volume",),
@@ -329,13 +341,13 @@ def mass_loss(bench, record, values, turns):
     return np.array([STEEL * sum(float(w[name][0]) for name in parts[part]) for w in inspections(bench, record, values, turns)])
 
 
-def debris_iron(bench, record, values):
+def debris_iron(bench: Bench, record: Record, values: Values) -> Floats:
     mass = float(bench.templates[1]["grease_mass"][0])
     whole = Record(**{**record.__dict__, "tags": {"part": "reducer"}})
     return mass_loss(bench, whole, values) / values.get("grease_mass", mass)
 
 
-OBSERVED: dict[str, Callable[[Bench, Record, Values], np.ndarray]] = {
+OBSERVED: dict[str, Callable[[Bench, Record, Values], Floats]] = {
     f.__name__: f for f in (
         transmission_error, hysteresis, lost_motion, torsional_stiffness, input_torque, no_load_torque, efficiency,
         vibration, vibration_order, temperature, wear_profile, wear_depth, mass_loss, debris_iron, cage_speed,

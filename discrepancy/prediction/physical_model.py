@@ -2,9 +2,10 @@
 
 import copy
 import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
-from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.problem import Candidate, Floats, Parameter, Record
 from fmu_src.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.
@@ -61,9 +62,9 @@ class PhysicalModel:
         self.zeros: dict[str, float] = dict(zeros or {})
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
-        self.ripples: dict[str, np.ndarray] = {}
+        self.ripples: dict[str, Floats] = {}
         self.identities = {id(record): identity(record) for record in self.records}
-        self.shown: dict[tuple, np.ndarray] = {}
+        self.shown: dict[Hashable, Floats] = {}
         if zeros is None:
             self.align(always=len(nuisances) < len(campaign.nuisances))
             self.place_cages()
@@ -136,7 +137,7 @@ class PhysicalModel:
                 continue
             own = self.for_record(record, values)
             at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
-            middle, cosine, sine = sum(at) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+            middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
             basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
             misfit = record.values - record.values.mean() - (middle - middle.mean())
             parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
@@ -145,11 +146,11 @@ class PhysicalModel:
             seen = min(1.0, float(np.hypot(*parts)))
             self.ripples[record.name] = seen * error_with_cages(self.bench, record, own, share) + (1.0 - seen) * middle - at[0]
 
-    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[np.ndarray]:
+    def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
         return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None))
 
-    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
         return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base)))
 
@@ -157,7 +158,7 @@ class PhysicalModel:
         """Nuisances where they start."""
         return {**self.zeros, **{p.name: p.off for p in self.declared}}
 
-    def shared(self, which: Sequence[int], arguments: tuple) -> list[np.ndarray]:
+    def shared(self, which: Sequence[int], arguments: tuple[Mapping[str, float], Mapping[str, float] | None]) -> list[Floats]:
         """Predictions on all processes, if there are several and the model is complete."""
         if self.jobs > 1 and self.crew is None and self.complete:
             self.crew = Crew(self.records, Predictor(self), self.jobs)
@@ -165,11 +166,11 @@ class PhysicalModel:
             return self.crew(which, arguments)
         return [self.one(self.records[i], *arguments) for i in which]
 
-    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> np.ndarray:
+    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> Floats:
         own = self.for_record(record, values)
-        first_order = beside is not None and record.quantity == "transmission_error"
+        first_order = beside if record.quantity == "transmission_error" else None
         try:
-            predicted = self.observed(record, own, self.for_record(record, beside) if first_order else None)
+            predicted = self.observed(record, own, None if first_order is None else self.for_record(record, first_order))
         except RunFault:
             if not self.bench.relevant(values, True):
                 raise
@@ -180,7 +181,7 @@ class PhysicalModel:
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
             place = places[module.PER]
 
-            def at(parameter: str, place=place) -> float:
+            def at(parameter: str, place: str = place) -> float:
                 key = f"{parameter}[{place}]" if place else parameter
                 return values.get(key, self.chain_values.get(key, 0.0))
 
@@ -189,10 +190,10 @@ class PhysicalModel:
         if record.name in self.ripples:
             predicted = predicted + self.ripples[record.name]
         if record.quantity in ZEROED:
-            predicted = predicted - predicted.mean() + record.values.mean()
+            predicted = predicted - float(predicted.mean()) + float(record.values.mean())
         return predicted
 
-    def observed(self, record: Record, own: Values, beside: Values | None) -> np.ndarray:
+    def observed(self, record: Record, own: Values, beside: Values | None) -> Floats:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
         key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), None if beside is None else tuple(beside.items()))
         if key not in self.shown:
@@ -220,12 +221,12 @@ class Predictor:
     def __init__(self, model: PhysicalModel):
         self.model = copy.copy(model)
 
-    def __setstate__(self, state: dict) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__ |= state
         # They go by the objects, which are others here.
         self.model.identities = {id(record): identity(record) for record in self.model.records}
 
-    def __call__(self, i: int, values: Mapping[str, float], beside: Mapping[str, float] | None) -> np.ndarray:
+    def __call__(self, i: int, values: Mapping[str, float], beside: Mapping[str, float] | None) -> Floats:
         return self.model.one(self.model.records[i], values, beside)
 
 

@@ -167,7 +167,7 @@ def floor_division(e: Writer, operator: ast.operator, a: Value, b: Value) -> Val
     return Value(FLOAT, (e.give(f"select i1 {is_zero}, double {divided}, double {result}"),))
 
 
-def signed_zero(e: "Emitter", sign: str) -> str:
+def signed_zero(e: Writer, sign: str) -> str:
     """0 with the sign of a number."""
     return e.give(f"call double {e.intrinsic('llvm.copysign.f64', 2)}(double 0.0, double {sign})")
 

@@ -1,6 +1,7 @@
 """Where lives run: processes of this machine (joblib), or a cluster (Dask)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import Protocol, TypeVar
 
 from fmu_src.faults import InputFault, RunFault
 
@@ -8,7 +9,16 @@ from fmu_src.faults import InputFault, RunFault
 RETRIES = 10
 
 
-def through_joblib(function: Callable[[object], dict], tasks: list, jobs: int) -> Iterator[dict]:
+class Numbered(Protocol):
+    @property
+    def number(self) -> int: ...
+
+
+Task = TypeVar("Task", bound=Numbered)
+Found = TypeVar("Found")
+
+
+def through_joblib(function: Callable[[Task], Found], tasks: Sequence[Task], jobs: int) -> Iterator[Found]:
     """Results as they come."""
     if jobs == 1:
         yield from map(function, tasks)
@@ -18,7 +28,7 @@ def through_joblib(function: Callable[[object], dict], tasks: list, jobs: int) -
     yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(delayed(function)(task) for task in tasks)
 
 
-def through_dask(function: Callable[[object], dict], tasks: list, scheduler: str) -> Iterator[dict]:
+def through_dask(function: Callable[[Task], Found], tasks: Sequence[Task], scheduler: str) -> Iterator[Found]:
     """Results as they come; a life whose worker dies runs again on another, so nothing is lost."""
     from distributed import Client, KilledWorker, as_completed
 

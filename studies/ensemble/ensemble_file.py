@@ -101,7 +101,7 @@ def load_ensemble(path: str | Path, samples: int | None = None) -> Ensemble:
     if not path.is_file():
         raise InputFault(f"no ensemble file at {path}")
     try:
-        content = Content(**tomllib.loads(path.read_text(encoding="utf-8")))
+        content = Content(**tomllib.loads(path.read_text(encoding="utf-8-sig")))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise InputFault(f"{path}: not a TOML file: {problem}") from None
     except ValidationError as problem:

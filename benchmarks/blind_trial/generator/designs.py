@@ -2,9 +2,11 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import TypedDict
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.noise import Noise, noise_for
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
 
@@ -20,7 +22,7 @@ class Series:
     condition: str
     setting: Setting
     noise: Noise
-    axes: dict[str, np.ndarray] = field(default_factory=dict)
+    axes: dict[str, Floats] = field(default_factory=dict)
     rows: list[Setting] = field(default_factory=list)
     tags: dict[str, str] = field(default_factory=dict)
     replicates: int = 2
@@ -28,6 +30,26 @@ class Series:
     @property
     def size(self) -> int:
         return len(self.rows) if self.rows else len(next(iter(self.axes.values())))
+
+
+class Run(TypedDict):
+    """What was measured of a series once; SI units."""
+
+    id: str
+    series: Series
+    replicate: int
+    axes: dict[str, Floats]
+    values: Floats
+
+
+class Nuisance(TypedDict):
+    """As in the campaign's file: numbers in ``unit``, ``prior`` a standard deviation."""
+
+    unit: str
+    start: float
+    lower: float
+    upper: float
+    prior: float
 
 
 @dataclass
@@ -38,7 +60,7 @@ class Design:
     conditions: dict[str, Setting] = field(default_factory=dict)
     held_out: set[str] = field(default_factory=set)
     series: list[Series] = field(default_factory=list)
-    nuisances: dict[str, dict] = field(default_factory=dict)
+    nuisances: dict[str, Nuisance] = field(default_factory=dict)
     mounting: dict[str, str] = field(default_factory=dict)
     zeros: dict[str, float] = field(default_factory=dict)
     uneven: bool = False
@@ -51,7 +73,7 @@ class Design:
 SIZES = ("tiny", "small", "poor", "middle", "rich")
 
 
-def te(design: Design, rng, size: str) -> None:
+def te(design: Design, rng: np.random.Generator, size: str) -> None:
     """Transmission error over one turn of the output."""
     noise = noise_for(rng, "transmission_error")
     # With 400 samples the rollers' orders 361 and 279 would fold onto 39 and 121.
@@ -75,7 +97,7 @@ def te(design: Design, rng, size: str) -> None:
         design.series.append(Series("transmission_error", name, setting, noise, {"angle": angles}))
 
 
-def loops(design: Design, rng, size: str) -> None:
+def loops(design: Design, rng: np.random.Generator, size: str) -> None:
     """Torque up and down with the input held, at some temperatures."""
     noise = noise_for(rng, "hysteresis")
     temperatures = {"tiny": [293, 323, 308], "small": [293, 323, 308], "poor": [293], "middle": [283, 298, 323, 310], "rich": [283, 293, 308, 323, 333, 300]}[size]
@@ -92,13 +114,13 @@ def loops(design: Design, rng, size: str) -> None:
         design.series.append(Series("hysteresis", name, setting, noise, {"torque": way}, tags={"locked": "input"}))
 
 
-def there_and_back(peak: float, steps: int) -> np.ndarray:
+def there_and_back(peak: float, steps: int) -> Floats:
     """Torques [N m] of a loop; none at no torque: there the output floats in its play, and nothing says where."""
     up = (np.arange(steps) + 0.5) / (steps - 0.5) * peak
     return np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
 
 
-def torque(design: Design, rng, size: str) -> None:
+def torque(design: Design, rng: np.random.Generator, size: str) -> None:
     """Input torque over the speed, at loads and temperatures."""
     noise = noise_for(rng, "input_torque")
     speeds = {"tiny": [200, 600, 1400, 2400], "small": [200, 500, 1000, 1700, 2400], "poor": [500, 1500]}.get(size, [200, 350, 600, 1000, 1500, 2000, 2500])
@@ -120,7 +142,7 @@ def torque(design: Design, rng, size: str) -> None:
         design.series.append(Series("input_torque", name, setting, noise, rows=rows, replicates=3))
 
 
-def wear(design: Design, rng, size: str) -> None:
+def wear(design: Design, rng: np.random.Generator, size: str) -> None:
     """Depths of flank and races over the hours, at loads, speeds and temperatures."""
     noise = noise_for(rng, "wear_depth")
     hours = {"small": [100, 400, 1200, 3000], "poor": [300, 1000, 3000]}.get(size, [50, 150, 400, 1000, 2500, 6000])
@@ -145,7 +167,7 @@ def wear(design: Design, rng, size: str) -> None:
     design.nuisances["roughness"] = {"unit": "um", "start": 0.4, "lower": 0.1, "upper": 1.2, "prior": 0.06}
 
 
-def prints(design: Design, rng, size: str) -> None:
+def prints(design: Design, rng: np.random.Generator, size: str) -> None:
     """Worn profiles of pins at the end of the life runs."""
     noise = noise_for(rng, "wear_profile")
     for name, setting in list(design.conditions.items()):
@@ -154,7 +176,7 @@ def prints(design: Design, rng, size: str) -> None:
             design.series.append(Series("wear_profile", name, setting, noise, {"depth_angle": angles}, tags={"surface": "pin"}))
 
 
-def vibration(design: Design, rng, size: str) -> None:
+def vibration(design: Design, rng: np.random.Generator, size: str) -> None:
     """Acceleration of the housing over the order."""
     noise = noise_for(rng, "vibration_order")
     grid = {"small": [(60, 1000), (167, 2000), (100, 1500)], "poor": [(167, 2000), (167, 1000)],
@@ -171,7 +193,7 @@ def vibration(design: Design, rng, size: str) -> None:
                                     tags={"location": "housing_radial"}))
 
 
-def cage(design: Design, rng, size: str) -> None:
+def cage(design: Design, rng: np.random.Generator, size: str) -> None:
     """Speed of a cage over the load, at some speeds."""
     noise = noise_for(rng, "cage_speed")
     loads = [10, 30, 80, 167] if size in ("tiny", "small", "poor") else [5, 15, 30, 60, 110, 167, 230]

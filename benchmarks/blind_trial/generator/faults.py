@@ -2,10 +2,12 @@
 
 import numpy as np
 
+from benchmarks.blind_trial.generator.designs import Run
+
 FAULTS = ("dropout", "missing", "spikes", "quantised", "swapped", "gain", "offset", "drift", "clock")
 
 
-def faulty(rng: np.random.Generator, fault: str, quantity: str, runs: list[dict]) -> str:
+def faulty(rng: np.random.Generator, fault: str, quantity: str, runs: list[Run]) -> str:
     """Spoils ``runs`` (with ``axes`` and ``values``) of one quantity; says what was done."""
     mine = [r for r in runs if r["series"].quantity == quantity]
     size = float(np.std(np.concatenate([r["values"] for r in mine]))) or 1.0

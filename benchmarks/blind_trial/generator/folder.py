@@ -4,10 +4,12 @@ import hashlib
 import json
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.designs import Design, Series
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Design, Run
 from benchmarks.blind_trial.generator.reducer import HOUR
 
 RPM = math.pi / 30.0
@@ -21,33 +23,33 @@ ROW_KEYS = {"input_torque": ("input_speed",), "cage_speed": ("load_torque",), "w
 ROWS = {"input_speed": ("rpm", "speed", RPM), "load_torque": ("N.m", "load", 1.0), "hours": ("h", "hours", HOUR)}
 
 
-def seal_of(truth: dict) -> tuple[str, str]:
+def seal_of(truth: dict[str, Any]) -> tuple[str, str]:
     """The truth as text, and its SHA-256."""
     text = json.dumps(truth, indent=1, sort_keys=True, default=float) + "\n"
     return text, hashlib.sha256(text.encode()).hexdigest()
 
 
-def write_campaign(folder: Path, name: str, design: Design, runs: list[dict], seal: str, description: str = "",
+def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], seal: str, description: str = "",
                    rig: str = "") -> None:
     """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one."""
     folder.mkdir(parents=True, exist_ok=True)
     lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121"', f'seal = "sha256:{seal}"', "", rig]
-    for key, s in design.conditions.items():
-        lines += [f"[conditions.{key}]", f'input_speed = "{s.speed / RPM:.6g} rpm"', f'load_torque = "{s.load:.6g} N.m"',
-                  f'temperature = "{s.temperature - 273.15:.6g} degC"', f'hours = "{s.hours / HOUR:.6g} h"',
-                  f'direction = "{"forward" if s.direction > 0 else "reverse"}"', f'mounting = "{design.mounting.get(key, "1")}"']  # fmt: skip
+    for key, at in design.conditions.items():
+        lines += [f"[conditions.{key}]", f'input_speed = "{at.speed / RPM:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',
+                  f'temperature = "{at.temperature - 273.15:.6g} degC"', f'hours = "{at.hours / HOUR:.6g} h"',
+                  f'direction = "{"forward" if at.direction > 0 else "reverse"}"', f'mounting = "{design.mounting.get(key, "1")}"']  # fmt: skip
         if key in design.held_out:
             lines.append("held_out = true")
         lines.append("")
     for key, entry in design.nuisances.items():
-        lines += [f"[nuisances.{key}]", f'unit = "{entry["unit"]}"', *(f"{k} = {entry[k]!r}" for k in ("start", "lower", "upper", "prior")), ""]
+        lines += [f"[nuisances.{key}]", f'unit = "{entry["unit"]}"', *(f"{k} = {v!r}" for k, v in entry.items() if k != "unit"), ""]
     for run in runs:
-        s: Series = run["series"]
+        s = run["series"]
         file = f"{run['id']}.csv"
         unit, size = UNITS[s.quantity]
         lines += ["[[runs]]", f'id = "{run["id"]}"', f'quantity = "{s.quantity}"', f'condition = "{s.condition}"',
                   f"replicate = {run['replicate']}", f'file = "{file}"', f'columns.value = {{ column = "y", unit = "{unit}" }}']  # fmt: skip
-        columns = {}
+        columns: dict[str, Floats] = {}
         for axis, values in run["axes"].items():
             axis_unit, axis_size = AXES[axis]
             columns[axis] = values / axis_size
@@ -67,7 +69,7 @@ def write_campaign(folder: Path, name: str, design: Design, runs: list[dict], se
     (folder / "campaign.toml").write_text("\n".join(lines), encoding="utf-8")
 
 
-def write_csv(path: Path, columns: dict[str, np.ndarray]) -> None:
+def write_csv(path: Path, columns: dict[str, Floats]) -> None:
     rows = zip(*columns.values())
     text = "\n".join(",".join("" if math.isnan(v) else f"{v:.8g}" for v in row) for row in rows)
     path.write_text(",".join(columns) + "\n" + text + "\n", encoding="utf-8")

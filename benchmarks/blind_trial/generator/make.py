@@ -3,10 +3,12 @@
 import copy
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator.designs import Design, make_design
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Design, Run, make_design
 from benchmarks.blind_trial.generator.faults import faulty
 from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
 from benchmarks.blind_trial.generator.laws import CATALOGUE
@@ -56,7 +58,7 @@ class Drawn:
     sizes: list[float]
 
 
-def make(task: Task, folder: Path, sealed: Path) -> dict:
+def make(task: Task, folder: Path, sealed: Path) -> dict[str, Any]:
     """Writes ``folder``/NAME and ``sealed``/NAME.json; returns the truth with its seal."""
     return written(task, drawn(task), folder, sealed)
 
@@ -93,7 +95,7 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
     return Drawn(rng, truths, design, Bench(parameters, WHOLE), parameters, sizes)
 
 
-def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict:
+def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, Any]:
     rng, truths, design = made.rng, made.truths, made.design
     runs = measure(rng, design, made.bench, truths)
     done = faulty(rng, task.fault, str(rng.choice(sorted(design.quantities()))), runs) if task.fault else ""
@@ -115,7 +117,7 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict:
     return {**truth, "seal": seal}
 
 
-def blocks_for(rng, task: Task, truths: list[Truth]) -> list[str]:
+def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> list[str]:
     """Blocks that show the laws, and one that has nothing to do with them."""
     blocks = list(dict.fromkeys(b for t in truths for b in t.blocks))
     # The first block of a law shows it; further ones come by chance, except prints, which need their lives.
@@ -131,7 +133,7 @@ def blocks_for(rng, task: Task, truths: list[Truth]) -> list[str]:
     return blocks + (extra if not blocks or rng.random() < 0.5 else [])
 
 
-def true_parameters(rng, task: Task, design: Design) -> dict[str, float]:
+def true_parameters(rng: np.random.Generator, task: Task, design: Design) -> dict[str, float]:
     """True values of what may be calibrated; a wrong base also has contacts that nobody declared."""
     found = {}
     for name, entry in design.nuisances.items():
@@ -142,9 +144,10 @@ def true_parameters(rng, task: Task, design: Design) -> dict[str, float]:
     return found
 
 
-def measure(rng, design: Design, bench: Bench, truths: list[Truth]) -> list[dict]:
+def measure(rng: np.random.Generator, design: Design, bench: Bench, truths: list[Truth]) -> list[Run]:
     """Runs with noise; every replicate starts with the cages somewhere else."""
-    runs, kept = [], {}
+    runs: list[Run] = []
+    kept: dict[tuple[int, float, int], Floats] = {}
     for number, s in enumerate(design.series):
         for k in range(s.replicates):
             axes = copy.deepcopy(s.axes)

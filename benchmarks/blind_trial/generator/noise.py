@@ -6,6 +6,8 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.signal import lfilter
 
+from benchmarks.blind_trial.generator import Floats
+
 
 @dataclass(frozen=True)
 class Noise:
@@ -29,10 +31,10 @@ class Noise:
     quantum: float = 0.0
     relative: float = 0.0
 
-    def filters(self) -> tuple[np.ndarray, np.ndarray]:
+    def filters(self) -> tuple[Floats, Floats]:
         return np.array([1.0, self.moving]), np.array([1.0, -2.0 * self.radius * np.cos(self.turn), self.radius**2])
 
-    def correlation(self, n: int) -> np.ndarray:
+    def correlation(self, n: int) -> Floats:
         """Autocovariance of the coloured part for unit innovations, lags 0 to n - 1."""
         impulse = np.zeros(4 * max(n, 200))
         impulse[0] = 1.0
@@ -41,18 +43,18 @@ class Noise:
         spectrum = np.abs(np.fft.rfft(response, size)) ** 2
         return np.fft.irfft(spectrum, size)[:n]
 
-    def covariance(self, values: np.ndarray) -> np.ndarray:
+    def covariance(self, values: Floats) -> Floats:
         """Covariance of one run's noise around ``values``, for one and the same order of samples."""
         n = len(values)
         lags = self.correlation(n)
         size = np.sqrt(self.sigma**2 + (self.relative * values) ** 2)
         ramp = np.linspace(-0.5, 0.5, n) if n > 1 else np.zeros(n)
-        total = toeplitz(lags / lags[0]) * np.outer(size, size)
+        total: Floats = toeplitz(lags / lags[0]) * np.outer(size, size)
         total += (self.offset * self.sigma) ** 2 + (self.drift * self.sigma) ** 2 * np.outer(ramp, ramp)
         total += self.gain**2 * np.outer(values, values) + self.quantum**2 / 12.0 * np.eye(n)
         return total
 
-    def draw(self, rng: np.random.Generator, values: np.ndarray) -> np.ndarray:
+    def draw(self, rng: np.random.Generator, values: Floats) -> Floats:
         """Noise of one run with ``values``."""
         n, lead = len(values), 200
         if self.tail > 0.0:
@@ -61,7 +63,7 @@ class Noise:
             innovations = rng.standard_normal(n + lead)
         coloured = lfilter(*self.filters(), innovations)[lead:] / np.sqrt(self.correlation(1)[0])
         size = np.sqrt(self.sigma**2 + (self.relative * values) ** 2)
-        noise = coloured * size + self.offset * self.sigma * rng.standard_normal()
+        noise: Floats = coloured * size + self.offset * self.sigma * rng.standard_normal()
         if n > 1:
             noise = noise + self.drift * self.sigma * rng.standard_normal() * np.linspace(-0.5, 0.5, n)
         return noise + self.gain * rng.standard_normal() * values
@@ -71,7 +73,7 @@ class Noise:
                         "gain": self.gain * factor, "quantum": self.quantum * factor})
 
 
-def round_to(values: np.ndarray, quantum: float) -> np.ndarray:
+def round_to(values: Floats, quantum: float) -> Floats:
     return np.round(values / quantum) * quantum if quantum > 0.0 else values
 
 

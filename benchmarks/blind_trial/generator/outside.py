@@ -1,11 +1,15 @@
 """Laws that the catalogue does not have."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.laws.shared import ARCSEC, BOTH, PINS, UM
 from benchmarks.blind_trial.generator.laws.wearing import Wearing
+from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
 
 
@@ -15,12 +19,16 @@ class Angular(Truth):
     blocks, quantities = ("te",), ("transmission_error",)
     typical, low, high = 0.3 * ARCSEC, 0.005 * ARCSEC, 100 * ARCSEC
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.phase = float(rng.uniform(0.0, 2.0 * math.pi))
 
-    def post(self, series, y, rows):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
+        """Over the angle [rad], of size 1 or so."""
+        raise NotImplementedError
+
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         change = self.a * self.pattern(series.axes["angle"], rows[0])
-        return y + change - change.mean()
+        return y + change - float(change.mean())
 
 
 class Cogging(Angular):
@@ -28,7 +36,7 @@ class Cogging(Angular):
 
     name = "cogging at order 47"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         return np.cos(47.0 * angle + self.phase) + 0.3 * np.cos(23.5 * angle + self.phase)
 
 
@@ -37,7 +45,7 @@ class Belt(Angular):
 
     name = "belt at order 5.5"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         return np.cos(5.5 * angle + self.phase)
 
 
@@ -46,7 +54,7 @@ class ThreeLobes(Angular):
 
     name = "order 3 with the load"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         return s.load / 120.0 * np.cos(3.0 * angle + self.phase)
 
 
@@ -55,7 +63,7 @@ class StickSlip(Angular):
 
     name = "stick-slip at order 17"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         x = 17.0 * angle + self.phase
         return (np.sin(x) - 0.5 * np.sin(2.0 * x) + 0.33 * np.sin(3.0 * x)) * (s.load > 80.0)
 
@@ -65,7 +73,7 @@ class LoadedTurn(Angular):
 
     name = "order 1 changing sign with the load"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         return np.cos(angle + self.phase) * math.tanh((s.load - 110.0) / 15.0)
 
 
@@ -74,7 +82,7 @@ class WarmRipple(Angular):
 
     name = "order 29 with the temperature squared"
 
-    def pattern(self, angle, s):
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
         return np.cos(29.0 * angle + self.phase) * (0.2 + ((s.temperature - 293.15) / 20.0) ** 2)
 
 
@@ -85,10 +93,10 @@ class OddPins(Truth):
     typical, low, high = 1.0 * UM, 0.05 * UM, 8 * UM
     acceptable = ("pin_position_errors",)
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.places = rng.standard_normal(PINS)
 
-    def parts(self, p, setting):
+    def parts(self, p: np.ndarray, setting: Setting) -> None:
         p["pin_position_error_radial"][0] += self.a * self.places
 
 
@@ -98,9 +106,9 @@ class Cubic(Truth):
     name, blocks, quantities = "cubic stiffness", ("loops",), ("hysteresis",)
     typical, low, high = 1 * ARCSEC, 0.01 * ARCSEC, 60 * ARCSEC
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         change = self.a * (series.axes["torque"] / 167.0) ** 3
-        return y - change + change.mean()
+        return y - change + float(change.mean())
 
 
 class Cycling(Truth):
@@ -109,12 +117,12 @@ class Cycling(Truth):
     name, blocks, quantities = "periodic play over the temperature", ("loops",), ("hysteresis",)
     typical, low, high = 1 * ARCSEC, 0.01 * ARCSEC, 60 * ARCSEC
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.period = float(rng.uniform(14.0, 22.0))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         change = self.a * math.sin(2.0 * math.pi * (rows[0].temperature - 283.15) / self.period + 0.8) * np.tanh(series.axes["torque"] / 8.0)
-        return y + change - change.mean()
+        return y + change - float(change.mean())
 
 
 class Torque(Truth):
@@ -123,7 +131,11 @@ class Torque(Truth):
     blocks, quantities = ("torque",), ("input_torque",)
     typical, low, high = 0.02, 1e-5, 1.5
 
-    def post(self, series, y, rows):
+    def term(self, s: Setting) -> float:
+        """Of size 1 or so."""
+        raise NotImplementedError
+
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         return y + self.a * np.array([self.term(s) for s in rows])
 
 
@@ -132,8 +144,8 @@ class Ventilation(Torque):
 
     name = "drag with speed^2.5"
 
-    def term(self, s):
-        return (s.speed / 209.4) ** 2.5
+    def term(self, s: Setting) -> float:
+        return float((s.speed / 209.4) ** 2.5)
 
 
 class Bump(Torque):
@@ -141,10 +153,10 @@ class Bump(Torque):
 
     name = "friction bump in speed and temperature"
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.middle = float(rng.uniform(70.0, 130.0))
 
-    def term(self, s):
+    def term(self, s: Setting) -> float:
         return math.exp(-(((s.speed - self.middle) / 35.0) ** 2)) * math.exp(-(((s.temperature - 296.0) / 9.0) ** 2)) * (s.load / 167.0)
 
 
@@ -153,10 +165,10 @@ class Humidity(Torque):
 
     name = "humidity"
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.way = float(rng.uniform(1.5, 2.5))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         day = sum(map(ord, series.condition))
         return y + self.a * math.sin(self.way * day)
 
@@ -167,10 +179,10 @@ class Threshold(Wearing):
     name = "wear threshold"
     typical, low, high = 0.3, 0.005, 0.98
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.load = float(rng.uniform(95.0, 140.0))
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         return 1.0 - self.a / (1.0 + math.exp((setting.load - self.load) / 4.0))
 
 
@@ -180,7 +192,7 @@ class Arrhenius(Wearing):
     name = "wear exponential in temperature"
     typical, low, high = 0.1, 0.001, 2.0
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         return math.exp(self.a * (setting.temperature - 308.0) / 10.0) if surface == "race" else 1.0
 
 
@@ -190,10 +202,10 @@ class Accident(Wearing):
     name = "accident at one hour"
     typical, low, high = 1.0, 0.01, 30.0
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.hour = float(rng.uniform(400.0, 900.0))
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         return 1.0 + self.a * (self.hour < life["hours"] < self.hour + 300.0)
 
 
@@ -203,10 +215,10 @@ class Resonance(Truth):
     name, blocks, quantities = "resonance of the housing", ("vibration",), ("vibration_order",)
     typical, low, high = 0.05, 1e-4, 20.0
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.frequency = float(rng.uniform(25.0, 60.0))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         frequency = series.axes["order"] * rows[0].speed / 121.0 / (2.0 * math.pi)
         return np.hypot(y, self.a / (1.0 + ((frequency - self.frequency) / 2.0) ** 2))
 
@@ -217,7 +229,7 @@ class FastCage(Truth):
     name, blocks, quantities = "cage ahead with the speed", ("cage",), ("cage_speed",)
     typical, low, high = 0.002, 1e-5, 0.3
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         return y * (1.0 + self.a * np.array([(s.speed / 209.4) ** 2 for s in rows]))
 
 

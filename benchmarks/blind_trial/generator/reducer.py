@@ -1,11 +1,12 @@
 """The plain reducer, by the compiled kernels with this generator's own steps, resolution and life integration."""
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import stepping
+from benchmarks.blind_trial.generator import Floats, stepping
 from benchmarks.blind_trial.generator.stepping import COLUMNS
 from reducers.reducer import Reducer, load_reducer
 from rv_plant import plant
@@ -23,6 +24,9 @@ QUICK, WHOLE = (10, 30), (39, 48)
 TORQUE_POSITIONS = 20
 HELD_POSITIONS = 12
 FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
+# Changes records before a run; factor on the wear of a surface ("flank", "race") in the course of a life.
+Change = Callable[[np.ndarray], None]
+Rate = Callable[[str, Mapping[str, float]], float]
 SURFACES = ("flank", "pin", "inner_race", "outer_race")
 
 
@@ -47,15 +51,17 @@ class Plain:
         self.plants, self.wears = self.reducer.plant.new_records(), self.reducer.wear.new_records()
         for name, value in (parameters or {}).items():
             for records in (self.plants, self.wears):
-                if name in records.dtype.names:
+                if name in (records.dtype.names or ()):
                     records[name] = value
         t = reducer.topology
-        self.ratio = abs(total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
-        self.sense = math.copysign(1.0, total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
+        ratio = float(total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
+        self.ratio, self.sense = abs(ratio), math.copysign(1.0, ratio)
         self.lobes = t.lobes
         self.rated_load, self.rated_speed = float(self.plants["load_torque"][0]), float(self.plants["input_speed"][0])
 
-    def start(self, setting: Setting, parts=None, surfaces=None, **more):
+    def start(
+        self, setting: Setting, parts: Change | None = None, surfaces: Change | None = None, **more: float
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Initialised records of both units; ``parts(p)`` and ``surfaces(w)`` may change them before."""
         p, w = self.plants.copy(), self.wears.copy()
         p["input_speed"] = self.sense * setting.direction * setting.speed
@@ -75,11 +81,13 @@ class Plain:
         w["acceleration"] = w["contact_lead"] = 0.0
         return p, w
 
-    def sweep(self, setting: Setting, angles: np.ndarray, cage: float, parts=None, surfaces=None) -> np.ndarray:
+    def sweep(
+        self, setting: Setting, angles: Floats, cage: float, parts: Change | None = None, surfaces: Change | None = None
+    ) -> Floats:
         """What turning through ``angles`` [rad] of the output shows; columns as COLUMNS."""
         order = np.argsort(angles, kind="stable")[:: setting.direction]
         way = angles[order]
-        p, w = self.start(setting, parts, surfaces, ideal_output=way[0], cage=cage)
+        p, w = self.start(setting, parts, surfaces, ideal_output=float(way[0]), cage=cage)
         series = np.zeros((len(way), len(COLUMNS)))
         if surfaces is not None:
             require(stepping.run(p, w, 1, 0.0))
@@ -89,17 +97,17 @@ class Plain:
         back[order] = series
         return back
 
-    def means(self, setting: Setting, parts=None) -> dict[str, float]:
+    def means(self, setting: Setting, parts: Change | None = None) -> dict[str, float]:
         """Means over one turn of the cranks."""
         angles = np.linspace(0.0, 2.0 * math.pi / self.lobes, TORQUE_POSITIONS, endpoint=False)
         return dict(zip(COLUMNS, self.sweep(setting, angles, 0.3, parts).mean(axis=0)))
 
-    def held(self, setting: Setting, torques: np.ndarray, parts=None, surfaces=None) -> np.ndarray:
+    def held(self, setting: Setting, torques: Floats, parts: Change | None = None, surfaces: Change | None = None) -> Floats:
         """Turning [rad] under output torques in order, input held."""
         total = np.zeros(len(torques))
         for k in range(HELD_POSITIONS):
             angle = 2.0 * math.pi * (k + 0.5) / (HELD_POSITIONS * self.lobes)
-            p, w = self.start(setting, parts, surfaces, input_speed=0.0, load_torque=torques[0], ideal_output=angle, cage=0.1 * k)
+            p, w = self.start(setting, parts, surfaces, input_speed=0.0, load_torque=float(torques[0]), ideal_output=angle, cage=0.1 * k)
             if surfaces is not None:
                 require(stepping.run(p, w, 1, 0.0))
                 p["load_torque"] = torques[0]
@@ -108,7 +116,9 @@ class Plain:
             total += turning / HELD_POSITIONS
         return total
 
-    def live(self, setting: Setting, inspections: list[float], rate=None, parts=None) -> list[np.ndarray]:
+    def live(
+        self, setting: Setting, inspections: list[float], rate: Rate | None = None, parts: Change | None = None
+    ) -> list[np.ndarray]:
         """Wear records at operating times [s]; ``rate(surface, life) -> factor`` on the wear of flanks and races.
 
         ``life`` has the keys hours, travel, depth (by surface), iron (kg).
@@ -137,7 +147,7 @@ class Plain:
         return found
 
 
-def life_of(w, hours: float) -> dict:
+def life_of(w: np.void, hours: float) -> dict[str, float]:
     volume = w["flank_volume"] + w["pin_volume"] + w["inner_race_volume"] + w["outer_race_volume"]
     return {"hours": hours / HOUR, "travel": float(w["crank_travel"]), "iron": 7850.0 * float(volume),
             "flank": float(w["flank_depth"].max()), "race": float(w["inner_race_depth"].max())}
@@ -148,7 +158,7 @@ def require(ok: bool) -> None:
         raise RuntimeError("the plain reducer has no equilibrium with these parts")
 
 
-def print_of(w: np.ndarray, surface: str) -> tuple[np.ndarray, np.ndarray]:
+def print_of(w: np.ndarray, surface: str) -> tuple[Floats, Floats]:
     """(angle [rad], depth [m]) of the worn surface: mean flank and pin, deepest race."""
     r = w[0]
     if surface == "pin":
@@ -163,7 +173,7 @@ def print_of(w: np.ndarray, surface: str) -> tuple[np.ndarray, np.ndarray]:
     return (np.arange(len(depth)) + 0.5) / len(depth) * 2.0 * math.pi, depth
 
 
-def rounded(depth: np.ndarray, share: float = 0.06) -> np.ndarray:
+def rounded(depth: Floats, share: float = 0.06) -> Floats:
     """Closed profile averaged over a share of its length by a Hann window: a stylus has a radius."""
     half = max(1, int(share * len(depth)) // 2)
     window = np.hanning(2 * half + 3)[1:-1]

@@ -3,7 +3,9 @@
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
+from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Design
+from benchmarks.blind_trial.generator.noise import Noise
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 
 FREE_LEVEL = ("transmission_error", "hysteresis")
@@ -16,7 +18,8 @@ class Ruler:
         self.design, self.bench = design, bench
         self.series = [s for s in design.series if s.condition not in design.held_out]
         self.base = [bench.values(s, []) for s in self.series]
-        self.roots, known = [], {}
+        self.roots: list[Floats] = []
+        known: dict[tuple[Noise, int], Floats] = {}
         for s, y in zip(self.series, self.base):
             noise = s.noise
             key = (noise, len(y)) if noise.relative == 0.0 and noise.gain == 0.0 else None
@@ -30,13 +33,13 @@ class Ruler:
             self.roots.append(root)
         self.columns = self.nuisance_columns(nominal)
 
-    def white(self, changes: list[np.ndarray]) -> np.ndarray:
+    def white(self, changes: list[Floats]) -> Floats:
         return np.concatenate([
             np.sqrt(s.replicates) * solve_triangular(root, c, lower=True)
             for s, root, c in zip(self.series, self.roots, changes)
         ])  # fmt: skip
 
-    def nuisance_columns(self, nominal: dict[str, float]) -> np.ndarray:
+    def nuisance_columns(self, nominal: dict[str, float]) -> Floats:
         """Columns of declared nuisances, free levels and free zeros, with their priors below."""
         columns, priors = [], []
         zero = [np.zeros(len(y)) for y in self.base]

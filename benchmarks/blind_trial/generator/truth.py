@@ -1,13 +1,17 @@
 """What a hidden truth may change, and how a series is computed with it."""
 
 import math
+from collections.abc import Callable, Hashable, Mapping
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
-from benchmarks.blind_trial.generator.reducer import COLUMNS, HOUR, QUICK, Plain, Setting
+from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, Change, Plain, Setting
+from benchmarks.blind_trial.generator.stepping import COLUMNS
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
 SPECTRUM = 4096
@@ -33,26 +37,27 @@ class Truth:
         self.a = self.typical
         self.draw(rng)
 
-    def draw(self, rng) -> None:
+    def draw(self, rng: np.random.Generator) -> None:
         """Whatever else is random about it."""
 
-    parts = None
-    surfaces = None
-    rate = None
-    standing = None
+    # On the plant's and on the wear unit's records; factor of wear on "flank" or "race"; share of time in which pins stand.
+    parts: Callable[[np.ndarray, Setting], None] | None = None
+    surfaces: Callable[[np.ndarray, Setting], None] | None = None
+    rate: Callable[[str, Mapping[str, float], Setting], float] | None = None
+    standing: Callable[[Setting], float] | None = None
 
-    def post(self, series: Series, y: np.ndarray, rows: list[Setting]) -> np.ndarray:
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         """Changes the ideal values."""
         return y
 
-    def chain(self, series: Series, y: np.ndarray, rows: list[Setting], run: int) -> np.ndarray:
+    def chain(self, series: Series, y: Floats, rows: list[Setting], run: int) -> Floats:
         """The measuring chain, last."""
         return y
 
     def parameters(self) -> dict[str, float]:
         return {}
 
-    def facts(self) -> dict:
+    def facts(self) -> dict[str, Any]:
         """All numbers that make the truth."""
         plain = {}
         for key, value in self.__dict__.items():
@@ -63,14 +68,14 @@ class Truth:
                 "numbers": {k: v for k, v in plain.items() if isinstance(v, (int, float, str, list, tuple))}}
 
 
-def both(first, second):
+def both(first: Change | None, second: Change | None) -> Change | None:
     """Two hooks on the same record, one after the other."""
     if first is None or second is None:
         return first or second
 
-    def run(*arguments):
-        first(*arguments)
-        second(*arguments)
+    def run(records: np.ndarray) -> None:
+        first(records)
+        second(records)
 
     return run
 
@@ -80,11 +85,12 @@ class Bench:
 
     def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK):
         self.plain = Plain(parameters, cycle)
+        self.kept: dict[Hashable, list[np.ndarray]] = {}
 
     def rows_of(self, series: Series) -> list[Setting]:
         return series.rows or [series.setting] * series.size
 
-    def values(self, series: Series, truths: list[Truth], cage: float = 0.3, run: int = 0, axes: dict | None = None) -> np.ndarray:
+    def values(self, series: Series, truths: list[Truth], cage: float = 0.3, run: int = 0, axes: dict[str, Floats] | None = None) -> Floats:
         """What an ideal instrument behind the measuring chain shows."""
         acting = [t for t in truths if series.quantity in t.quantities]
         y = self.ideal(series, acting, cage, axes or series.axes)
@@ -96,32 +102,44 @@ class Bench:
             y = t.chain(here, y, rows, run)
         return y
 
-    def ideal(self, series: Series, truths: list[Truth], cage: float, axes: dict) -> np.ndarray:
-        parts = surfaces = None
+    def ideal(self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats]) -> Floats:
+        parts: Change | None = None
+        surfaces: Change | None = None
         for t in truths:
-            parts = both(parts, t.parts and bound(t.parts, series.setting))
-            surfaces = both(surfaces, t.surfaces and bound(t.surfaces, series.setting))
-        return getattr(self, series.quantity)(series, truths, cage, axes, parts, surfaces)
+            parts = both(parts, bound(t.parts, series.setting))
+            surfaces = both(surfaces, bound(t.surfaces, series.setting))
+        found: Floats = getattr(self, series.quantity)(series, truths, cage, axes, parts, surfaces)
+        return found
 
-    def transmission_error(self, series, truths, cage, axes, parts, surfaces):
+    def transmission_error(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         y = self.plain.sweep(series.setting, axes["angle"], cage, parts, surfaces)[:, TE]
-        return y - y.mean()
+        return y - float(y.mean())
 
-    def hysteresis(self, series, truths, cage, axes, parts, surfaces):
+    def hysteresis(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         y = self.plain.held(series.setting, axes["torque"], parts, surfaces)
-        return y - y.mean()
+        return y - float(y.mean())
 
-    def input_torque(self, series, truths, cage, axes, parts, surfaces):
+    def input_torque(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         # Ideal and free of losses: the load over the ratio.
         return np.array([abs(s.load) / self.plain.ratio for s in series.rows])
 
-    def cage_speed(self, series, truths, cage, axes, parts, surfaces):
+    def cage_speed(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         p = self.plain.plants
         inner, outer = float(p["inner_race_radius"][0]), float(p["outer_race_radius"][0])
         out = np.array([s.speed for s in series.rows]) / self.plain.ratio
         return out * (self.plain.lobes + 1.0) * inner / (inner + outer)
 
-    def vibration_order(self, series, truths, cage, axes, parts, surfaces):
+    def vibration_order(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         orders = axes["order"]
         if parts is None and surfaces is None:
             return np.zeros(len(orders))
@@ -130,12 +148,12 @@ class Bench:
         amplitude = 2.0 * np.abs(np.fft.rfft(force - force.mean())) / SPECTRUM
         return np.interp(orders, np.arange(len(amplitude)), amplitude) / HOUSING_MASS
 
-    def lives(self, rows: list[Setting], truths: list[Truth], parts) -> list[np.ndarray]:
-        rates = [t for t in truths if t.rate is not None]
+    def lives(self, rows: list[Setting], truths: list[Truth], parts: Change | None) -> list[np.ndarray]:
+        rates = [t.rate for t in truths if t.rate is not None]
         first = rows[0]
 
-        def rate(surface, life):
-            return math.prod(t.rate(surface, life, first) for t in rates)
+        def rate(surface: str, life: Mapping[str, float]) -> float:
+            return math.prod(factor(surface, life, first) for factor in rates)
 
         key = (tuple(rows), tuple((id(t), t.a) for t in truths), parts is None)
         if key not in self.kept:
@@ -144,14 +162,14 @@ class Bench:
             self.kept[key] = self.plain.live(fresh, hours, rate if rates else None, parts)
         return self.kept[key]
 
-    @property
-    def kept(self) -> dict:
-        return self.__dict__.setdefault("_kept", {})
-
-    def wear_depth(self, series, truths, cage, axes, parts, surfaces):
+    def wear_depth(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         return np.array([bench.deepest(w, series.tags["surface"]) for w in self.lives(series.rows, truths, parts)])
 
-    def wear_profile(self, series, truths, cage, axes, parts, surfaces):
+    def wear_profile(
+        self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
+    ) -> Floats:
         """Print on the pins: even, or where discs touch standing ones."""
         w = self.lives([series.setting], truths, parts)[-1]
         angle, depth = bench.print_of(w, "pin")
@@ -163,12 +181,12 @@ class Bench:
         return y
 
 
-def bound(hook, setting):
-    return lambda record: hook(record, setting)
+def bound(hook: Callable[[np.ndarray, Setting], None] | None, setting: Setting) -> Change | None:
+    return None if hook is None else lambda records: hook(records, setting)
 
 
 @lru_cache(maxsize=50)
-def standing_print(load: float, speed: float, hours: float) -> tuple[np.ndarray, np.ndarray]:
+def standing_print(load: float, speed: float, hours: float) -> tuple[Floats, Floats]:
     """Print on pins that never turn, by the plain wear unit."""
     plain = Plain({"pins": 1})
     angle, depth = bench.print_of(plain.live(Setting(speed, load), [hours])[0], "pin")
@@ -180,8 +198,5 @@ def standing_print(load: float, speed: float, hours: float) -> tuple[np.ndarray,
 def worn_places() -> tuple[float, float]:
     """Where inner and outer races wear most [rad]."""
     w = Plain().live(Setting(209.4, 167.0), [200.0 * HOUR])[0]
-    found = []
-    for surface in ("inner_race", "outer_race"):
-        angle, depth = bench.print_of(w, surface)
-        found.append(float(angle[bench.rounded(depth, 0.1).argmax()]))
-    return tuple(found)
+    (inner, inner_depth), (outer, outer_depth) = (bench.print_of(w, surface) for surface in ("inner_race", "outer_race"))
+    return float(inner[bench.rounded(inner_depth, 0.1).argmax()]), float(outer[bench.rounded(outer_depth, 0.1).argmax()])

@@ -4,6 +4,7 @@ A reader is ``read(path, names, options) -> {name: array}``.  It gives what stan
 no units, no selection.  Text columns come as objects, so that rows can be selected by them.
 """
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -50,7 +51,7 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     except ModuleNotFoundError as problem:
         raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
     try:
-        columns = reader.read(path, names, options)
+        columns: dict[str, np.ndarray] = reader.read(path, names, options)
     except ModuleNotFoundError as problem:
         raise MissingPart(f"{place}: file = {path.name!r}: reading it", problem.name or kind, "measurements") from None
     except ReadFault as problem:
@@ -76,14 +77,14 @@ class ReadFault(ValueError):
     """What is wrong with a file and how to mend it; the place is added by the caller."""
 
 
-def missing_column(name: str, available) -> ReadFault:
+def missing_column(name: str, available: Iterable[object]) -> ReadFault:
     """No such column, with what there is."""
     names = [str(n) for n in available]
     shown = ", ".join(names[:30]) + (f", ... ({len(names)} in all)" if len(names) > 30 else "")
     return ReadFault(f"column {name!r}: the file has no such column; it has {shown}")
 
 
-def aligned(signals: dict[str, tuple[np.ndarray, np.ndarray | None]], align: str | None) -> dict[str, np.ndarray]:
+def aligned(signals: Mapping[str, tuple[np.ndarray, np.ndarray | None]], align: str | None) -> dict[str, np.ndarray]:
     """Signals (values, own time or None) on one time base.
 
     Loggers sample channels at different rates.  Nothing is interpolated unless the run says
@@ -91,7 +92,7 @@ def aligned(signals: dict[str, tuple[np.ndarray, np.ndarray | None]], align: str
     """
     times = {name: time for name, (_, time) in signals.items() if time is not None}
     if align is None:
-        first = next(iter(times.values()), None)
+        first = next(iter(times.values()), np.zeros(0))
         apart = [n for n, t in times.items() if len(t) != len(first) or not np.array_equal(t, first)]
         if apart:
             raise ReadFault(

@@ -7,6 +7,7 @@ import re
 import warnings
 from itertools import islice
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 import pandas as pd
@@ -44,7 +45,7 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
                 f" {decimal!r} ({str(problem).strip()}); state delimiter and decimal, or skip_lines"
             ) from None
     # Without a header the columns are called 1, 2, 3 ...
-    frame.columns = [str(c).strip() if options.header else str(c + 1) for c in frame.columns]
+    frame.columns = [str(c).strip() for c in frame.columns] if options.header else [str(k + 1) for k in range(len(frame.columns))]
     if options.units_line:
         frame = frame.iloc[1:]
     names_in_file = [field.strip() for field in next(csv.reader(lines, delimiter=delimiter))] if options.header else []
@@ -82,9 +83,10 @@ def scan(path: Path) -> tuple[str, list[int]]:
     raise ReadFault("not a text in UTF-8, UTF-16 or Windows-1252; export it as UTF-8, or state its format")
 
 
-def opened(path: Path, encoding: str):
-    opener = gzip.open if path.suffix.lower() == ".gz" else open
-    return opener(path, "rt", encoding=encoding)
+def opened(path: Path, encoding: str) -> TextIO:
+    if path.suffix.lower() == ".gz":
+        return gzip.open(path, "rt", encoding=encoding)
+    return open(path, encoding=encoding)
 
 
 def first_lines(path: Path, encoding: str, skip: int) -> list[str]:

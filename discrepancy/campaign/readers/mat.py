@@ -37,10 +37,11 @@ def is_hdf(path: Path) -> bool:
 def scipy_arrays(path: Path) -> dict[str, np.ndarray]:
     found: dict[str, np.ndarray] = {}
 
-    def add(name: str, item) -> None:
+    def add(name: str, item: object) -> None:
         if isinstance(item, scipy.io.matlab.mat_struct):
-            for field in item._fieldnames:
-                add(f"{name}.{field}", getattr(item, field))
+            for field, value in vars(item).items():
+                if field != "_fieldnames":
+                    add(f"{name}.{field}", value)
         else:
             found[name] = np.asarray(item)
 
@@ -55,7 +56,7 @@ def hdf_arrays(path: Path) -> dict[str, np.ndarray]:
 
     found: dict[str, np.ndarray] = {}
 
-    def add(name: str, item) -> None:
+    def add(name: str, item: object) -> None:
         if isinstance(item, h5py.Dataset) and not name.startswith("#"):
             # MATLAB stores column by column: its arrays appear transposed.
             found[name.replace("/", ".")] = item[()].T

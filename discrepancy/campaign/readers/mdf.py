@@ -22,7 +22,7 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
             for name, found in file.channels_db.items()
         }
         places = {name: found for name, found in places.items() if found}
-        signals = {}
+        signals: dict[str, tuple[np.ndarray, np.ndarray | None]] = {}
         for name in sorted(names - ({TIME} - places.keys())):
             if name not in places:
                 raise missing_column(name, [TIME, *places])
@@ -31,15 +31,17 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
                 raise ReadFault(f"column {name!r} is in several channel groups; state group = one of {groups}")
             group, index = places[name][0]
             signal = file.get(group=group, index=index)
-            signals[name] = signal.samples, signal.timestamps
+            signals[name] = np.asarray(signal.samples), signal.timestamps
     if TIME in names and TIME not in signals:
         source = options.align or next(iter(signals), None)
-        if source not in signals:
+        own = signals[source][1] if source in signals else None
+        if own is None:
             raise missing_column(TIME, places)
-        signals[TIME] = signals[source][1], signals[source][1]
+        signals[TIME] = own, own
     return aligned(signals, options.align)
 
 
 def in_group(file: MDF, index: int, wanted: str | None) -> bool:
     """By number or by the name of the acquisition."""
-    return wanted is None or wanted in (str(index), file.groups[index].channel_group.acq_name)
+    # Groups of MDF 3 have no name.
+    return wanted is None or wanted in (str(index), getattr(file.groups[index].channel_group, "acq_name", None))

@@ -7,7 +7,7 @@ the time of the channels' waveform, unless the file has a channel of that name.
 from pathlib import Path
 
 import numpy as np
-from nptdms import TdmsFile
+from nptdms import TdmsChannel, TdmsFile
 
 from discrepancy.campaign.readers import Options, ReadFault, aligned, missing_column
 
@@ -45,6 +45,7 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
     return aligned(signals, options.align)
 
 
-def own_time(channel) -> np.ndarray | None:
+def own_time(channel: TdmsChannel) -> np.ndarray | None:
     """Time of a waveform channel; None for plain columns of numbers."""
-    return channel.time_track() if "wf_increment" in channel.properties else None
+    track: np.ndarray | None = channel.time_track() if "wf_increment" in channel.properties else None
+    return track

@@ -10,14 +10,17 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import Floats
 
+# A part of the noise: the signal, and "main" or the pattern by which its runs differ.
+Component = tuple[str, str]
 # Samples from which the mean square of a signal's misfit says something.
 LONG = 200
 
 
-def component_grams(space: Workspace, columns: np.ndarray) -> dict[tuple[str, str], np.ndarray]:
+def component_grams(space: Workspace, columns: Floats) -> dict[Component, Floats]:
     """Gram matrix of ``columns`` (N, m) in each part of the noise; their sum is the whole."""
-    grams: dict[tuple[str, str], np.ndarray] = {}
+    grams: dict[Component, Floats] = {}
     width = columns.shape[1]
     for i, rows in space.rows.items():
         whitener = space.noise.whiteners[i]
@@ -33,7 +36,7 @@ def component_grams(space: Workspace, columns: np.ndarray) -> dict[tuple[str, st
     return grams
 
 
-def effective_dof(space: Workspace, shares: dict[tuple[str, str], float]) -> float:
+def effective_dof(space: Workspace, shares: dict[Component, float]) -> float:
     """Satterthwaite's degrees of freedom of a variance made of parts with these shares."""
     total = sum(max(s, 0.0) for s in shares.values())
     if total <= 0:
@@ -42,12 +45,13 @@ def effective_dof(space: Workspace, shares: dict[tuple[str, str], float]) -> flo
     return float(np.clip(1.0 / max(inverse, 1e-7), 1.0, 1e6))
 
 
-def excess(space: Workspace, fit: Fit) -> dict[tuple[str, str], float]:
+def excess(space: Workspace, fit: Fit) -> dict[Component, float]:
     """By which factor the misfit of each long signal is larger than its noise from replicates, at least 1.
 
     What a fit leaves all over a signal (heavy tails, a base that is a little wrong) is no evidence for one effect.
     """
-    squares, counts = defaultdict(float), defaultdict(int)
+    squares: dict[Component, float] = defaultdict(float)
+    counts: dict[Component, int] = defaultdict(int)
     for i, rows in space.rows.items():
         key = (space.noise.whiteners[i].quantity, "main")
         squares[key] += float(np.sum(fit.residual[rows] ** 2))
@@ -55,14 +59,14 @@ def excess(space: Workspace, fit: Fit) -> dict[tuple[str, str], float]:
     return {key: max(1.0, squares[key] / count) for key, count in counts.items() if count >= LONG}
 
 
-def mean_excess(factors: dict[tuple[str, str], float], shares: dict[tuple[str, str], float]) -> float:
+def mean_excess(factors: dict[Component, float], shares: dict[Component, float]) -> float:
     """The factor for a test whose noise has these shares."""
     total = sum(max(s, 0.0) for s in shares.values())
     return sum(max(s, 0.0) * factors.get(c, 1.0) for c, s in shares.items()) / total if total > 0.0 else 1.0
 
 
-def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: int, rng: np.random.Generator,
-             factors: dict[tuple[str, str], float]) -> np.ndarray:
+def simulate(space: Workspace, grams: dict[Component, Floats], draws: int, rng: np.random.Generator,
+             factors: dict[Component, float]) -> Floats:
     """Scores (draws, m) of pure noise whose parts have variances estimated with their degrees of freedom, times ``factors``."""
     width = next(iter(grams.values())).shape[0]
     scores = np.zeros((draws, width))
@@ -76,13 +80,13 @@ def simulate(space: Workspace, grams: dict[tuple[str, str], np.ndarray], draws: 
             continue
         root = size[:, None] * vectors[:, keep] * np.sqrt(values[keep])
         dof = space.noise.dof(component)
-        inflation = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
+        inflation: Floats = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
         inflation *= np.sqrt(factors.get(component, 1.0))
         scores += inflation[:, None] * (rng.standard_normal((draws, keep.sum())) @ root.T)
     return scores
 
 
-def project_out(columns: np.ndarray, jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray:
+def project_out(columns: Floats, jacobian: Floats, normal: Floats) -> Floats:
     """``columns`` with the span of ``jacobian`` (with its priors, ``normal``) removed."""
     if not jacobian.shape[1]:
         return columns

@@ -4,7 +4,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.problem import Model
+from discrepancy.problem import FirstOrder, Floats, Model
+
+Key = tuple[tuple[str, float], ...]
 
 
 class Predictions:
@@ -15,14 +17,15 @@ class Predictions:
         self.off = {p.name: p.off for p in model.nuisances}
         for c in model.candidates:
             self.off.update({p.name: p.off for p in c.amplitudes})
-        self.store: dict[tuple, dict[int, np.ndarray]] = {}
-        self.beside_store: dict[tuple, dict[int, np.ndarray]] = {}
+        self.store: dict[Key, dict[int, Floats]] = {}
+        self.beside_store: dict[tuple[Key, Key], dict[int, Floats]] = {}
         self.calls = 0
 
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
         """The values that differ from the base model's; shapes of effects that are off do not count."""
         active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
-        idle, used = set(), set()
+        idle: set[str] = set()
+        used: set[str] = set()
         for c in self.model.candidates:
             # Variants of one effect can have a shape in common.
             (used if any(p.name in active for p in c.amplitudes) else idle).update(p.name for p in c.shapes)
@@ -30,20 +33,21 @@ class Predictions:
             active.pop(name, None)
         return active
 
-    def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
+    def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         active = self.active(values)
         known = self.store.setdefault(tuple(sorted(active.items())), {})
         return self._kept(known, which, lambda missing: self.model.predict(active, missing))
 
-    def beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[np.ndarray]:
-        """Predictions for values next to ``base``, to first order if the model has them (``predict_beside``)."""
-        if not hasattr(self.model, "predict_beside"):
+    def beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """Predictions for values next to ``base``, to first order if the model has them (``FirstOrder``)."""
+        model = self.model
+        if not isinstance(model, FirstOrder):
             return self(values, which)
         values, base = self.active(values), self.active(base)
         known = self.beside_store.setdefault((tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
-        return self._kept(known, which, lambda missing: self.model.predict_beside(values, base, missing))
+        return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing))
 
-    def _kept(self, known: dict[int, np.ndarray], which: Sequence[int], predict: Callable) -> list[np.ndarray]:
+    def _kept(self, known: dict[int, Floats], which: Sequence[int], predict: Callable[[list[int]], list[Floats]]) -> list[Floats]:
         missing = [i for i in which if i not in known]
         if missing:
             self.calls += 1

@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.predictions import Predictions
 from discrepancy.inference.noise.noise import Noise, estimate
-from discrepancy.problem import Candidate, Model, Parameter
+from discrepancy.problem import Candidate, Floats, Model, Parameter
 
 STEP = 0.01
 """Step of a finite difference in units of ``Parameter.scale``."""
@@ -17,7 +17,8 @@ STALE = 0.3
 
 def rows_of(noise: Noise, indices: Sequence[int]) -> tuple[dict[int, slice], int]:
     """Rows of each record in a stack of whitened records, and the height of the stack."""
-    rows, start = {}, 0
+    rows: dict[int, slice] = {}
+    start = 0
     for i in indices:
         size = noise.whiteners[i].size
         rows[i] = slice(start, start + size)
@@ -28,6 +29,10 @@ def rows_of(noise: Noise, indices: Sequence[int]) -> tuple[dict[int, slice], int
 class Workspace:
     """Records, noise and whitening; columns of parameters are stacked over the training records."""
 
+    # What ``fit_base`` finds.
+    noise: Noise
+    base: Fit
+
     def __init__(self, model: Model):
         self.model = model
         self.records = list(model.records)
@@ -36,15 +41,13 @@ class Workspace:
         self.held_out = [i for i, r in enumerate(self.records) if r.held_out]
         if not self.training:
             raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
-        self.noise: Noise | None = None
-        self.base: Fit | None = None
 
     # rows ---------------------------------------------------------------------------------
     def lay_out(self) -> None:
         """Which rows of the stack belong to which training record."""
         self.rows, self.size = rows_of(self.noise, self.training)
 
-    def whiten(self, arrays: Mapping[int, np.ndarray]) -> np.ndarray:
+    def whiten(self, arrays: Mapping[int, Floats]) -> Floats:
         """Whitened stack over the training records; records not given are zero."""
         width = next((a.shape[1] for a in arrays.values() if a.ndim == 2), None)
         result = np.zeros(self.size if width is None else (self.size, width))
@@ -57,17 +60,17 @@ class Workspace:
             return list(range(len(self.records)))
         return [i for i, r in enumerate(self.records) if r.quantity in candidate.signals]
 
-    def residual(self, values: Mapping[str, float]) -> np.ndarray:
+    def residual(self, values: Mapping[str, float]) -> Floats:
         ys = self.predictions(values, self.training)
         return self.whiten({i: self.records[i].values - y for i, y in zip(self.training, ys)})
 
-    def raw_residuals(self, values: Mapping[str, float]) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    def raw_residuals(self, values: Mapping[str, float]) -> tuple[list[Floats], list[Floats]]:
         every = list(range(len(self.records)))
         ys = self.predictions(values, every)
         return [np.asarray(r.values, dtype=float) - y for r, y in zip(self.records, ys)], ys
 
     # sensitivities ------------------------------------------------------------------------
-    def column(self, values: Mapping[str, float], parameter: Parameter, which: Sequence[int]) -> dict[int, np.ndarray]:
+    def column(self, values: Mapping[str, float], parameter: Parameter, which: Sequence[int]) -> dict[int, Floats]:
         """Finite difference by one parameter, by record, per unit of the parameter."""
         at = values.get(parameter.name, parameter.off)
         step = STEP * parameter.scale
@@ -78,16 +81,16 @@ class Workspace:
         low = self.predictions.beside(here, here, which)
         return {i: (a - b) / step for i, a, b in zip(which, high, low)}
 
-    def columns(self, parameters: Sequence[Parameter], values: Mapping[str, float]) -> np.ndarray:
+    def columns(self, parameters: Sequence[Parameter], values: Mapping[str, float]) -> Floats:
         """Sensitivities (N, p) of the training records at ``values``, whitened."""
         return self._stack([self.column(values, p, self.training) for p in parameters])
 
-    def _everywhere(self, nuisances, values):
+    def _everywhere(self, nuisances: Sequence[Parameter], values: Mapping[str, float]) -> list[dict[int, Floats]]:
         """Sensitivities of all records, those held out too, as far as they are not zero."""
         every = list(range(len(self.records)))
         return [{i: c for i, c in self.column(values, p, every).items() if np.any(c)} for p in nuisances]
 
-    def _stack(self, raw):
+    def _stack(self, raw: Sequence[Mapping[int, Floats]]) -> Floats:
         stacked = np.zeros((self.size, len(raw)))
         for k, columns in enumerate(raw):
             for i, c in columns.items():
@@ -116,17 +119,19 @@ class Workspace:
         self.blind = [k for k in range(len(nuisances)) if not np.any(jacobian[:, k])]
         return self.base
 
-    def _nuisances_from(self, values, raw):
+    def _nuisances_from(self, values: Mapping[str, float], raw: Sequence[Mapping[int, Floats]]) -> dict[str, float]:
         """Fitted nuisances; sensitivities ``raw`` at ``values`` serve until one has moved far."""
         box = Box(self.model.nuisances)
-        known = {"x": None, "columns": self._stack(raw)}
+        at: Floats | None = None
+        known = self._stack(raw)
 
-        def columns(x):
-            if known["x"] is None:
-                known["x"] = x.copy()
-            elif np.max(np.abs(x - known["x"]) / box.scale) > STALE:
-                known.update(x=x.copy(), columns=self._stack(self._everywhere(self.model.nuisances, box.named(x))))
-            return known["columns"]
+        def columns(x: Floats) -> Floats:
+            nonlocal at, known
+            if at is None:
+                at = x.copy()
+            elif np.max(np.abs(x - at) / box.scale) > STALE:
+                at, known = x.copy(), self._stack(self._everywhere(self.model.nuisances, box.named(x)))
+            return known
 
         # residuals spoilt by samples left out are zero there: whitening drops them
         solution = box.minimise(lambda x: self.residual(box.named(x)), columns, box.array(values), inside=0.3, xtol=1e-6, ftol=1e-7, evaluations=12)

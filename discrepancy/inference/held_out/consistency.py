@@ -13,13 +13,14 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import modulations
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
+from discrepancy.problem import Floats
 
 
 def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, float]]:
     """By name of the test: chi-square, its width and p (Bonferroni over the tests)."""
     records = [space.records[i] for i in space.training]
     streams = [stream_of(r) for r in records]
-    blocks: dict[str, list[np.ndarray]] = {}
+    blocks: dict[str, list[Floats]] = {}
     for factor, basis in modulations(records).items():
         if factor == "everywhere":
             continue

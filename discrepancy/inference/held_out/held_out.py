@@ -6,7 +6,7 @@ carried the misfit in training, and the responses of the effects under discussio
 """
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,9 +15,10 @@ from scipy.stats import f as fisher
 from discrepancy.inference.base_fit.components import effective_dof
 from discrepancy.inference.base_fit.workspace import Workspace, rows_of
 from discrepancy.inference.misfit.features import ORDERS, features
-from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
+from discrepancy.problem import Floats
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,8 @@ class HeldOut:
 class HeldOutJudge:
     """Judges fits on the held-out records over one common set of directions."""
 
-    def __init__(self, space: Workspace, localisation: Localisation, rivals: Sequence[Refit], orders=ORDERS, most: int = 3):
+    def __init__(self, space: Workspace, localisation: Localisation, rivals: Sequence[Refit],
+                 orders: Mapping[str, Sequence[float]] = ORDERS, most: int = 3):  # fmt: skip
         self.space = space
         self.indices = space.held_out
         if not self.indices:
@@ -53,17 +55,17 @@ class HeldOutJudge:
         directions = directions - self.blind @ (self.blind.T @ directions)
         self.directions = _orthonormal(directions)
 
-    def _stack(self, arrays):
+    def _stack(self, arrays: Mapping[int, Floats]) -> Floats:
         result = np.zeros(self.size)
         for i, a in arrays.items():
             result[self.rows[i]] = self.space.noise.whiteners[i](a)
         return result
 
-    def _raw(self, values):
+    def _raw(self, values: Mapping[str, float]) -> Floats:
         ys = self.space.predictions(values, self.indices)
         return self._stack({i: self.space.records[i].values - y for i, y in zip(self.indices, ys)})
 
-    def response(self, rival: Refit) -> np.ndarray:
+    def response(self, rival: Refit) -> Floats:
         """Whitened contribution of the effects on the held-out records."""
         own = {p.name for p in rival.own}
         rest = {k: v for k, v in rival.fit.values.items() if k not in own}
@@ -71,7 +73,7 @@ class HeldOutJudge:
         low = self.space.predictions(rest, self.indices)
         return self._stack({i: a - b for i, a, b in zip(self.indices, high, low)})
 
-    def _finding(self, finding, orders):
+    def _finding(self, finding: Group, orders: Mapping[str, Sequence[float]]) -> list[Floats]:
         """The finding's function in the held-out records, with the mean over them and, if it depends on a factor, its trend."""
         blocks = {}
         for i in self.indices:
@@ -86,11 +88,11 @@ class HeldOutJudge:
         weights = {i: 1.0 for i in blocks}
         if finding.dependence != "everywhere":
             reference = [self.space.records[i].factors[finding.dependence] for i in finding.indices]
-            middle, spread = np.mean(reference), np.std(reference) or 1.0
+            middle, spread = float(np.mean(reference)), float(np.std(reference)) or 1.0
             weights = {i: (self.space.records[i].factors.get(finding.dependence, middle) - middle) / spread for i in blocks}
         return [self._stack({i: weights[i] * b[:, k] for i, b in blocks.items()}) for k in range(width)]
 
-    def error(self, values) -> tuple[float, int]:
+    def error(self, values: Mapping[str, float]) -> tuple[float, int]:
         """Chi-square in the common directions and their number."""
         if not self.indices or not self.directions.shape[1]:
             return 0.0, 0
@@ -117,23 +119,23 @@ class HeldOutJudge:
                 shares[component] += float(amount)
         return shares
 
-    def rms(self, values) -> dict[str, dict[str, float]]:
+    def rms(self, values: Mapping[str, float]) -> dict[str, dict[str, float]]:
         """Root mean square by signal in its own unit, before and after, with the noise floor."""
-        sums = defaultdict(lambda: {"before": [], "after": [], "floor": []})
+        sums: dict[str, dict[str, list[float]]] = defaultdict(lambda: {"before": [], "after": [], "floor": []})
         base = self.space.predictions(self.space.base.values, self.indices)
         now = self.space.predictions(values, self.indices)
         for i, b, n in zip(self.indices, base, now):
             record, whitener = self.space.records[i], self.space.noise.whiteners[i]
             cell = sums[stream_of(record)]
             kept = whitener.kept
-            cell["before"].append(np.mean((record.values - b)[kept] ** 2))
-            cell["after"].append(np.mean((record.values - n)[kept] ** 2))
+            cell["before"].append(float(np.mean((record.values - b)[kept] ** 2)))
+            cell["after"].append(float(np.mean((record.values - n)[kept] ** 2)))
             stream = self.space.noise.streams[whitener.quantity]
-            cell["floor"].append(np.mean(whitener.scale**2) * (1 + sum(stream.patterns.values())))
+            cell["floor"].append(float(np.mean(whitener.scale**2)) * (1 + sum(stream.patterns.values())))
         return {s: {k: float(np.sqrt(np.mean(v))) for k, v in cell.items()} for s, cell in sums.items()}
 
 
-def _orthonormal(columns: np.ndarray) -> np.ndarray:
+def _orthonormal(columns: Floats) -> Floats:
     norms = np.linalg.norm(columns, axis=0)
     columns = columns[:, norms > 1e-9] / norms[norms > 1e-9] if columns.shape[1] else columns
     if not columns.shape[1]:

@@ -1,11 +1,18 @@
 """Closed forms for a curve that was recovered from data, ranked by the error on points left out."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats import t as student
+
+from discrepancy.problem import Floats
+
+# y of x and the constants; and, for each law, its text, its constants, the function and where fits begin.
+Law = Callable[..., Floats]
+Laws = dict[str, tuple[str, tuple[str, ...], Law, list[list[float]]]]
 
 
 @dataclass(frozen=True)
@@ -19,15 +26,16 @@ class Form:
     error: float
     confidence: float
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return {**self.__dict__, "intervals": {k: list(v) for k, v in self.intervals.items()}}
 
 
-def _forms(x):
+def closed_forms(x: Floats) -> Laws:
+    """The forms that can be tried over ``x``."""
     low, high = float(np.min(x)), float(np.max(x))
     span = high - low or 1.0
     middle = 0.5 * (low + high)
-    made = {
+    made: Laws = {
         "constant": ("y = a", ("a",), lambda x, a: a + 0 * x, [[0.0]]),
         "linear": ("y = a + b x", ("a", "b"), lambda x, a, b: a + b * x, [[0.0, 1 / span]]),
         "quadratic": ("y = a + b x + c x^2", ("a", "b", "c"), lambda x, a, b, c: a + b * x + c * x**2, [[0.0, 1 / span, 0.1 / span**2]]),
@@ -51,7 +59,7 @@ def _forms(x):
     return made
 
 
-def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequence | None = None, folds: int = 6) -> list[Form]:
+def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | None = None, folds: int = 6) -> list[Form]:
     """Forms of y(x), best first.  Points of one ``group`` (a condition) are left out together.
 
     Without enough groups whole stretches of x are left out, so that interpolation is what is judged.
@@ -67,7 +75,7 @@ def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequenc
     parts = [kinds[k::min(folds, kinds.size)] for k in range(min(folds, kinds.size))]
     levels = np.unique(np.round(x, 9)).size
     results = []
-    for name, (text, names, function, starts) in _forms(x).items():
+    for name, (text, names, function, starts) in closed_forms(x).items():
         if len(names) >= levels and name != "constant":
             continue
         if name == "periodic":
@@ -102,7 +110,7 @@ def propose(x: np.ndarray, y: np.ndarray, deviation: np.ndarray, groups: Sequenc
     return sorted(forms, key=lambda f: -f.confidence)
 
 
-def _frequencies(x, y, deviation, levels):
+def _frequencies(x: Floats, y: Floats, deviation: Floats, levels: int) -> list[list[float]]:
     """Starting points of the periodic form: the three best frequencies of a scan."""
     span, middle = np.ptp(x) or 1.0, 0.5 * (np.min(x) + np.max(x))
     trials = []
@@ -114,8 +122,8 @@ def _frequencies(x, y, deviation, levels):
     return [start for _, start in sorted(trials, key=lambda t: t[0])[:3]] or [[0.0, 0.5, 0.5, 2 * np.pi / span]]
 
 
-def _fit(function, start, x, y, deviation):
-    def residual(p):
+def _fit(function: Law, start: Sequence[float] | Floats, x: Floats, y: Floats, deviation: Floats) -> OptimizeResult:
+    def residual(p: Floats) -> Floats:
         return np.nan_to_num((y - function(x, *p)) / deviation, nan=1e6, posinf=1e6, neginf=-1e6)
     # constants that enter linearly start at their best values
     start = np.array(start, dtype=float)

@@ -1,7 +1,8 @@
 """The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis, stream_of
+from discrepancy.problem import Floats
 
 BINS = 24
 
@@ -30,7 +32,7 @@ class Recovered:
     held_out_error_after: float | None
     text: str
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         plain = dict(self.__dict__)
         plain["curves"] = [c.to_dict() for c in self.curves]
         plain["forms"] = [f.to_dict() for f in self.forms]
@@ -45,7 +47,32 @@ def recover(space: Workspace, fit: Fit, signals: list[str] | None = None) -> lis
     return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices)) is not None]
 
 
-def _table(space, fit, indices):
+@dataclass(frozen=True)
+class _Bin:
+    """Mean misfit and mean prediction of neighbouring samples of a run; ``places`` are factors ("factor:load") and the axis ("axis:angle")."""
+
+    y: float
+    prediction: float
+    variance: float
+    condition: str
+    held: bool
+    places: dict[str, float]
+
+
+@dataclass(frozen=True)
+class _Smooth:
+    """The training bins written one way (misfit over ``way``), with the curves through them."""
+
+    name: str
+    way: Callable[[_Bin], float]
+    y: Floats
+    weights: Floats
+    axes: dict[str, Floats]
+    curves: list[Curve]
+    fitted: Floats
+
+
+def _table(space: Workspace, fit: Fit, indices: Sequence[int]) -> list[_Bin]:
     """Binned residuals with their conditions: columns of one table, a row per bin and run."""
     ys = space.predictions(fit.values, indices)
     rows = []
@@ -70,62 +97,69 @@ def _table(space, fit, indices):
             spacing = np.median(np.abs(np.diff(main))) if main is not None and main.size > 1 else 1.0
             together = 1 + 2 * (1 - stream.nugget) * stream.length / max(spacing, 1e-300) if stream.length else 1.0
             variance = scale**2 * (min(together, cut.size) / cut.size)
-            row = {"y": float(np.sum(w * e[cut]) / np.sum(w)), "prediction": float(np.mean(y[cut])), "variance": variance,
-                   "condition": record.condition, "held": record.held_out, **{f"factor:{k}": float(v) for k, v in record.factors.items()}}
+            places = {f"factor:{k}": float(v) for k, v in record.factors.items()}
             if main is not None:
-                row["axis:" + names[0]] = float(np.mean(main[cut]))
-            rows.append(row)
+                places["axis:" + names[0]] = float(np.mean(main[cut]))
+            rows.append(_Bin(float(np.sum(w * e[cut]) / np.sum(w)), float(np.mean(y[cut])), variance, record.condition, record.held_out, places))
     return rows
 
 
-def _signal(space, fit, signal, indices):
+def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int]) -> Recovered | None:
     rows = _table(space, fit, indices)
-    training = [r for r in rows if not r["held"]]
+    training = [r for r in rows if not r.held]
     if len(training) < 5:
         return None
-    keys = sorted({k for r in rows for k in r if k.startswith(("factor:", "axis:"))})
-    keys = [k for k in keys if all(k in r for r in rows) and np.unique([r[k] for r in training]).size >= 2]
+    keys = sorted({k for r in rows for k in r.places})
+    keys = [k for k in keys if all(k in r.places for r in rows) and np.unique([r.places[k] for r in training]).size >= 2]
     if not keys:
         return None
-    best = None
-    predictions = np.array([abs(r["prediction"]) for r in training])
+    best: tuple[float, _Smooth] | None = None
+    predictions = np.array([abs(r.prediction) for r in training])
     # which way of writing the misfit is smooth in the conditions: as it is, by direction, by load, or as a share
-    ways: dict[str, Callable[[dict], float]] = {"none": lambda r: 1.0}
-    if any("factor:direction" in r and r["factor:direction"] < 0 for r in training):
-        ways["direction"] = lambda r: r["factor:direction"]
+    ways: dict[str, Callable[[_Bin], float]] = {"none": lambda r: 1.0}
+    if any(r.places.get("factor:direction", 1.0) < 0 for r in training):
+        ways["direction"] = lambda r: r.places["factor:direction"]
     if predictions.min() > 0.002 * predictions.max():
-        ways["prediction"] = lambda r: r["prediction"]
-    if all(r.get("factor:load", 0) > 0 for r in rows):
-        ways["load"] = lambda r: r["factor:load"]
+        ways["prediction"] = lambda r: r.prediction
+    if all(r.places.get("factor:load", 0.0) > 0 for r in rows):
+        ways["load"] = lambda r: r.places["factor:load"]
         if "direction" in ways:
-            ways["load and direction"] = lambda r: r["factor:load"] * r["factor:direction"]
+            ways["load and direction"] = lambda r: r.places["factor:load"] * r.places["factor:direction"]
     for name, way in ways.items():
-        axes = {k: np.array([r[k] for r in training]) for k in keys if not (k == "factor:direction" and "direction" in name)}
+        axes = {k: np.array([r.places[k] for r in training]) for k in keys if not (k == "factor:direction" and "direction" in name)}
         if not axes:
             continue
-        y = np.array([r["y"] / way(r) for r in training])
-        w = np.array([way(r) ** 2 / r["variance"] for r in training])
+        y = np.array([r.y / way(r) for r in training])
+        w = np.array([way(r) ** 2 / r.variance for r in training])
         used = {k: _monotone(k, x) for k, x in axes.items()}
-        curves, fitted = additive(y, w, {k: u for k, u in used.items()})
+        curves, fitted = additive(y, w, used)
         loss = float(np.sum(w * (y - fitted) ** 2)) + 2 * sum(c.effective_dof for c in curves) + 2 * (name != "none")
         if best is None or loss < best[0]:
-            best = (loss, name, way, y, w, axes, curves, fitted)
-    _, name, way, y, w, axes, curves, fitted = best
+            best = (loss, _Smooth(name, way, y, w, axes, curves, fitted))
+    return None if best is None else _law(signal, best[1], rows, training)
+
+
+def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin]) -> Recovered:
+    name, way, y, w, axes, curves = found.name, found.way, found.y, found.weights, found.axes, found.curves
     lead = curves[0].name
     # partial residual of the leading axis
     x = axes[lead]
-    rest = sum((np.interp(_monotone(c.name, axes[c.name]), c.x, c.y) for c in curves[1:]), np.zeros(y.size))
+    rest = np.zeros(y.size)
+    for c in curves[1:]:
+        rest = rest + np.interp(_monotone(c.name, axes[c.name]), c.x, c.y)
     partial = y - rest
-    forms = propose(x, partial, 1 / np.sqrt(w), [r["condition"] for r in training] if np.unique(x).size < 8 else None)
+    forms = propose(x, partial, 1 / np.sqrt(w), [r.condition for r in training] if np.unique(x).size < 8 else None)
     shown = [Curve(c.name.split(":")[1], _back(c.name, c.x, axes[c.name]), c.y, c.deviation, c.share, c.effective_dof) for c in curves]
-    held = [r for r in rows if r["held"]]
+    held = [r for r in rows if r.held]
     before = after = None
     if held:
-        hy = np.array([r["y"] for r in held])
-        variance = np.array([r["variance"] for r in held])
-        level = float(np.average(y, weights=w)) if not np.any(fitted) else float(np.average(fitted, weights=w))
-        predicted = np.array([way(r) for r in held]) * (level + sum(
-            np.interp(_monotone(c.name, np.array([r[c.name] for r in held]), axes[c.name]), c.x, c.y) for c in curves))
+        hy = np.array([r.y for r in held])
+        variance = np.array([r.variance for r in held])
+        level = float(np.average(y, weights=w)) if not np.any(found.fitted) else float(np.average(found.fitted, weights=w))
+        shape = np.zeros(hy.size)
+        for c in curves:
+            shape = shape + np.interp(_monotone(c.name, np.array([r.places[c.name] for r in held]), axes[c.name]), c.x, c.y)
+        predicted = np.array([way(r) for r in held]) * (level + shape)
         before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
     lead_name = lead.split(":")[1]
     text = f"{'misfit' if name == 'none' else 'misfit / ' + name} of {signal} over {lead_name}: " + (forms[0].text if forms else "no form")
@@ -133,15 +167,16 @@ def _signal(space, fit, signal, indices):
                      {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}, forms, before, after, text)
 
 
-def _logarithmic(name, reference):
-    return name.split(":")[1] not in ("angle", "depth_angle", "temperature", "direction") and np.min(reference) > 0 and np.max(reference) > 5 * np.min(reference)
+def _logarithmic(name: str, reference: Floats) -> bool:
+    low, high = float(np.min(reference)), float(np.max(reference))
+    return name.split(":")[1] not in ("angle", "depth_angle", "temperature", "direction") and low > 0 and high > 5 * low
 
 
-def _monotone(name, x, reference=None):
+def _monotone(name: str, x: Floats, reference: Floats | None = None) -> Floats:
     """Logarithm of quantities that span decades."""
     reference = x if reference is None else reference
     return np.log(np.maximum(x, 0.2 * np.min(reference))) if _logarithmic(name, reference) else x
 
 
-def _back(name, grid, reference):
+def _back(name: str, grid: Floats, reference: Floats) -> Floats:
     return np.exp(grid) if _logarithmic(name, reference) else grid

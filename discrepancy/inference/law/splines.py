@@ -2,9 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import BSpline
+
+from discrepancy.problem import Floats
 
 
 @dataclass(frozen=True)
@@ -12,25 +15,25 @@ class Curve:
     """One component on a grid, centred, with its 95 % band and the share of variance it explains."""
 
     name: str
-    x: np.ndarray
-    y: np.ndarray
-    deviation: np.ndarray
+    x: Floats
+    y: Floats
+    deviation: Floats
     share: float
     effective_dof: float
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return {"name": self.name, "x": self.x.tolist(), "y": self.y.tolist(), "low": (self.y - 1.96 * self.deviation).tolist(),
                 "high": (self.y + 1.96 * self.deviation).tolist(), "share": self.share, "effective_dof": self.effective_dof}
 
 
-def basis(x: np.ndarray, low: float, high: float, pieces: int) -> np.ndarray:
+def basis(x: Floats, low: float, high: float, pieces: int) -> Floats:
     """Cubic B-splines on equal pieces between ``low`` and ``high``."""
     step = (high - low) / pieces
     knots = low + step * np.arange(-3, pieces + 4)
     return BSpline.design_matrix(np.clip(x, low, high - 1e-9 * (high - low)), knots, 3, extrapolate=True).toarray()
 
 
-def additive(y: np.ndarray, weights: np.ndarray, axes: Mapping[str, np.ndarray], rounds: int = 3) -> tuple[list[Curve], np.ndarray]:
+def additive(y: Floats, weights: Floats, axes: Mapping[str, Floats], rounds: int = 3) -> tuple[list[Curve], Floats]:
     """Curves of each axis and the fitted values; ``weights`` are inverse variances."""
     y, weights = np.asarray(y, float), np.asarray(weights, float)
     blocks, penalties, grids, start = [np.ones((y.size, 1))], [], {}, 1
@@ -53,7 +56,7 @@ def additive(y: np.ndarray, weights: np.ndarray, axes: Mapping[str, np.ndarray],
     scale = np.trace(gram) / gram.shape[0]
     smoothing = np.full(len(penalties), 1.0)
 
-    def solve(lam):
+    def solve(lam: Floats) -> tuple[float, Floats, Floats, float, float]:
         matrix = gram + 1e-8 * scale * np.eye(start)
         for value, (rows, penalty) in zip(lam, penalties):
             matrix[rows, rows] += value * scale * penalty

@@ -11,7 +11,7 @@ import numpy as np
 
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 
 ORDERS: dict[str, tuple[float, ...]] = {
     "output shaft": (1, 2),
@@ -33,7 +33,7 @@ class Feature:
     """Columns that belong together, in one record."""
 
     name: str
-    columns: np.ndarray
+    columns: Floats
 
 
 def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, comb: int = COMB) -> list[Feature]:
@@ -74,12 +74,12 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
     return result
 
 
-def waves(angle: np.ndarray, orders: Sequence[float]) -> np.ndarray:
+def waves(angle: Floats, orders: Sequence[float]) -> Floats:
     """Cosines and sines."""
     return np.column_stack([f(o * angle) for o in orders for f in (np.cos, np.sin)])
 
 
-def modulations(records: Sequence[Record]) -> dict[str, np.ndarray]:
+def modulations(records: Sequence[Record]) -> dict[str, Floats]:
     """Functions of the conditions, by name: (n_records, m), each constant within a record and centred but the first."""
     result = {"everywhere": np.ones((len(records), 1))}
     names = sorted({n for r in records for n in r.factors})
@@ -103,5 +103,5 @@ def modulations(records: Sequence[Record]) -> dict[str, np.ndarray]:
     return result
 
 
-def _aliased(a, b):
-    return abs(np.corrcoef(a, b)[0, 1]) > 0.999
+def _aliased(a: Floats, b: Floats) -> bool:
+    return bool(abs(np.corrcoef(a, b)[0, 1]) > 0.999)

@@ -6,7 +6,8 @@ replicates, with Satterthwaite's degrees of freedom, and corrected for multiplic
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.stats import f as fisher
@@ -16,6 +17,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import ORDERS, features, modulations
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.problem import Floats
 
 LEVEL = 0.004
 """Significance of a finding over all groups together."""
@@ -54,8 +56,8 @@ class Localisation:
         """Chi-square in the significant groups that is more than noise, counted without overlap as far as groups are orthogonal."""
         return sum(max(g.statistic - g.width, 0.0) for g in self.findings)
 
-    def to_dict(self) -> dict:
-        def plain(g):
+    def to_dict(self) -> dict[str, Any]:
+        def plain(g: Group) -> dict[str, Any]:
             entry = asdict(g)
             entry.pop("indices")
             return entry
@@ -69,15 +71,17 @@ class Localiser:
 
     def __init__(self, space: Workspace, orders: Mapping[str, Sequence[float]] = ORDERS):
         self.space = space
-        self.streams = defaultdict(list)
+        self.streams: dict[str, list[int]] = defaultdict(list)
         for i in space.training:
             self.streams[stream_of(space.records[i])].append(i)
-        self.cells = {}
+        # By record: its functions in noise units, where each one's columns are, their part along the runs' patterns, their products.
+        self.cells: dict[int, tuple[Floats, dict[str, slice], Floats, Floats]] = {}
         for i in space.training:
             made = features(space.records[i], orders)
             whitener = space.noise.whiteners[i]
             block = whitener(np.hstack([f.columns for f in made]))
-            slices, start = {}, 0
+            slices: dict[str, slice] = {}
+            start = 0
             for f in made:
                 slices[f.name] = slice(start, start + f.columns.shape[1])
                 start += f.columns.shape[1]
@@ -87,7 +91,7 @@ class Localiser:
     def test(self, fit: Fit, level: float = LEVEL, name: str = "") -> Localisation:
         """Tests what ``fit`` leaves over; ``name`` restricts to one signal."""
         space = self.space
-        inverse = np.linalg.pinv(fit.normal, hermitian=True) if fit.normal.size else np.zeros((0, 0))
+        inverse = np.asarray(np.linalg.pinv(fit.normal, hermitian=True), dtype=float) if fit.normal.size else np.zeros((0, 0))
         gradient = fit.gradient
         self.factors = excess(space, fit)
         crosses = {i: block.T @ fit.jacobian[space.rows[i]] for i, (block, *_) in self.cells.items()}
@@ -111,10 +115,13 @@ class Localiser:
                         groups.append(group)
         groups = _holm(groups)
         whole = sum(max(g.statistic - g.width, 0.0) for g in groups if g.p <= level)
-        groups = [Group(**{**g.__dict__, "share": max(g.statistic - g.width, 0.0) / whole if whole and g.p <= level else 0.0}) for g in groups]
+        groups = [replace(g, share=max(g.statistic - g.width, 0.0) / whole if whole and g.p <= level else 0.0) for g in groups]
         return Localisation(groups, self._conditions(scores), level)
 
-    def _group(self, stream, feature, dependence, indices, basis, inverse, gradient, crosses, scores, along_jacobian):
+    def _group(
+        self, stream: str, feature: str, dependence: str, indices: Sequence[int], basis: Floats, inverse: Floats, gradient: Floats,
+        crosses: Mapping[int, Floats], scores: Mapping[int, Floats], along_jacobian: Mapping[int, Floats],
+    ) -> Group | None:  # fmt: skip
         slices = [self.cells[i][1][feature] for i in indices]
         common = min(s.stop - s.start for s in slices)
         own = [slice(s.start, s.start + common) for s in slices]
@@ -156,11 +163,11 @@ class Localiser:
         statistic /= mean_excess(self.factors, shares)
         return Group(stream, feature, dependence, statistic, rank, dof, float(fisher.sf(statistic / rank, rank, dof)), 1.0, 0.0, tuple(indices))
 
-    def _conditions(self, scores):
+    def _conditions(self, scores: Mapping[int, Floats]) -> dict[str, dict[str, float]]:
         """Misfit of each condition and signal in standard deviations of the mean feature, for drawing."""
-        result = defaultdict(dict)
+        result: dict[str, dict[str, float]] = defaultdict(dict)
         for stream, indices in self.streams.items():
-            sums = defaultdict(lambda: [0.0, 0.0])
+            sums: dict[str, list[float]] = defaultdict(lambda: [0.0, 0.0])
             for i in indices:
                 block, slices, _, gram = self.cells[i]
                 named = [s for f, s in slices.items() if not f.startswith("order ")]
@@ -177,7 +184,7 @@ class Localiser:
         return dict(result)
 
 
-def _holm(groups):
+def _holm(groups: Sequence[Group]) -> list[Group]:
     """Holm's correction; the single orders of the comb count as one family with as many members."""
     order = np.argsort([g.p_single for g in groups])
     count = len(groups)
@@ -186,4 +193,4 @@ def _holm(groups):
     for rank, k in enumerate(order):
         running = max(running, min(1.0, groups[k].p_single * (count - rank)))
         corrected[k] = running
-    return [Group(**{**g.__dict__, "p": float(p)}) for g, p in zip(groups, corrected)]
+    return [replace(g, p=float(p)) for g, p in zip(groups, corrected)]

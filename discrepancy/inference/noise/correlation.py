@@ -1,20 +1,26 @@
 """Correlation of the noise along a run, from deviations between replicates."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from discrepancy.inference.noise.replicates import Deviation
 from discrepancy.inference.noise.whiten import correlations, gains, innovations
+from discrepancy.problem import Floats
 
 
-def detrended_values(position, values):
+def detrended_values(position: Floats, values: Floats) -> Floats:
     x = position - position.mean()
     basis = np.column_stack([np.ones_like(x), x])
-    return values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]
+    trend: Floats = basis @ np.linalg.lstsq(basis, values, rcond=None)[0]
+    return values - trend
 
 
-def correlation_of(deviations, values):
+def correlation_of(deviations: Sequence[Deviation], values: Sequence[Floats]) -> tuple[float, float]:
     """Length and white share that maximise the likelihood, over a grid and then around its best point."""
     # the two deviations of a pair mirror each other: one is enough
-    seen, single = set(), []
+    seen: set[str] = set()
+    single = []
     for k, d in enumerate(deviations):
         if not (d.pair and d.condition in seen):
             single.append(k)
@@ -29,7 +35,7 @@ def correlation_of(deviations, values):
         x = deviations[i].position - deviations[i].position.mean()
         trends.append(np.column_stack([values[i], np.ones_like(x), x / (np.ptp(x) or 1.0)]))
 
-    def deviance(length, nugget):
+    def deviance(length: float, nugget: float) -> float:
         """Restricted likelihood: level and trend of each run are left out, or slow noise would be taken for them."""
         square = logs = 0.0
         for i, columns in zip(chosen, trends):
@@ -41,24 +47,24 @@ def correlation_of(deviations, values):
             square += gram[0, 0] - along @ np.linalg.solve(basis, along)
             logs += 2 * np.sum(np.log(deviation)) + np.log(np.linalg.det(basis))
         free = total - 2 * len(trends)
-        return free * np.log(square / free) + logs
+        return float(free * np.log(square / free) + logs)
 
     best = (deviance(0.0, 0.0), 0.0, 0.0)
     for _ in range(3):
         if best[1] == 0:
-            lengths = [spacing * 2.0**k for k in range(-1, 8) if spacing * 2.0**k < 0.3 * longest]
-            nuggets = (0.0, 0.1, 0.3, 0.6, 0.85)
+            lengths: Sequence[float] = [spacing * 2.0**k for k in range(-1, 8) if spacing * 2.0**k < 0.3 * longest]
+            nuggets: Sequence[float] = (0.0, 0.1, 0.3, 0.6, 0.85)
         else:
-            lengths = best[1] * np.array([0.6, 0.8, 1.0, 1.25, 1.6])
-            nuggets = np.clip(best[2] + np.array([-0.08, 0.0, 0.08]), 0.0, 0.97)
+            lengths = [best[1] * factor for factor in (0.6, 0.8, 1.0, 1.25, 1.6)]
+            nuggets = [min(max(best[2] + shift, 0.0), 0.97) for shift in (-0.08, 0.0, 0.08)]
         trials = [(deviance(length, nugget), length, nugget) for length in lengths for nugget in nuggets]
         if not trials or min(trials)[0] >= best[0] - (6 if best[1] == 0 else 0):
             break
         best = min(trials)
-    return float(best[1]), float(best[2])
+    return best[1], best[2]
 
 
-def autoregression_of(series, most=10):
+def autoregression_of(series: Sequence[Floats], most: int = 10) -> Floats:
     """Remaining correlation of the innovations: taps of the order with the best AIC, last entry the gain.
 
     One tap too many costs little; a resonance that is left makes effects out of noise.

@@ -16,8 +16,9 @@ from discrepancy.inference.noise.outliers import CUT, huber_weights, local_devia
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
 from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
 from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Mask, Record
 
 SHORT = 8
 """Records with fewer samples are single numbers: no correlation is looked for."""
@@ -28,28 +29,6 @@ UNSEEN = {"offset": 0.25, "drift": 0.1}
 SPECTRUM_DOF = 100.0
 """Of a signal's noise, however long: its spectrum is a fitted form, known at single orders to a seventh."""
 KNOWN = 1e6
-
-
-@dataclass(frozen=True)
-class StreamNoise:
-    """Noise of one signal.  ``scales`` by condition; ``patterns`` variance relative to scale^2; ``dof`` of each part."""
-
-    scale: float
-    scales: dict[str, float]
-    proportional: bool
-    length: float
-    nugget: float
-    taps: np.ndarray
-    patterns: dict[str, float]
-    dof: dict[str, float]
-    source: str
-    tail: float
-    floor: float = 0.0
-
-    def to_dict(self) -> dict:
-        return {"scale": self.scale, "proportional": self.proportional, "correlation_length": self.length,
-                "white_share": self.nugget, "between_runs": {k: float(np.sqrt(v)) * self.scale for k, v in self.patterns.items()},
-                "degrees_of_freedom": dict(self.dof), "source": self.source, "tail": self.tail}
 
 
 @dataclass(frozen=True)
@@ -65,13 +44,15 @@ class Noise:
         return self.streams[stream].dof.get(part, KNOWN) if stream in self.streams else KNOWN
 
 
-def estimate(records: Sequence[Record], residuals: Sequence[np.ndarray], predictions: Sequence[np.ndarray]) -> Noise:
+def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats]) -> Noise:
     """Noise from training records; held-out records get whiteners of the same noise."""
     masks = [usable(np.asarray(r.values)) & np.isfinite(e) for r, e in zip(records, residuals)]
-    members = defaultdict(list)
+    members: dict[str, list[int]] = defaultdict(list)
     for index, record in enumerate(records):
         members[noise_key(record)].append(index)
-    streams, whiteners, warnings = {}, [None] * len(records), []
+    streams: dict[str, StreamNoise] = {}
+    whiteners: dict[int, Whitener] = {}
+    warnings = []
     for key, indices in members.items():
         training = [i for i in indices if not records[i].held_out] or indices
         short = all(masks[i].sum() < SHORT for i in indices)
@@ -88,7 +69,7 @@ def estimate(records: Sequence[Record], residuals: Sequence[np.ndarray], predict
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:
             warnings.append(f"{key}: stuck or missing samples left out in {', '.join(lost[:6])}{' ...' if len(lost) > 6 else ''}")
-    return Noise(streams, whiteners, tuple(warnings))
+    return Noise(streams, [whiteners[i] for i in range(len(records))], tuple(warnings))
 
 
 def noise_key(record: Record) -> str:
@@ -96,11 +77,13 @@ def noise_key(record: Record) -> str:
     return record.quantity if np.size(record.values) < SHORT else stream_of(record)
 
 
-def _numbers(records, residuals, predictions, masks, indices):
+def _numbers(
+    records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats], masks: Sequence[Mask], indices: Sequence[int]
+) -> tuple[StreamNoise, dict[int, Floats], str]:
     """Scale of single numbers, constant or proportional, whichever is likelier."""
     deviations = deviations_of(records, residuals, masks, indices)
     dof = sum(d.share * d.values.size for d in deviations)
-    stated = [records[i].stated_noise for i in indices if records[i].stated_noise]
+    stated = _stated(records, indices)
     sizes = {i: np.maximum(np.abs(predictions[i]), 1e-300) for i in indices}
     everything = np.concatenate([sizes[i] for i in indices])
     floor = 0.02 * np.median(everything)
@@ -134,14 +117,20 @@ def _numbers(records, residuals, predictions, masks, indices):
     return stream, {}, note
 
 
-def _variance(values, shares):
+def _stated(records: Sequence[Record], indices: Sequence[int]) -> list[float]:
+    return [noise for i in indices if (noise := records[i].stated_noise)]
+
+
+def _variance(values: Floats, shares: Floats) -> float:
     """Variance with the largest deviations drawn in, so that one bad number does not set the scale."""
     total = np.sum(shares)
     variance = np.sum(shares * values**2) / total
-    return max(variance, 1e-300)
+    return max(float(variance), 1e-300)
 
 
-def _signals(records, residuals, predictions, masks, indices):
+def _signals(
+    records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats], masks: Sequence[Mask], indices: Sequence[int]
+) -> tuple[StreamNoise, dict[int, Floats], str]:
     """Correlation, scale, tails and run-to-run patterns of a series."""
     deviations = [d for d in deviations_of(records, residuals, masks, indices) if d.values.size >= SHORT]
     replicated = bool(deviations)
@@ -182,7 +171,7 @@ def _signals(records, residuals, predictions, masks, indices):
     source = "replicates"
     known = min(sum(d.share * d.values.size for d in deviations), SPECTRUM_DOF)
     if not replicated:
-        stated = [records[i].stated_noise for i in indices if records[i].stated_noise]
+        stated = _stated(records, indices)
         if stated:
             level = max(float(np.median(stated)), scale)
             note, source = "no replicates, noise as stated", "stated"
@@ -195,24 +184,27 @@ def _signals(records, residuals, predictions, masks, indices):
     tail = float(np.mean(np.abs(every) > CUT))
     base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail)
     if replicated:
-        patterns, dof = pattern_variances(base, deviations, predictions)
+        patterns, between = pattern_variances(base, deviations, predictions)
     else:
-        patterns, dof = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
-    stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **dof}, source, tail)
+        patterns, between = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
+    stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **between}, source, tail)
     weights = _weights(stream, deviations if replicated else [], records, residuals, masks, indices)
     return stream, weights, note
 
 
-def _tail_variance(e):
+def _tail_variance(e: Floats) -> float:
     """Variance that makes the Huber score have unit variance: E[w^2 e^2]/E[w]."""
     scale = max(robust_scale(e), 1e-300)
     for _ in range(4):
         w = huber_weights(e / scale)
         scale = np.sqrt(np.mean(w**2 * e**2) / np.mean(w**1)) or scale
-    return scale**2
+    return float(scale**2)
 
 
-def _weights(stream, deviations, records, residuals, masks, indices):
+def _weights(
+    stream: StreamNoise, deviations: Sequence[Deviation], records: Sequence[Record], residuals: Sequence[Floats], masks: Sequence[Mask],
+    indices: Sequence[int],
+) -> dict[int, Floats]:  # fmt: skip
     """Huber weights of each record: from its replicates, else from its own neighbours."""
     weights = {}
     alone = {}
@@ -250,7 +242,7 @@ def _weights(stream, deviations, records, residuals, masks, indices):
     return weights
 
 
-def _whitener(key, stream, record, prediction, kept, weight) -> Whitener:
+def _whitener(key: str, stream: StreamNoise, record: Record, prediction: Floats, kept: Mask, weight: Floats | None) -> Whitener:
     rows = int(kept.sum())
     position = position_of(record)[kept]
     level = stream.scales.get(record.condition, stream.scale)

@@ -3,10 +3,12 @@
 import numpy as np
 from scipy.ndimage import median_filter
 
+from discrepancy.problem import Floats, Mask
+
 CUT = 2.5
 
 
-def usable(values: np.ndarray) -> np.ndarray:
+def usable(values: Floats) -> Mask:
     """Mask of samples that are neither missing nor part of a stuck stretch (a dropout).
 
     A stretch counts as stuck when at least eight samples are identical and the record
@@ -28,17 +30,17 @@ def usable(values: np.ndarray) -> np.ndarray:
     return good
 
 
-def robust_scale(values: np.ndarray) -> float:
+def robust_scale(values: Floats) -> float:
     """Standard deviation by the median absolute value (about zero), consistent for a normal law."""
     return float(1.4826 * np.median(np.abs(values))) if values.size else 0.0
 
 
-def huber_weights(deviations: np.ndarray, cut: float = CUT) -> np.ndarray:
+def huber_weights(deviations: Floats, cut: float = CUT) -> Floats:
     """Huber's weights of deviations in units of the scale."""
     return np.minimum(1.0, cut / np.maximum(np.abs(deviations), 1e-300))
 
 
-def local_deviation(innovations: np.ndarray, width: int = 9) -> np.ndarray:
+def local_deviation(innovations: Floats, width: int = 9) -> Floats:
     """Deviation from the running median: what a record alone can say about its outliers."""
     if innovations.size < width:
         return np.zeros_like(innovations)

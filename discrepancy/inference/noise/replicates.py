@@ -1,28 +1,31 @@
 """Runs that repeat each other: how they deviate, whatever the model says."""
 
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.problem import Floats, Mask, Record
 
 
 @dataclass(frozen=True)
 class Deviation:
     index: int
-    position: np.ndarray
-    values: np.ndarray
-    rows: np.ndarray
+    position: Floats
+    values: Floats
+    rows: npt.NDArray[np.intp]
     share: float
     condition: str
     pair: bool
 
 
-def _groups(records, indices):
+def _groups(records: Sequence[Record], indices: Sequence[int]) -> list[list[int]]:
     """Sets of runs that repeat each other, within one mounting where that leaves any."""
     for with_mounting in (True, False):
-        groups = defaultdict(list)
+        groups: dict[tuple[str, str, str], list[int]] = defaultdict(list)
         for i in indices:
             r = records[i]
             groups[(stream_of(r), r.condition, r.mounting if with_mounting else "")].append(i)
@@ -32,7 +35,7 @@ def _groups(records, indices):
     return []
 
 
-def deviations_of(records, residuals, masks, indices) -> list[Deviation]:
+def deviations_of(records: Sequence[Record], residuals: Sequence[Floats], masks: Sequence[Mask], indices: Sequence[int]) -> list[Deviation]:
     """Deviations of repeated runs from each other, scaled to the variance of one run."""
     result = []
     for group in _groups(records, indices):

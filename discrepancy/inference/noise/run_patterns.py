@@ -1,13 +1,18 @@
 """Patterns by which whole runs differ: offset, drift and gain."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.stats import chi2
 
 from discrepancy.inference.noise.outliers import CUT, huber_weights
+from discrepancy.inference.noise.replicates import Deviation
+from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import autoregress, correlations, gains, innovations
+from discrepancy.problem import Floats
 
 
-def pattern_columns(record_position, prediction, names):
+def pattern_columns(record_position: Floats, prediction: Floats, names: Sequence[str]) -> Floats:
     x = record_position - record_position.mean()
     x = x / (np.sqrt(np.mean(x**2)) or 1.0)
     columns = {"offset": np.ones_like(x), "drift": x}
@@ -17,7 +22,9 @@ def pattern_columns(record_position, prediction, names):
     return np.column_stack([columns[n] for n in names])
 
 
-def pattern_variances(stream, deviations, predictions):
+def pattern_variances(
+    stream: StreamNoise, deviations: Sequence[Deviation], predictions: Sequence[Floats]
+) -> tuple[dict[str, float], dict[str, float]]:
     """Variance of the run-wide patterns in units of scale^2: what their amounts scatter by beyond the noise of the samples.
 
     The gain is only taken in when it is significant: it may look much like a drift.
@@ -34,7 +41,9 @@ def pattern_variances(stream, deviations, predictions):
     return patterns, {n: max(dof, 1.0) for n in patterns}
 
 
-def _amounts(stream, deviations, predictions, names):
+def _amounts(
+    stream: StreamNoise, deviations: Sequence[Deviation], predictions: Sequence[Floats], names: Sequence[str]
+) -> tuple[dict[str, float], dict[str, float]]:
     """Sum of squared amounts of each pattern, and what the noise of the samples alone gives."""
     squares, expected = dict.fromkeys(names, 0.0), dict.fromkeys(names, 0.0)
     for d in deviations:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from discrepancy.problem import Record
+from discrepancy.problem import Floats, Record
 
 
 def stream_of(record: Record) -> str:
@@ -12,7 +12,7 @@ def stream_of(record: Record) -> str:
     return f"{record.quantity}[{','.join(f'{k}={v}' for k, v in sorted(record.tags.items()))}]"
 
 
-def position_of(record: Record) -> np.ndarray:
+def position_of(record: Record) -> Floats:
     """Time if given and rising, else the first axis that runs one way, else the sample's number."""
     axes = record.axes
     for name in ("time", "angle", *axes):
@@ -24,7 +24,7 @@ def position_of(record: Record) -> np.ndarray:
     return np.arange(np.size(record.values), dtype=float)
 
 
-def order_axis(record: Record) -> np.ndarray | None:
+def order_axis(record: Record) -> Floats | None:
     """Angle of the output [rad] if the record runs over it."""
     axis = record.axes.get("angle")
     return None if axis is None or np.ptp(axis) == 0 else np.asarray(axis, dtype=float)

@@ -9,15 +9,17 @@ known from few replicates only, so tests must give them few degrees of freedom.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from discrepancy.problem import Floats, Mask
 from fmu_src.kernel import kernel
 
 
 @kernel
-def fill_gains(correlation, nugget, gain, deviation):
+def fill_gains(correlation: Floats, nugget: float, gain: Floats, deviation: Floats) -> None:
     """Fill Kalman gain and innovation standard deviation of each sample (total variance 1)."""
     variance = 0.0
     for i in range(correlation.shape[0]):
@@ -29,7 +31,7 @@ def fill_gains(correlation, nugget, gain, deviation):
         variance = predicted * (1.0 - gain[i])
 
 
-def gains(correlation: np.ndarray, nugget: float) -> tuple[np.ndarray, np.ndarray]:
+def gains(correlation: Floats, nugget: float) -> tuple[Floats, Floats]:
     """(Kalman gain, innovation standard deviation) of each sample (total variance 1)."""
     gain, deviation = np.empty_like(correlation), np.empty_like(correlation)
     fill_gains(correlation, float(nugget), gain, deviation)
@@ -37,7 +39,7 @@ def gains(correlation: np.ndarray, nugget: float) -> tuple[np.ndarray, np.ndarra
 
 
 @kernel
-def fill_innovations(columns, correlation, gain, deviation, state, result):
+def fill_innovations(columns: Floats, correlation: Floats, gain: Floats, deviation: Floats, state: Floats, result: Floats) -> None:
     """Fill ``result`` (samples, columns); ``state`` (columns) starts at zero."""
     count, width = columns.shape
     for i in range(count):
@@ -48,7 +50,7 @@ def fill_innovations(columns, correlation, gain, deviation, state, result):
             state[j] = predicted + gain[i] * error
 
 
-def innovations(columns: np.ndarray, correlation: np.ndarray, gain: np.ndarray, deviation: np.ndarray) -> np.ndarray:
+def innovations(columns: Floats, correlation: Floats, gain: Floats, deviation: Floats) -> Floats:
     """Normalised innovations of each column."""
     columns = np.ascontiguousarray(columns, dtype=float)
     result = np.empty_like(columns)
@@ -56,7 +58,7 @@ def innovations(columns: np.ndarray, correlation: np.ndarray, gain: np.ndarray, 
     return result
 
 
-def correlations(position: np.ndarray, length: float) -> np.ndarray:
+def correlations(position: Floats, length: float) -> Floats:
     """Correlation of each sample with the one before it; the first has none."""
     result = np.zeros(position.size)
     if length > 0:
@@ -68,15 +70,15 @@ def correlations(position: np.ndarray, length: float) -> np.ndarray:
 class Whitener:
     """Whitening of one record: ``kept`` rows, divided by ``scale``, innovations, weights, patterns."""
 
-    kept: np.ndarray
-    scale: np.ndarray
-    correlation: np.ndarray
-    gain: np.ndarray
-    deviation: np.ndarray
-    taps: np.ndarray
-    weight: np.ndarray
-    directions: np.ndarray
-    shrink: np.ndarray
+    kept: Mask
+    scale: Floats
+    correlation: Floats
+    gain: Floats
+    deviation: Floats
+    taps: Floats
+    weight: Floats
+    directions: Floats
+    shrink: Floats
     components: tuple[tuple[str, str], ...]
     quantity: str
 
@@ -84,31 +86,34 @@ class Whitener:
     def size(self) -> int:
         return self.scale.size
 
-    def innovate(self, columns: np.ndarray) -> np.ndarray:
+    def innovate(self, columns: Floats) -> Floats:
         """Without weights and patterns."""
         columns = np.ascontiguousarray(columns[self.kept] / self.scale[:, None])
         result = innovations(columns, self.correlation, self.gain, self.deviation)
         return autoregress(result, self.taps)
 
-    def __call__(self, columns: np.ndarray) -> np.ndarray:
+    def __call__(self, columns: Floats) -> Floats:
         flat = columns.ndim == 1
-        result = self.weight[:, None] * self.innovate(columns[:, None] if flat else columns)
+        result: Floats = self.weight[:, None] * self.innovate(columns[:, None] if flat else columns)
         if self.directions.shape[1]:
             result -= self.directions @ (self.shrink[:, None] * (self.directions.T @ result))
         return result[:, 0] if flat else result
 
 
-def autoregress(columns: np.ndarray, taps: np.ndarray) -> np.ndarray:
+def autoregress(columns: Floats, taps: Floats) -> Floats:
     """Prediction error of a short autoregression; the first rows use what there is of it."""
     if not taps.size or len(columns) <= taps.size:
         return columns
     result = columns.copy()
     for lag, tap in enumerate(taps[:-1], start=1):
         result[lag:] -= tap * columns[:-lag]
-    return result / taps[-1]
+    return result / float(taps[-1])
 
 
-def whitener(kept, scale, position, length, nugget, taps, weight, patterns, variances, components, quantity) -> Whitener:
+def whitener(
+    kept: Mask, scale: Floats, position: Floats, length: float, nugget: float, taps: Floats, weight: Floats, patterns: Floats,
+    variances: Floats, components: Sequence[tuple[str, str]], quantity: str,
+) -> Whitener:  # fmt: skip
     """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale)."""
     correlation = correlations(position, length)
     gain, deviation = gains(correlation, nugget)

@@ -10,7 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.problem import Candidate, Floats, Parameter
 
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
@@ -65,35 +65,35 @@ class _Frozen:
         self.inverse = np.linalg.pinv(space.base.normal + np.diag(width**-2.0), hermitian=True)
         self.base = dict(zip(space.training, space.predictions(self.theta, space.training)))
 
-    def residual(self, values: Mapping[str, float]) -> np.ndarray:
+    def residual(self, values: Mapping[str, float]) -> Floats:
         """Whitened residual with the base fit's nuisances."""
         ys = self.space.predictions({**self.theta, **values}, self.which)
         return self.space.base.residual - self.space.whiten({i: y - self.base[i] for i, y in zip(self.which, ys)})
 
-    def nuisance_gradient(self, residual: np.ndarray) -> np.ndarray:
+    def nuisance_gradient(self, residual: Floats) -> Floats:
         return self.jacobian.T @ residual - self.pull
 
-    def cost(self, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+    def cost(self, values: Mapping[str, float]) -> tuple[float, Floats]:
         """Generalised least squares: chi-square at the best nuisances, and the residual before they follow."""
         r = self.residual(values)
         g = self.nuisance_gradient(r)
         return float(r @ r - g @ self.inverse @ g), r
 
-    def columns(self, values: Mapping[str, float]) -> np.ndarray:
+    def columns(self, values: Mapping[str, float]) -> Floats:
         return np.column_stack([self.space.whiten(self.space.column({**self.theta, **values}, p, self.shows[p.name])) for p in self.own])
 
-    def nuisances_with(self, residual: np.ndarray) -> dict[str, float]:
+    def nuisances_with(self, residual: Floats) -> dict[str, float]:
         """The nuisances that go with what the effects leave."""
         shift = self.inverse @ self.nuisance_gradient(residual)
         return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
 
 
-def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, np.ndarray]:
+def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:
     """Levenberg-Marquardt within bounds over the effects' parameters: values, whether it converged, columns (N, p)."""
     box = Box(frozen.own)
     x = box.array(values)
 
-    def total(z):
+    def total(z: Floats) -> tuple[float, Floats]:
         cost, r = frozen.cost(box.named(z))
         return cost + box.prior_cost(z), r
 
@@ -135,19 +135,19 @@ def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12)
     return box.named(x), converged, c
 
 
-def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, np.ndarray]:
+def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, Floats]:
     """Chi-square with the priors, and the whitened residual."""
     r = space.residual(values)
     return float(r @ r) + box.prior_cost(box.array(values)), r
 
 
-def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: np.ndarray, candidates: tuple[str, ...],
+def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: Floats, candidates: tuple[str, ...],
             converged: bool, expected: float, rounds: int = 8, fresh: bool = False) -> Fit:  # fmt: skip
     """Full predictions until the chi-square stands still; sensitivities are renewed where the frozen ones mislead."""
     box = Box(parameters)
     x = box.array(values)
 
-    def cost_of(z):
+    def cost_of(z: Floats) -> tuple[float, Floats]:
         return _cost(space, box, box.named(z))
 
     cost, r = cost_of(x)

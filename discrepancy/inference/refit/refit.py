@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.stats import t as student
@@ -12,7 +13,7 @@ from discrepancy.inference.base_fit.fit import Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import fit_effects
 from discrepancy.inference.screening.screen import Score
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.problem import Candidate, Floats, Parameter
 
 UNDETERMINED = 1e-6
 """Information (in units of the parameter's scale) below which a parameter is not estimated."""
@@ -30,7 +31,7 @@ class Estimate:
     dof: float
     at_bound: bool
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         return {"value": self.value, "interval": list(self.interval), "unit": self.unit, "standard_deviation": self.deviation,
                 "at_bound": self.at_bound}
 
@@ -42,8 +43,8 @@ class Refit:
     candidates: tuple[Candidate, ...]
     fit: Fit
     gain: float
-    response: np.ndarray
-    covariance: np.ndarray
+    response: Floats
+    covariance: Floats
 
     @property
     def name(self) -> str:
@@ -74,7 +75,8 @@ def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit) -> Ref
     response = space.whiten({i: a - b for i, a, b in zip(which, high, low)})
     # scaled before inversion: units differ by orders of magnitude
     size = np.array([p.scale for p in fit.parameters])
-    covariance = np.linalg.pinv(fit.normal * np.outer(size, size), rcond=1e-11, hermitian=True) * np.outer(size, size)
+    scaled = np.asarray(np.linalg.pinv(fit.normal * np.outer(size, size), rcond=1e-11, hermitian=True), dtype=float)
+    covariance = scaled * np.outer(size, size)
     return Refit(tuple(candidates), fit, space.base.chi2 - fit.chi2, response, covariance)
 
 
@@ -121,7 +123,7 @@ def drop_cost(result: Refit, candidate: Candidate) -> float:
 
 def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
     """Chi-square of each condition when the fit had not seen it, e_c = (I - H_cc)^-1 e_c in the form of normal equations."""
-    rows = defaultdict(list)
+    rows: dict[str, list[slice]] = defaultdict(list)
     for i, s in space.rows.items():
         rows[space.records[i].condition].append(s)
     size = np.array([p.scale for p in fit.parameters])

@@ -1,20 +1,22 @@
 """d': the size of an effect in noise units after the nuisances are projected out."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import Floats
 
 
-def effect_size(space: Workspace, difference: Mapping[int, np.ndarray]) -> float:
+def effect_size(space: Workspace, difference: Mapping[int, Floats]) -> float:
     """d' of a change of the records' values (by training record), on a workspace whose base is fitted."""
     column = space.whiten({i: np.asarray(d, dtype=float) for i, d in difference.items() if i in space.rows})
-    return float(np.sqrt(max(column @ project_out(column[:, None], space.base.jacobian, space.base.normal)[:, 0], 0.0)))
+    square = float(column @ project_out(column[:, None], space.base.jacobian, space.base.normal)[:, 0])
+    return float(np.sqrt(max(square, 0.0)))
 
 
-def amplitude_for(space: Workspace, response, target: float, start: float, rounds: int = 12) -> float:
+def amplitude_for(space: Workspace, response: Callable[[float], Mapping[int, Floats]], target: float, start: float, rounds: int = 12) -> float:
     """Amplitude at which ``response(amplitude) -> {record: change}`` has d' = ``target``."""
     amplitude = start
     for _ in range(rounds):
@@ -29,6 +31,8 @@ def amplitude_for(space: Workspace, response, target: float, start: float, round
     return amplitude
 
 
-def detection_sizes(space: Workspace, columns: np.ndarray) -> Sequence[float]:
+def detection_sizes(space: Workspace, columns: Floats) -> Floats:
     """d' of each whitened column: what one unit of each parameter would be worth."""
-    return np.sqrt(np.maximum(np.sum(columns * project_out(columns, space.base.jacobian, space.base.normal), axis=0), 0.0))
+    squares = np.sum(columns * project_out(columns, space.base.jacobian, space.base.normal), axis=0)
+    sizes: Floats = np.sqrt(np.maximum(squares, 0.0))
+    return sizes

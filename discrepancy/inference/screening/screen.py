@@ -6,7 +6,7 @@ columns together.  Columns are differences over a small and a typical amplitude,
 that begin with zero slope (thresholds, clearances) are seen too.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 
@@ -16,7 +16,7 @@ from scipy.stats import f as fisher
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate
+from discrepancy.problem import Candidate, Floats, Parameter
 
 SMALL, TYPICAL = 0.05, 1.0
 DRAWS = 2000
@@ -39,7 +39,7 @@ class Block:
 class Columns:
     """Whitened columns of all candidates (N, m), nuisances not yet projected out."""
 
-    values: np.ndarray
+    values: Floats
     blocks: tuple[Block, ...]
 
 
@@ -73,8 +73,8 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
         which = [i for i in space.touched(candidate) if i in space.rows]
         if not which:
             continue
-        linear = None
-        seen: list[np.ndarray] = []
+        linear: bool | None = None
+        seen: list[Floats] = []
         for shape in candidate.shape_grid or ({},):
             at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
             # The small one is cheap, and enough where the large one showed the same at the first shape.
@@ -103,7 +103,7 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
 
 
-def _reach(candidate, block):
+def _reach(candidate: Candidate, block: Floats) -> float:
     """Size, in noise units, of the effect at the bounds of its parameters."""
     return max(
         float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
@@ -111,11 +111,11 @@ def _reach(candidate, block):
     )
 
 
-def _step(p, size):
+def _step(p: Parameter, size: float) -> float:
     return float(np.clip(p.off + (p.sign or 1) * size * p.scale, p.lower, p.upper) - p.off)
 
 
-def _block(space, candidate, at, which, size):
+def _block(space: Workspace, candidate: Candidate, at: Mapping[str, float], which: Sequence[int], size: float) -> Floats:
     columns = []
     for p in candidate.amplitudes:
         step = _step(p, size)
@@ -131,7 +131,7 @@ def _block(space, candidate, at, which, size):
     return np.column_stack(columns)
 
 
-def _same(a, b):
+def _same(a: Floats, b: Floats) -> bool:
     """Whether two blocks span the same directions, column by column."""
     if a.shape != b.shape:
         return False
@@ -142,7 +142,7 @@ def _same(a, b):
     return bool(np.all((cosine > 0.9995) | (na == 0)))
 
 
-def cone_statistic(scores: np.ndarray, gram: np.ndarray, signs: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+def cone_statistic(scores: Floats, gram: Floats, signs: Sequence[int]) -> tuple[Floats, Floats]:
     """Gain in chi-square and amplitudes for each row of ``scores``, amplitudes keeping their signs."""
     width = gram.shape[0]
     draws = scores.shape[0]
@@ -168,6 +168,16 @@ def cone_statistic(scores: np.ndarray, gram: np.ndarray, signs: Sequence[int]) -
     return best, amplitude
 
 
+@dataclass
+class _Tested:
+    """One candidate over its blocks: largest statistic of data and draws (1 + draws,), (statistic, block, amplitude) of each block."""
+
+    sup: Floats
+    starts: list[tuple[float, int, Floats]] = field(default_factory=list)
+    width: int = 0
+    dof: float = 1e6
+
+
 def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, fit: Fit, seed: int = 0, draws: int = DRAWS,
            exclude: Sequence[str] = ()) -> Screen:
     """Tests every candidate for what ``fit`` has left over."""
@@ -190,7 +200,7 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         grams[("prior", "prior")] = prior
     draws_of = simulate(space, grams, draws, rng, excess(space, fit))
     everything = np.vstack([score, draws_of])
-    results = {}
+    results: dict[int, _Tested] = {}
     for index, block in enumerate(columns.blocks):
         own = slice(block.columns.start, block.columns.stop)
         candidate = candidates[block.candidate]
@@ -198,15 +208,15 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
             continue
         statistic, amplitude = cone_statistic(everything[:, own], gram[own, own], block.signs)
         shares = {c: float(np.trace(np.linalg.pinv(gram[own, own], rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
-        entry = results.setdefault(block.candidate, {"sup": np.zeros(draws + 1), "starts": [], "width": 0, "dof": 1e6})
-        entry["sup"] = np.maximum(entry["sup"], statistic)
-        entry["starts"].append((statistic[0], index, amplitude[0]))
-        entry["width"] = max(entry["width"], block.columns.stop - block.columns.start)
-        entry["dof"] = min(entry["dof"], effective_dof(space, shares))
-    singles = {k: _tail(e["sup"][0], np.sort(e["sup"][1:]), e["width"], e["dof"]) for k, e in results.items()}
+        entry = results.setdefault(block.candidate, _Tested(np.zeros(draws + 1)))
+        entry.sup = np.maximum(entry.sup, statistic)
+        entry.starts.append((float(statistic[0]), index, amplitude[0]))
+        entry.width = max(entry.width, block.columns.stop - block.columns.start)
+        entry.dof = min(entry.dof, effective_dof(space, shares))
+    singles = {k: _tail(float(e.sup[0]), np.sort(e.sup[1:]), e.width, e.dof) for k, e in results.items()}
     least = np.full(draws, 1.0)
     for e in results.values():
-        sims = e["sup"][1:]
+        sims = e.sup[1:]
         ranks = np.empty(draws)
         ranks[np.argsort(-sims, kind="stable")] = (np.arange(draws) + 0.5) / draws
         least = np.minimum(least, ranks)
@@ -215,13 +225,13 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     effective = 0.02 / level
     scores = []
     for k, e in results.items():
-        starts = sorted(e["starts"], key=lambda s: -s[0])
+        starts = sorted(e.starts, key=lambda s: -s[0])
         p = singles[k]
         adjusted = min(1.0, effective * p) if p < level else float(np.mean(ordered <= p))
         made = [_start(candidates[k], columns.blocks[i], a) for _, i, a in starts]
         second = next((m for (t, i, _), m in zip(starts[1:], made[1:])
                        if columns.blocks[i].shape != columns.blocks[starts[0][1]].shape and t > 0.6 * starts[0][0]), None)
-        scores.append(Score(candidates[k].name, float(e["sup"][0]), p, adjusted, made[0], second, starts[0][1]))
+        scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1]))
     scores.sort(key=lambda s: (-s.statistic))
     return Screen(scores, columns.blocks)
 
@@ -234,7 +244,7 @@ def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
     return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
 
 
-def _tail(value, sims, width, dof):
+def _tail(value: float, sims: Floats, width: int, dof: float) -> float:
     """Probability under the null: counted, beyond the 99th percentile continued with the law of F."""
     draws = sims.size
     bend = sims[int(0.99 * draws)]
@@ -244,7 +254,7 @@ def _tail(value, sims, width, dof):
     return float(0.01 * fisher.sf(value / width, width, dof) / max(reference, 1e-300))
 
 
-def _start(candidate, block, amplitude):
+def _start(candidate: Candidate, block: Block, amplitude: Floats) -> dict[str, float]:
     """Where a refit begins: the linear estimate, kept off zero and inside the bounds."""
     start = {p.name: p.off for p in candidate.shapes}
     start.update(block.shape)

@@ -4,7 +4,10 @@ import math
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.laws.shared import LEVER, LOBES, UM
+from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
 
 
@@ -14,13 +17,13 @@ class Flange(Truth):
     name, effect, blocks, quantities = "soft flange", "support_compliance", ("loops",), ("hysteresis",)
     typical, low, high = 5e-8, 1e-9, 1e-5
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.settle = float(rng.uniform(0.0, 0.05))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         torque = series.axes["torque"]
         change = self.a * torque * (1.0 - self.settle * np.abs(torque) / 250.0)
-        return y + change - change.mean()
+        return y + change - float(change.mean())
 
 
 class PlanetRunout(Truth):
@@ -29,11 +32,11 @@ class PlanetRunout(Truth):
     name, effect, blocks, quantities = "planet off centre", "first_stage_error", ("te",), ("transmission_error",)
     typical, low, high = 3 * UM, 0.05 * UM, 60 * UM
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.phase = float(rng.uniform(0.0, 2.0 * math.pi))
         self.second = float(rng.uniform(0.02, 0.1))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         angle = series.axes["angle"]
         size = self.a / (2.0 * LEVER * LOBES)
         return y - size * (np.cos(40.0 * angle + self.phase) + self.second * np.cos(80.0 * angle + 2.0 * self.phase))
@@ -45,14 +48,14 @@ class TeethPlay(Truth):
     name, effect, blocks, quantities = "play of the first stage", "first_stage_error", ("loops",), ("hysteresis",)
     typical, low, high = 5 * UM, 0.1 * UM, 200 * UM
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.width = float(rng.uniform(0.3, 1.5))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         change = 0.5 * self.a / (LEVER * LOBES) * np.tanh(series.axes["torque"] / self.width)
-        return y + change - change.mean()
+        return y + change - float(change.mean())
 
-    def parameters(self):
+    def parameters(self) -> dict[str, float]:
         return {"backlash": self.a}
 
 
@@ -62,10 +65,10 @@ class Unbalance(Truth):
     name, effect, blocks, quantities = "unbalance", "unbalance", ("vibration",), ("vibration_order",)
     typical, low, high = 1e-5, 1e-8, 1e-2
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.second = float(rng.uniform(0.0, 0.06))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         omega = rows[0].speed * LOBES / 121.0
         size = self.a * omega**2 / 10.0
         orders = series.axes["order"]
@@ -79,9 +82,9 @@ class Skidding(Truth):
     name, effect, blocks, quantities = "skidding rollers", "roller_skidding", ("cage",), ("cage_speed",)
     typical, low, high = 0.01, 1e-5, 0.4
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.load = float(rng.uniform(10.0, 50.0))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         load = np.array([abs(s.load) for s in rows])
         return y * (1.0 - self.a / (1.0 + (load / self.load) ** 2))

@@ -4,10 +4,13 @@ import math
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import Floats
+from benchmarks.blind_trial.generator.designs import Series
+from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
 
 
-def dahl(torque: np.ndarray, y: np.ndarray, share: float, least: float, way: float) -> np.ndarray:
+def dahl(torque: Floats, y: Floats, share: float, least: float, way: float) -> Floats:
     """A loop with Dahl's friction: the turning follows the torque less a force that grows with the way and
     saturates at ``share`` of the torque and ``least`` [N m]."""
     order = np.argsort(torque, kind="stable")
@@ -25,7 +28,7 @@ def dahl(torque: np.ndarray, y: np.ndarray, share: float, least: float, way: flo
             rate = 1.0 - force / most * math.copysign(1.0, move)
             force = np.clip(force + most / way * move * rate, -most, most)
         found[i] = np.interp(total - force, grid, curve)
-    return found - found.mean()
+    return found - float(found.mean())
 
 
 class DryFriction(Truth):
@@ -34,18 +37,18 @@ class DryFriction(Truth):
     name, effect, blocks, quantities = "friction with a velocity minimum", "stribeck_friction", ("torque",), ("input_torque", "hysteresis")
     typical, low, high = 0.01, 1e-5, 0.12
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.static = float(rng.uniform(0.5, 2.0))
         self.speed = float(rng.uniform(0.008, 0.05))
         self.viscous = float(rng.uniform(0.0, 0.6))
         self.way = 2e-5 * float(np.exp(rng.uniform(-0.5, 0.5)))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         if series.quantity == "hysteresis":
             most = self.a * (1.0 + self.static)
             return dahl(series.axes["torque"], y, 1.35 * most, 0.5 * most, self.way)
-        speed = np.array([s.speed for s in rows])
-        load = np.array([s.load for s in rows])
+        speed: Floats = np.array([s.speed for s in rows])
+        load: Floats = np.array([s.load for s in rows])
         v = 0.08 * speed / 209.4
         mu = self.a * (1.0 + self.static * np.exp(-((v / self.speed) ** 2)) + self.viscous * v)
         return y + mu * (1.45 * load / 0.052) * v / speed
@@ -63,10 +66,10 @@ class Drag(Truth):
     name, effect, blocks, quantities = "drag of seals and grease", "drag", ("torque",), ("input_torque",)
     typical, low, high = 0.02, 1e-5, 0.8
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.seal = float(rng.uniform(0.0, 0.6))
 
-    def post(self, series, y, rows):
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         speed = np.array([s.speed for s in rows])
         warm = np.array([s.temperature for s in rows]) - 273.15
         vogel = np.exp(880.0 / (warm + 105.0) - 880.0 / (20.0 + 105.0))

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from benchmarks.blind_trial.generator.laws.shared import BOTH, UM
+from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth, worn_places
 
 
@@ -14,11 +15,11 @@ class RaceHollow(Truth):
     name, effect, blocks, quantities = "hollow in the raceways", "raceway_wear", ("te", "loops"), BOTH
     typical, low, high = 1.0 * UM, 0.02 * UM, 12 * UM
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.inner = bool(rng.random() < 0.5)
         self.width = math.radians(rng.uniform(28.0, 40.0))
 
-    def surfaces(self, w, setting):
+    def surfaces(self, w: np.ndarray, setting: Setting) -> None:
         race = "inner_race_wear" if self.inner else "outer_race_wear"
         bins = w[race].shape[-1]
         angle = (np.arange(bins) + 0.5) * 2.0 * math.pi / bins - worn_places()[0 if self.inner else 1]
@@ -32,13 +33,13 @@ class Pit(Truth):
     name, effect, blocks, quantities = "pit in a race", "race_spall", ("vibration", "te"), ("vibration_order", "transmission_error")
     typical, low, high = 3 * UM, 0.1 * UM, 60 * UM
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.inner = bool(rng.random() < 0.5)
         self.disc, self.crank = int(rng.integers(2)), int(rng.integers(2))
         self.width = float(rng.uniform(0.12, 0.3))
         self.shift = float(rng.uniform(-0.2, 0.2))
 
-    def surfaces(self, w, setting):
+    def surfaces(self, w: np.ndarray, setting: Setting) -> None:
         race = "inner_race_wear" if self.inner else "outer_race_wear"
         bins = w[race].shape[-1]
         angle = (np.arange(bins) + 0.5) * 2.0 * math.pi / bins - worn_places()[0 if self.inner else 1] - self.shift

@@ -1,18 +1,20 @@
 """Laws of the wear rate, and of where the pins wear."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from benchmarks.blind_trial.generator.laws.shared import UM, WEAR
-from benchmarks.blind_trial.generator.reducer import HOUR
+from benchmarks.blind_trial.generator.reducer import HOUR, Setting
 from benchmarks.blind_trial.generator.truth import Truth
 
 
 class Wearing(Truth):
     """Base of the laws that act on the wear rate."""
 
-    blocks, quantities = ("wear",), WEAR
+    blocks: tuple[str, ...] = ("wear",)
+    quantities: tuple[str, ...] = WEAR
 
 
 class RunIn(Wearing):
@@ -21,16 +23,16 @@ class RunIn(Wearing):
     name, effect = "running-in by a power law", "running_in"
     typical, low, high = 1.0, 0.005, 12.0
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.travel = 67.5 * HOUR * float(np.exp(rng.uniform(math.log(60.0), math.log(350.0))))
         self.power = float(rng.uniform(1.5, 2.5))
         self.double = bool(rng.random() < 0.5)
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         s = life["travel"] / self.travel
         if self.double:
             return 1.0 + self.a * (0.6 * math.exp(-1.6 * s) + 0.4 * math.exp(-0.6 * s))
-        return 1.0 + self.a / (1.0 + s / self.power) ** (self.power + 1.0)
+        return 1.0 + self.a / float((1.0 + s / self.power) ** (self.power + 1.0))
 
 
 class Debris(Wearing):
@@ -39,10 +41,10 @@ class Debris(Wearing):
     name, effect = "abrasion by debris, logistic", "debris_abrasion"
     typical, low, high = 1.0, 0.01, 30.0
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.middle = float(rng.uniform(3e-5, 1e-4))
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         share = life["iron"] / self.middle
         return 1.0 + self.a * share / (1.0 + 0.15 * share)
 
@@ -53,10 +55,10 @@ class Film(Wearing):
     name, effect = "lubricant film after Hamrock and Dowson", "lubrication_regime"
     typical, low, high = 0.3, 0.005, 0.95
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.half = float(rng.uniform(0.7, 1.5))
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         warm = setting.temperature - 273.15
         viscosity = math.exp(880.0 / (warm + 105.0) - 880.0 / 145.0)
         film = (viscosity * setting.speed / 209.4) ** 0.68 * (setting.load / 167.0) ** -0.073
@@ -69,11 +71,11 @@ class LoadPower(Wearing):
     name, effect = "wear by a power of the load", "load_exponent"
     typical, low, high = 0.2, 0.003, 1.5
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.sign = float(rng.choice([-1.0, 1.0, 1.0]))
 
-    def rate(self, surface, life, setting):
-        return (setting.load / 140.0) ** (self.sign * self.a)
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
+        return float((setting.load / 140.0) ** (self.sign * self.a))
 
 
 class SoftCore(Wearing):
@@ -82,10 +84,10 @@ class SoftCore(Wearing):
     name, effect = "hardness falling with depth", "hardness_gradient"
     typical, low, high = 0.1, 0.002, 0.9
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.depth = float(rng.uniform(4.0, 8.0)) * UM
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         return 1.0 / (1.0 - self.a * min(1.0, life[surface] / self.depth))
 
 
@@ -95,8 +97,8 @@ class Tilt(Wearing):
     name, effect = "tilted contacts", "edge_loading"
     typical, low, high = 0.5, 0.005, 5.0
 
-    def rate(self, surface, life, setting):
-        return 1.0 + self.a * (100.0 / setting.load) ** 0.8
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
+        return 1.0 + self.a * float((100.0 / setting.load) ** 0.8)
 
 
 class OldGrease(Wearing):
@@ -105,10 +107,10 @@ class OldGrease(Wearing):
     name, effect = "ageing grease", "grease_ageing"
     typical, low, high = 0.3, 0.005, 8.0
 
-    def draw(self, rng):
+    def draw(self, rng: np.random.Generator) -> None:
         self.life = float(rng.uniform(2000.0, 5000.0))
 
-    def rate(self, surface, life, setting):
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
         t = life["hours"] / self.life
         return 1.0 + self.a * t / (1.0 + t)
 
@@ -120,8 +122,8 @@ class StuckPins(Wearing):
     blocks, quantities = ("wear", "prints"), ("wear_profile",)
     typical, low, high = 0.1, 0.001, 1.0
 
-    def standing(self, setting):
+    def standing(self, setting: Setting) -> float:
         return self.a
 
-    def parameters(self):
+    def parameters(self) -> dict[str, float]:
         return {"pin_standing_share": self.a}
