@@ -2,7 +2,7 @@
 """Set up and run everything; needs Python 3.11 or newer and nothing else.
 
     python3 build.py            set up, build and check the FMUs, run the main job, write the report
-    python3 build.py test       set up, run the tests (further arguments go to pytest)
+    python3 build.py test       set up, run the tests (further arguments go to pytest; --coverage shows what they reach)
     python3 build.py bench      set up, measure the cost of everything against others' (benchmarks/; --quick tries it out)
     python3 build.py COMMAND    set up, then: rvwear COMMAND ...
 
@@ -101,7 +101,9 @@ def main(arguments: list[str]) -> int:
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
     set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
     if arguments[:1] == ["test"]:
-        return subprocess.run([str(SCRIPTS / "python"), "-m", "pytest", *arguments[1:]], cwd=HERE).returncode
+        tests = ["tests/measure_coverage.py"] if "--coverage" in arguments else ["-m", "pytest"]
+        arguments = [argument for argument in arguments[1:] if argument != "--coverage"]
+        return subprocess.run([str(SCRIPTS / "python"), *tests, *arguments], cwd=HERE).returncode
     if arguments[:1] == ["bench"]:
         return bench(arguments[1:])
     if arguments:

@@ -20,11 +20,11 @@ settings.register_profile("default", max_examples=12, derandomize=True, database
 settings.register_profile("thorough", max_examples=1000, deadline=None)
 settings.load_profile(os.environ.get("RVWEAR_PROPERTIES", "default"))
 
-# The workers take files in this order: the first two compile what most others need, one the kernels of the units,
-# the other their object code; the longest come early, so that no worker is left with one at the end.
+# The workers take files in this order: the longest come early, so that no worker is left with one at the end.
 FIRST = (
-    "test_effects_off", "test_fmu", "test_inference_diagnose", "test_blind_trial", "test_reducer_unit", "test_ensemble",
-    "test_native_fmu", "test_loop", "test_fmu_bench", "test_strangers", "test_output_pins", "test_dynamics", "test_equilibrium",
+    "test_blind_trial", "test_loop", "test_real_data", "test_wheel", "test_fmu", "test_fmu_bench", "test_inference_diagnose", "test_native_fmu",
+    "test_reproduce", "test_life", "test_strangers", "test_ensemble", "test_crew", "test_plain_python", "test_motion", "test_inference_trial",
+    "test_compiler_properties", "test_robot_joint", "test_missing_parts", "test_pin_on_disc", "test_isolation", "test_inference_tools",
 )  # fmt: skip
 
 

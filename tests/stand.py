@@ -11,8 +11,8 @@ ARCSEC = np.degrees(1.0) * 3600.0
 
 
 def records_of(table, **values):
-    """A one-element record array with other values than the start values."""
-    records = table.new_records()
+    """A one-element record array with other values than the start values; fields are attributes, also for plain Python."""
+    records = table.new_records().view(np.recarray)
     for name, value in values.items():
         records[name] = value
     return records

@@ -10,12 +10,21 @@ import pytest
 
 from reducers.reducer import load_reducer
 from rv_plant import plant
+from rv_plant.effects import EFFECTS as PLANT
 from stand import crank_period, pair_of, steps_together
+from test_effects_order import everything
+from wear_fmu.effects import EFFECTS as WEAR
 
 STEPS, HOURS_PER_STEP = 4, 20.0
+# Of a communication step: a crank turn's fortieth, in motion 20 us.
+IN_MOTION = 2e-5
 # What each case asks of the kernels beyond the ideal reducer.
 CASES = {
     "ideal": {},
+    "every effect": {**everything(PLANT), **everything(WEAR), "pins": 1},
+    "in motion": {"fidelity": 1, "damping_law": 2, "housing_compliance": 1e-7, "crank_support_compliance": 7e-9},
+    "output pins": {"reducer": "cycloidal-actuator", "output_play": 1e-5},
+    "other laws": {"contact_law": 1, "mesh_wear_law": 0, "raceway_wear_law": 3, "sliding_form": 1, "first_stage_ratio": 0.0},
     "compliant with errors": {
         "crank_support_compliance": 7e-9, "main_bearing_compliance": 3e-9, "first_stage_compliance": 1e-8,
         "housing_compliance": 1e-7, "lobe_profile_error": 2e-6, "pin_radius_error": 1e-6, "angle_modification": 1e-5,
@@ -26,12 +35,13 @@ CASES = {
 
 def trajectory(case):
     """State cells of both units after each of some coupled steps."""
-    reducer = load_reducer("RV20E-121")
+    values = {"reducer": "RV20E-121", **CASES[case]}
+    reducer = load_reducer(values.pop("reducer"))
     tables = reducer.plant, reducer.wear
-    machine, surface = (records.view(np.recarray) for records in pair_of(reducer, **CASES[case]))
+    machine, surface = pair_of(reducer, **values)
     rows = []
     assert plant.initialise(machine) == 0
-    step = crank_period(machine) / 40
+    step = IN_MOTION if "fidelity" in values else crank_period(machine) / 40
     surface["acceleration"] = HOURS_PER_STEP * 3600 / step
     for _ in steps_together(machine, surface, step, STEPS):
         rows.append([{v.name: np.array(r[v.name][0]) for v in t.of_role("output", "state")}
