@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 from fmu_src.variables import Table
 from reducers.reducer import load_reducer

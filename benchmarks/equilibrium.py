@@ -17,7 +17,7 @@ from scipy.optimize import root
 from benchmarks.numba_peer import njit
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Measured, Ratio, cost, cost_at
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble

@@ -15,7 +15,8 @@ import numpy as np
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 
 MODEL = "RV20E-121"
 MOST_TERMS = 5

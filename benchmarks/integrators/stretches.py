@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.numba_peer import njit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.variables import Table
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion

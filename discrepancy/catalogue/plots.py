@@ -12,7 +12,7 @@ from discrepancy.catalogue.signature import (
 )
 from discrepancy.effects import MODULES
 from discrepancy.prediction.bench import Bench, Condition
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure
 from pages.charts import COLOURS, Curve, chart

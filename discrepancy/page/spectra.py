@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.page import amounts
 from discrepancy.page.runs import Run, slug
 from discrepancy.page.series import by_condition
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Choice, Choosable
 from pages.look import Figure, short

@@ -4,13 +4,13 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 """
 
 import math
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar, cast
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.variables import Table
 from reducers.reducer import Reducer

@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way

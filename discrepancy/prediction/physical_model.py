@@ -17,7 +17,8 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
-from discrepancy.problem import Candidate, Floats, Parameter, Record
+from discrepancy.problem import Candidate, Parameter, Record
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.

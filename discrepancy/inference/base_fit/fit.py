@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares, lsq_linear
 
-from discrepancy.problem import Floats, Parameter
+from discrepancy.problem import Parameter
+from fmu_src.arrays import Floats
 
 
 class Box:

@@ -18,7 +18,7 @@ from discrepancy.inference.misfit.features import ORDERS, features
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats import t as student
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 # y of x and the constants; and, for each law, its text, its constants, the function and where fits begin.
 Law = Callable[..., Floats]

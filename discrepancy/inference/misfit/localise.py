@@ -17,7 +17,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import ORDERS, features, modulations
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 LEVEL = 0.004
 """Significance of a finding over all groups together."""

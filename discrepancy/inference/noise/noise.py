@@ -18,7 +18,8 @@ from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_va
 from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
-from discrepancy.problem import Floats, Mask, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats, Mask
 
 SHORT = 8
 """Records with fewer samples are single numbers: no correlation is looked for."""

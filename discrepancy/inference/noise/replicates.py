@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.inference.noise.series import position_of, stream_of
-from discrepancy.problem import Floats, Mask, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats, Mask
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate, Floats, Parameter
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.arrays import Floats
 
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
