@@ -57,7 +57,7 @@ def add_log_categories(root: Element) -> None:
 def add_units(root: Element, variables: list[Variable]) -> None:
     definitions = SubElement(root, "UnitDefinitions")
     for unit in sorted({v.unit for v in variables if v.unit != "1" and not v.is_integer}):
-        attributes = {k: f"{v:g}" if k != "factor" else repr(v) for k, v in fmi_base_unit(unit).items()}
+        attributes = {k: repr(v) if k in ("factor", "offset") else f"{v:g}" for k, v in fmi_base_unit(unit).items()}
         SubElement(SubElement(definitions, "Unit", name=unit), "BaseUnit", attributes)
 
 

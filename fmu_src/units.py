@@ -68,12 +68,16 @@ def conversion(source: str, target: str) -> tuple[float, float]:
 
 @cache
 def fmi_base_unit(text: str) -> dict[str, float]:
-    """Exponents and factor of FMI's ``BaseUnit`` element, defaults left out."""
+    """Exponents, factor and offset of FMI's ``BaseUnit`` element, defaults left out."""
     base = registry().Quantity(1.0, parse(text)).to_base_units()
+    offset = float(registry().Quantity(0.0, parse(text)).to_base_units().magnitude)
     exponents = dict(base.unit_items())
     attributes = {
         fmi_name: int(exponents[pint_name]) for fmi_name, pint_name in FMI_BASE.items() if pint_name in exponents
     }
-    if base.magnitude != 1.0:
-        attributes["factor"] = float(base.magnitude)
+    factor = float(base.magnitude) - offset
+    if factor != 1.0:
+        attributes["factor"] = factor
+    if offset != 0.0:
+        attributes["offset"] = offset
     return attributes

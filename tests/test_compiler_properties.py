@@ -9,13 +9,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fmu_src.compiler import store
 from fmu_src.compiler.types import KernelFault
 from fmu_src.kernel import Kernel
 from kernel_sources import GIVEN, ROW, WHOLE, kernel_sources
+from properties import examples
 
 # What Python does where a kernel gives inf, nan or 0, reads beyond an array or what has no value yet.
 RAISED = (ArithmeticError, ValueError, IndexError, UnboundLocalError)
@@ -95,7 +96,7 @@ argument_sets = st.lists(
 )  # fmt: skip
 
 
-@settings(max_examples=8 * settings().max_examples)
+@examples(8)
 @given(kernel_sources(), argument_sets)
 def test_a_kernel_gives_the_bits_of_plain_python(source, sets):
     assert_same(source, sets)
@@ -108,14 +109,14 @@ OPERATIONS = (
 
 
 @pytest.mark.parametrize("operation", OPERATIONS)
-@settings(max_examples=4 * settings().max_examples)
+@examples(4)
 @given(numbers, numbers)
 def test_operations_on_numbers(operation, x, y):
     assert_same(f"def made(x, y):\n    return {operation}\n", [(x, y)])
 
 
 @pytest.mark.parametrize("operation", [*OPERATIONS, "x ** 3", "x // 1", "x % -3", "float(x) // y", "y % float(x)"])
-@settings(max_examples=4 * settings().max_examples)
+@examples(4)
 @given(st.integers(-(2**20), 2**20) | wholes, st.integers(-(2**20), 2**20) | wholes)
 def test_operations_on_whole_numbers(operation, x, y):
     assert_same(f"def made(x, y):\n    return {operation}\n", [(x, y)])
