@@ -4,6 +4,7 @@ Every attempt becomes a step of the model's ladder, those that did not help too.
 runs that the parameters were fitted to is never called a success.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -45,10 +46,14 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
 
     ``anyway`` keeps an effect that did not help, for those who know better.
     """
-    before = compare(file, campaign, settings, jobs=jobs)
+    model = PhysicalModel(file, campaign, jobs=jobs)
+    # A name that nobody knows is refused before minutes are spent.
+    asked = [variants_of(name, model.candidates) for name in names]
+    before = compare(file, campaign, settings, model)
     diagnostician = before.diagnostician
-    diagnostician.screened()
-    chosen = [candidate for name in names for candidate in resolved(name, diagnostician)]
+    # Where a fit starts is known from the candidate's own score.
+    diagnostician.screened([candidate for variants in asked for candidate in variants])
+    chosen = [best_of(variants, diagnostician) for variants in asked]
     fit = diagnostician.fit([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
     for candidate in chosen:
@@ -81,15 +86,18 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome)
 
 
-def resolved(name: str, diagnostician: Diagnostician) -> list[Candidate]:
-    """Candidates of a name: one variant, or the variant of an effect that fits best."""
-    if name in diagnostician.by_name:
-        return [diagnostician.by_name[name]]
-    variants = [c for c in diagnostician.candidates if c.name.partition(".")[0] == name]
+def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates of a name: one variant, or all those of an effect."""
+    variants = [c for c in candidates if c.name == name] or [c for c in candidates if c.name.partition(".")[0] == name]
     if not variants:
-        known = ", ".join(sorted({c.name for c in diagnostician.candidates}))
+        known = ", ".join(sorted({c.name for c in candidates}))
         raise InputFault(f"effect {name!r}: not among those that this campaign can show and the model lacks: {known}")
-    return [min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)]
+    return variants
+
+
+def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidate:
+    """The variant that fits best."""
+    return variants[0] if len(variants) == 1 else min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)
 
 
 def total(comparison: Comparison, held_out: bool) -> float | None:

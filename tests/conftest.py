@@ -64,10 +64,12 @@ def codes(rv20e, tmp_path_factory):
 @pytest.fixture(scope="session")
 def fmus(rv20e, codes, tmp_path_factory):
     """Folder with both editable FMUs of the RV20E-121."""
-    folder = tmp_path_factory.mktemp("fmus")
-    for name, unit in UNITS.items():
-        build_fmu(name, rv20e.specification(unit), 1e-3, "rvwear test", folder, codes[name][host_triple()])
-    return folder
+    def make(folder):
+        folder.mkdir(exist_ok=True)
+        for name, unit in UNITS.items():
+            build_fmu(name, rv20e.specification(unit), 1e-3, "rvwear test", folder, codes[name][host_triple()])
+
+    return made_once(tmp_path_factory, "fmus", make)
 
 
 @pytest.fixture(scope="session")
@@ -77,10 +79,13 @@ def native_fmus(rv20e, codes, tmp_path_factory):
         compiler(host_platform(), False)
     except NativeFault as fault:
         pytest.skip(f"no native FMUs: {fault}")
-    folder = tmp_path_factory.mktemp("native")
-    for name, unit in UNITS.items():
-        build_native(name, rv20e.specification(unit), 1e-3, "rvwear test", folder, codes=codes[name])
-    return folder
+
+    def make(folder):
+        folder.mkdir(exist_ok=True)
+        for name, unit in UNITS.items():
+            build_native(name, rv20e.specification(unit), 1e-3, "rvwear test", folder, codes=codes[name])
+
+    return made_once(tmp_path_factory, "native", make)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ chance alone in all but one run of some hundred, and fail when the method breaks
 import ast
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -34,16 +35,33 @@ from discrepancy.campaign.load import load_campaign  # noqa: E402
 from discrepancy.model_file import every_effect  # noqa: E402
 
 SEED = 7
+# Half of the time goes into these (laws with a rival, a fault that looks like several effects); nulls stand in for them.
+DEAR, STAND_INS = {38, 40, 42, 47, 51, 56}, 6
+
+
+def quick_plan() -> list[Task]:
+    nulls = [task for task in reduced_plan(SEED + 1) if task.kind == "null"][:STAND_INS]
+    return [t for t in reduced_plan(SEED) if t.number not in DEAR] + [replace(t, number=100 + t.number) for t in nulls]
+
+
+PLANS = {"quick": quick_plan, "reduced": lambda: reduced_plan(SEED)}
+# Shares of hidden effects that are found first, and that are in the set named; of outside laws that are not plainly named.
+FIRST, IN_SET, OUTSIDE_SEEN = ({"quick": a, "reduced": b} for a, b in ((0.8, 0.65), (0.9, 0.85), (0.75, 0.6)))
 FORBIDDEN = ("rv_plant.effects", "wear_fmu.effects", "discrepancy.effects", "discrepancy.prediction", "discrepancy.inference")
 
 
+@pytest.fixture(scope="module", params=["quick", pytest.param("reduced", marks=pytest.mark.campaign)])
+def kind(request) -> str:
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def results(tmp_path_factory) -> dict[int, dict]:
+def results(kind, tmp_path_factory) -> dict[int, dict]:
     """In this one process: campaigns of equal conditions share the bench's runs, and other tests use the other cores."""
     folder = tmp_path_factory.mktemp("blind_trial")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tool, "SHARED", {})
-        return {task.number: trial_run.one(task, folder, False, False) for task in reduced_plan(SEED)}
+        return {task.number: trial_run.one(task, folder, False, False) for task in PLANS[kind]()}
 
 
 @pytest.fixture(scope="module")
@@ -71,10 +89,10 @@ def test_false_alarms_are_rare(figures, results):
     assert figures["false_alarms_with_faults"]["count"] <= 2, listed(results)
 
 
-def test_hidden_effects_are_found(figures, results):
+def test_hidden_effects_are_found(kind, figures, results):
     # Two of eight laws have a rival that these designs cannot separate.
-    assert figures["first_from_10"]["share"] >= 0.65, listed(results)
-    assert figures["set_holds_from_10"]["share"] >= 0.85, listed(results)
+    assert figures["first_from_10"]["share"] >= FIRST[kind], listed(results)
+    assert figures["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
     assert figures["set_size"] <= 2.2, listed(results)
 
 
@@ -83,8 +101,8 @@ def test_one_name_given_is_right(figures, results):
     assert figures["one_name_is_right"]["share"] >= 0.85, listed(results)
 
 
-def test_laws_outside_the_catalogue_are_not_plainly_named(figures, results):
-    assert figures["outside"][20.0]["share"] >= 0.6, listed(results)
+def test_laws_outside_the_catalogue_are_not_plainly_named(kind, figures, results):
+    assert figures["outside"][20.0]["share"] >= OUTSIDE_SEEN[kind], listed(results)
 
 
 def test_error_on_unused_conditions_falls(figures):

@@ -11,16 +11,20 @@ from studies.duty import Segment
 from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
 from studies.pair import make_pair
 
-# A quarter of the usual positions per turn: the jumps, not the angles, are under test.
-COARSE = 24
+# A third of the usual positions per turn, and no equilibria between them: the jumps, not the angles, are under test.
+COARSE, UNDIVIDED = 24, Setting("largest_crank_step", 0.3)
 
 
 def nothing(_):
     pass
 
 
+def make_coarse(reducer, settings=(), **more):
+    return make_pair(reducer, [UNDIVIDED, *settings], positions=COARSE, **more)
+
+
 def run_life(reducer, settings, keep=nothing):
-    pair = make_pair(reducer, positions=COARSE)
+    pair = make_coarse(reducer)
     return live(pair, Life(settings), nothing, keep), pair
 
 
@@ -60,7 +64,7 @@ DEMANDS = (0.1, 0.03, 0.01)
 
 @pytest.mark.parametrize("case", CASES)
 def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case):
-    make = lambda: make_pair(rv20e, positions=COARSE, master_kind=CoupledMaster, **CASES[case])  # noqa: E731
+    make = lambda: make_coarse(rv20e, master_kind=CoupledMaster, **CASES[case])  # noqa: E731
     exact, hours, jumps = make(), 3000.0, 24
     for i in range(jumps):
         run_cycle(exact, hours * (2 * i + 1) / jumps**2)
@@ -79,7 +83,7 @@ def test_jumps_are_as_short_as_asked_for(limits, jumps):
 
 
 def test_fault_of_long_jumps_is_cured_by_shorter_ones(rv20e):
-    pair = make_pair(rv20e, positions=COARSE)
+    pair = make_coarse(rv20e)
     steps, cycle = pair.master.run, 400.0 / 4
 
     def run(count):
@@ -93,7 +97,7 @@ def test_fault_of_long_jumps_is_cured_by_shorter_ones(rv20e):
 
 
 def test_measuring_leaves_the_pair_as_it_was(rv20e):
-    pair = make_pair(rv20e, positions=COARSE)
+    pair = make_coarse(rv20e)
     run_cycle(pair, 100.0)
     before = pair.master.save()
     life = Life(LifeSettings())
@@ -107,7 +111,7 @@ class Killed(Exception):
 
 def test_resumed_life_equals_the_uninterrupted_one(rv20e, short, tmp_path):
     path, inputs = tmp_path / "life.checkpoint", {"case": 1}
-    pair = make_pair(rv20e, positions=COARSE)
+    pair = make_coarse(rv20e)
 
     def kill_in_the_finer_run(life):
         save_checkpoint(path, life, pair.master.save(), inputs)
@@ -117,7 +121,7 @@ def test_resumed_life_equals_the_uninterrupted_one(rv20e, short, tmp_path):
     with pytest.raises(Killed):
         live(pair, Life(short.settings), nothing, kill_in_the_finer_run)
     life, saved = load_checkpoint(path, inputs)
-    again = make_pair(rv20e, positions=COARSE)
+    again = make_coarse(rv20e)
     again.master.restore(saved)
     live(again, life, nothing, nothing)
     assert life.hours == short.hours
@@ -128,7 +132,7 @@ def test_resumed_life_equals_the_uninterrupted_one(rv20e, short, tmp_path):
 
 def test_checkpoint_of_other_inputs_is_refused(short, rv20e, tmp_path):
     path = tmp_path / "life.checkpoint"
-    pair = make_pair(rv20e, positions=COARSE)
+    pair = make_coarse(rv20e)
     save_checkpoint(path, short, pair.master.save(), {"positions": 24})
     with pytest.raises(InputFault, match="positions was 24, is 72"):
         load_checkpoint(path, {"positions": 72})
@@ -148,7 +152,7 @@ def test_senseless_settings_are_named(bad):
 
 
 def test_acceleration_counts_hours_and_distance(rv20e):
-    pair = make_pair(rv20e, positions=COARSE)
+    pair = make_coarse(rv20e)
     run_cycle(pair, 123.0)
     assert pair.wear.get("operating_time") / HOUR == pytest.approx(123.0, rel=1e-12)
     speed = abs(pair.plant.get("crank_speed"))

@@ -63,10 +63,11 @@ class Diagnostician:
         self.localisation = self.localiser.test(self.space.base, self.settings.localise_level)
         return self.localisation
 
-    def screened(self) -> Screen:
-        """Score tests of all candidates against the base fit."""
-        self.columns = candidate_columns(self.space, self.candidates, self.space.base.values)
-        self.screening = screen(self.space, self.candidates, self.columns, self.space.base, self.settings.seed, self.settings.draws)
+    def screened(self, candidates: Sequence[Candidate] | None = None) -> Screen:
+        """Score tests of all candidates, or of some, against the base fit."""
+        chosen = self.candidates if candidates is None else candidates
+        self.columns = candidate_columns(self.space, chosen, self.space.base.values)
+        self.screening = screen(self.space, chosen, self.columns, self.space.base, self.settings.seed, self.settings.draws)
         self.scores = {s.name: s for s in self.screening.scores}
         return self.screening
 
