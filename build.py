@@ -57,6 +57,7 @@ def install(what: str, *arguments: str) -> None:
     count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
     with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
         told, fetched, lines = time.monotonic(), 0, []
+        assert pip.stdout is not None
         for line in pip.stdout:
             lines.append(line)
             fetched += line.startswith("Collecting")

@@ -6,6 +6,8 @@ import numpy.typing as npt
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
+# Of the plane, as complex numbers.
+Points = npt.NDArray[np.complex128]
 # One or several records; what is in their fields NumPy's typing cannot say.
 Records = npt.NDArray[np.void]
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fmu_src.cache_folder import cache_folder
 
@@ -36,7 +36,7 @@ class BaseUnit:
 
 
 @cache
-def registry() -> "pint.UnitRegistry":
+def registry() -> "pint.UnitRegistry[float]":
     """pint's units; half a second of reading, for those only who need them."""
     import pint
 
@@ -71,8 +71,9 @@ def fmi_base_unit(text: str) -> dict[str, float]:
     """Exponents, factor and offset of FMI's ``BaseUnit`` element, defaults left out."""
     base = registry().Quantity(1.0, parse(text)).to_base_units()
     offset = float(registry().Quantity(0.0, parse(text)).to_base_units().magnitude)
-    exponents = dict(base.unit_items())
-    attributes = {
+    # Whole numbers, which pint's types do not say.
+    exponents: dict[str, Any] = dict(base.unit_items())
+    attributes: dict[str, float] = {
         fmi_name: int(exponents[pint_name]) for fmi_name, pint_name in FMI_BASE.items() if pint_name in exponents
     }
     factor = float(base.magnitude) - offset

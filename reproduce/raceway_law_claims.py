@@ -15,7 +15,7 @@ ROUGHNESS, VISCOSITY = 1.589, 7.377
 SCALES = (1.0, 2.0, 4.0, 7.0)
 
 
-def law_arguments(context: Context, force: float = 650.0) -> tuple:
+def law_arguments(context: Context, force: float = 650.0) -> tuple[tuple[float, float, float, float, float], float]:
     """(load per length, radius, roughness, alpha, E') of a roller on the inner raceway, and the hardness."""
     s = context.reducer(RV).starts
     radius = 1.0 / (1.0 / s["roller_radius"] + 1.0 / s["inner_race_radius"])

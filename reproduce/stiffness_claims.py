@@ -127,7 +127,7 @@ def closing(context: Context, name: str, reading: str, target: float) -> float:
         texts = f"stiffness_reading={reading}", f"crank_support_compliance={10.0**-log_stiffness!r}m/N"
         return context.stiffness(name, *texts).stiffness_Nm_per_arcmin - target
 
-    return 10.0 ** brentq(excess, 7.0, 11.0, xtol=1e-3)
+    return float(10.0 ** brentq(excess, 7.0, 11.0, xtol=1e-3))
 
 
 @states("C01", CATALOGUE, "Torsional stiffness", "RV-20E 49, RV-40E 108 N m/arcmin.")

@@ -5,6 +5,7 @@ A surface is a closed or open row of bins; positions are counted in bins, bin i 
 """
 
 import math
+from typing import Any
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, state
@@ -15,7 +16,7 @@ def variables(sizes: Sizes) -> list[Variable]:
     flank_bins, lobes = sizes["flank bin"], sizes["lobe"]
     race, lobe_bin = sizes.over("disc", "crank", bin=sizes["raceway bin"]), sizes.over(bin=flank_bins)
 
-    def surface(name: str, text: str, over: dict) -> Variable:
+    def surface(name: str, text: str, over: dict[str, Any]) -> Variable:
         return state(name, "m", text, **over, nominal=1e-6, profile=True)
 
     return [
