@@ -98,7 +98,7 @@ def bench(arguments: list[str]) -> int:
 
 
 def main(arguments: list[str]) -> int:
-    if sys.version_info < (3, 11):
+    if sys.version_info < (3, 11):  # noqa: UP036
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
     set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
     if arguments[:1] == ["test"]:

@@ -136,7 +136,7 @@ def through_equilibria(table: Table) -> dict[str, Any]:
     fine, windows = 1152, 18
     records, turn = start(table, largest_crank_step=1.0)
     first = forces(records[0])
-    reference = np.array([first] + run(records, turn / fine, fine, forces))
+    reference = np.array([first, *run(records, turn / fine, fine, forces)])
     rows = []
     limits_found: dict[str, float] = {}
     for count in (18, 36, 72, 144, 288):

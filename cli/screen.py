@@ -8,6 +8,7 @@ from rich.table import Table
 
 from studies.figure_units import figure_unit
 
+
 def json_text(content: Mapping[str, object]) -> None:
     """NaN and infinity are not JSON: they become null."""
     print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))

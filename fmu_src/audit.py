@@ -62,7 +62,7 @@ class Elf:
         self.imported: set[str] = set()
         self.exported: set[str] = set()
         names = sections[symbols[6]][4]
-        for name, info, _, section, _, _ in struct.iter_unpack("<IBBHQQ", data[symbols[4] + 24 : symbols[4] + symbols[5]]):
+        for name, _info, _, section, _, _ in struct.iter_unpack("<IBBHQQ", data[symbols[4] + 24 : symbols[4] + symbols[5]]):
             (self.exported if section else self.imported).add(text_at(data, names + name))
 
 

@@ -25,7 +25,6 @@ from fmu_src.effect_check import OWN
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
-
 # In a unit's ``ALLOWED``, for hooks that may set the effect's own states.
 OWN_STATES = {OWN: "="}
 

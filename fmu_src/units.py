@@ -48,7 +48,7 @@ def parse(text: str) -> "pint.Unit":
     """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
     try:
         unit = registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
-    except Exception as problem:
+    except Exception as problem:  # noqa: BLE001
         raise UnitError(f"unit {text!r} is not known ({problem}); write it like mm, N.m, 1/Pa, rad/s, or 1") from None
     return unit
 

@@ -16,11 +16,10 @@ import numpy as np
 import numpy.typing as npt
 
 from fmu_src.arrays import Integers, Records
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
-from fmu_src.faults import InputFault, RunFault
-
 
 # (dtype, reference): FMI 2 counts its references anew for each type.
 Element = tuple[str, int]

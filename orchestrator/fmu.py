@@ -14,8 +14,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
-from fmu_src.faults import InputFault, RunFault
 from fmu_src.arrays import Records
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.source_hash import STAMP, source_hash
 from fmu_src.state import unpack
 from fmu_src.unit import Specification, make_unit
@@ -40,7 +40,7 @@ class Fmu(Component):
         try:
             # Other people's descriptions need not be flawless: what matters is checked where it is used.
             self.description = fmpy.read_model_description(str(self.path), validate=False)
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             raise InputFault(f"{self.path} is not an FMU: {problem}") from None
         version = self.description.fmiVersion
         if self.description.coSimulation is None:
@@ -65,12 +65,12 @@ class Fmu(Component):
             self.calls = VERSIONS[version](
                 name, self.described, self.folder, self.messages.append, self.refuse
             )
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception for a library that is missing or does not load.
             raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
         try:
             self.calls.instantiate()
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
         self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step

@@ -257,7 +257,7 @@ def read(stream: IO[bytes]) -> Any:
     head = stream.read(LENGTH.size)
     if len(head) < LENGTH.size:
         raise EOFError
-    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))
+    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))  # noqa: S301
 
 
 def main(name: str, path: str) -> None:

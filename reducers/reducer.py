@@ -159,7 +159,7 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
         raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
     if not isinstance(raw, dict):
         raise InputFault(
-            f"{path}: {place} = {raw!r} has no unit: write {place.split('.')[-1]} ="
+            f"{path}: {place} = {raw!r} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
             ' { value = ..., unit = "...", source = "..." }'
         )
     try:

@@ -5,15 +5,28 @@ import math
 import numpy as np
 
 from fmu_src.arrays import Floats
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CONDITIONAL, NEEDLE, REPRODUCED, Finding, Number, states,
+    CONDITIONAL,
+    NEEDLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.contacts import Contacts
 from reproduce.context import BX, RV, Context
 from reproduce.force_claims import ring_moment
-from pages.charts import Curve, chart
 from rv_plant.contact import (
-    LINE, LITERAL, PALMGREN, SI, STEP, damped_force, hertz_half_width, hertz_peak_pressure, law_constants,
+    LINE,
+    LITERAL,
+    PALMGREN,
+    SI,
+    STEP,
+    damped_force,
+    hertz_half_width,
+    hertz_peak_pressure,
+    law_constants,
 )  # fmt: skip
 from rv_plant.gear_stage import total_ratio
 
@@ -70,7 +83,7 @@ def stiffness(context: Context) -> Finding:
     found = {}
     for name, audited in ((RV, (382.0, 199.0)), (BX, (1113.0, 581.0))):
         torque = context.reducer(name).starts["load_torque"]
-        for i, reading in enumerate(("SI", "literal")):
+        for _i, reading in enumerate(("SI", "literal")):
             full, half = (float(context.contacts(name, f"stiffness_reading={reading}",
                                                  f"load_torque={t!r}").turn["lag"].mean()) for t in (torque,
                                                      0.5 * torque))

@@ -5,14 +5,25 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from studies.life import run_cycle, wear_figures
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, TOOTH, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    NOT_TESTABLE,
+    REPRODUCED,
+    TOOTH,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import BX, Context
-from pages.charts import Curve, chart
+from studies.life import run_cycle, wear_figures
 from wear_fmu.pin_on_disc import (
-    PinOnDiscTest, instantaneous_coefficient, secant_coefficient, smallest_visible_coefficient, worn_mass,
+    PinOnDiscTest,
+    instantaneous_coefficient,
+    secant_coefficient,
+    smallest_visible_coefficient,
+    worn_mass,
 )  # fmt: skip
 from wear_fmu.wear_laws import CONSTANT, run_in_factor, wear_coefficient
 

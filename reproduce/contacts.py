@@ -93,8 +93,7 @@ class Contacts:
     def on_loaded_flank(self) -> Mask:
         """The flank with the larger sum of forces."""
         first = self.phase >= 0.0
-        side = first if self.force[first].sum() >= self.force[~first].sum() else ~first
-        return side
+        return first if self.force[first].sum() >= self.force[~first].sum() else ~first
 
     @property
     def force_along(self) -> Floats:

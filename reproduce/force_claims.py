@@ -5,13 +5,19 @@ import math
 import numpy as np
 
 from fmu_src.arrays import Floats
+from pages.charts import Curve, chart
 from reproduce import printed_forms as printed
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, TOOTH, Audited, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    TOOTH,
+    Audited,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.contacts import Contacts
 from reproduce.context import BX, MODIFIED, RIGID_BEARINGS, RV, STAND, Context
-from pages.charts import Curve, chart
 from rv_plant.contact import contact_force
 
 CASES: dict[str, tuple[tuple[str, ...], Audited]] = {
@@ -76,7 +82,7 @@ def linear_penetration(context: Context) -> Finding:
         if isinstance(audited, tuple):
             numbers += [Number(f"peak force, linear over true, {label}: smallest over the turn", "1",
                                float(ratio.min()), None, audited[0]),
-                        Number(f"the same, largest over the turn", "1", float(ratio.max()), None, audited[1])]
+                        Number("the same, largest over the turn", "1", float(ratio.max()), None, audited[1])]
         else:
             numbers.append(Number(f"peak force, linear over true, {label}", "1", ratios[label], None, audited, 0.04))
     return Finding(

@@ -8,13 +8,20 @@ from typing import TypedDict
 import numpy as np
 
 from fmu_src.arrays import Floats
+from pages.charts import PHASE, Curve, chart, degrees_axis
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, LITERATURE, NOT_TESTABLE, REPRODUCED, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    LITERATURE,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import MODIFIED, RV, STAND, Context, LifeRun, flank_of
 from reproduce.flank_wear_claims import hump, humps
 from reproduce.sliding_claims import smooth
-from pages.charts import PHASE, Curve, chart, degrees_axis
 
 DURABILITY = "Lubricants 2025, 13(8), 362"
 

@@ -4,14 +4,19 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from orchestrator.component import InProcess
-from studies.life import HOUR, SURFACES, wear_figures
 from orchestrator.master import Master
-from studies.pair import CONNECTIONS
+from pages.charts import Curve, chart, polar
 from reproduce.claim import (
-    CONTRADICTED, NEEDLE, REPRODUCED, Finding, Number, states,
+    CONTRADICTED,
+    NEEDLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import RV, Context, LifeRun
-from pages.charts import Curve, chart, polar
+from studies.life import HOUR, SURFACES, wear_figures
+from studies.pair import CONNECTIONS
 from wear_fmu.wear_laws import run_in_factor
 
 COMPUTED, MEASURED = (3.97, 3.11), (12.0, 5.6)

@@ -3,11 +3,18 @@
 import numpy as np
 from scipy.optimize import brentq
 
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CATALOGUE, CONDITIONAL, LITERATURE, NOT_TESTABLE, REPRODUCED, Finding, Number, states,
+    CATALOGUE,
+    CONDITIONAL,
+    LITERATURE,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import BX, MODIFIED, RV, Context, amplitude
-from pages.charts import Curve, chart
 
 PINS = 40
 

@@ -1,8 +1,8 @@
 """The plant as a unit."""
 
 from fmu_src.unit import Specification, Unit
-
-from rv_plant.plant import FAULTS, initialise, step
+from rv_plant.faults import FAULTS
+from rv_plant.plant import initialise, step
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
 

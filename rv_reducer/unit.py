@@ -2,10 +2,9 @@
 
 from fmu_src.unit import Specification, Unit
 from rv_plant.topology import Topology
-from wear_fmu.variables import Resolution
-
 from rv_reducer.reducer import FAULTS, initialise, step
 from rv_reducer.variables import reducer_table
+from wear_fmu.variables import Resolution
 
 
 def make_unit(specification: Specification) -> Unit:

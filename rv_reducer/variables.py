@@ -11,9 +11,8 @@ from dataclasses import replace
 from fmu_src.variables import Table, Variable
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from wear_fmu.variables import Resolution, wear_table
-
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
+from wear_fmu.variables import Resolution, wear_table
 
 INTERFACE = ("input", "parameter", "output")
 LIMITS = ("none", "flank depth", "race depth", "lost motion")

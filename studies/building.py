@@ -17,8 +17,8 @@ from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
-from reducers.reducer import Reducer
 from orchestrator.ssp.exporter import Experiment, export_ssp
+from reducers.reducer import Reducer
 from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}

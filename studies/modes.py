@@ -37,7 +37,7 @@ def body_names(reducer: Reducer) -> list[str]:
     names = [f"disc {d + 1} {axis}" for d in range(t.discs) for axis in ("x", "y", "turning")]
     names += ["carrier turning", "carrier x", "carrier y"]
     names += [f"crank {c + 1} {axis}" for c in range(t.cranks) for axis in ("x", "y", "turning")]
-    return names + ["ring turning", "sun turning", "load turning"]
+    return [*names, "ring turning", "sun turning", "load turning"]
 
 
 def matrices(plant: InProcess) -> tuple[Floats, Floats, Floats]:

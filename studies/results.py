@@ -19,7 +19,7 @@ def parameters_of(component: Component) -> dict[str, Any]:
     """Present values of all parameters and inputs that are not exchanged arrays."""
     values: dict[str, Any] = {}
     for name, signal in component.signals.items():
-        if signal.causality == "parameter" or signal.causality == "input" and not signal.shape:
+        if signal.causality == "parameter" or (signal.causality == "input" and not signal.shape):
             value = component.get(name)
             if isinstance(value, np.ndarray):
                 values[name] = value.tolist()

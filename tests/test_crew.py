@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shared import gone
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
@@ -17,7 +18,6 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import task, told_to
-from shared import gone
 
 ROOT = Path(__file__).resolve().parents[1]
 

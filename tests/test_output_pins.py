@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stand import gradient, in_equilibrium, only, records_of
+from twin import Twin, cross, directions
 
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
@@ -12,8 +14,6 @@ from rv_plant.assembly import assemble
 from rv_plant.equilibrium import equilibrium
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import gradient, in_equilibrium, only, records_of
-from twin import Twin, cross, directions
 
 ANGLE, CAGE = 0.0871, 0.4
 

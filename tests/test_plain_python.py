@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stand import crank_period, pair_of, steps_together
 
 from fmu_src.kernel import Kernel
 from reducers.reducer import load_reducer
 from rv_plant import plant
-from stand import crank_period, pair_of, steps_together
 
 STEPS, HOURS_PER_STEP = 4, 20.0
 # What each case asks of the kernels beyond the ideal reducer.

@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 from fmu_src.unit import Specification, Unit
-
 from wear_fmu.accumulator import FAULTS, initialise, step
 from wear_fmu.variables import Resolution, wear_table
 

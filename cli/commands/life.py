@@ -82,7 +82,7 @@ def life(options: argparse.Namespace) -> int:
     checkpoint = path.with_suffix(".checkpoint")
     if options.reuse and (known := known_result(path, inputs)) is not None:
         return show_life(options, known, path)
-    resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
+    resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs))
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
     with task("loading the units"):

@@ -77,7 +77,6 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
     """The pair of a reducer for some crank turns: (title, summary, values at the end)."""
     import numpy as np
 
-    from cli import screen
     from orchestrator import netcdf
     from reducers.reducer import load_reducer
     from studies import results
@@ -129,7 +128,6 @@ def refuse_system_options(options: argparse.Namespace) -> None:
 
 def open_system(options: argparse.Namespace) -> "System":
     """The system with the command line's options and settings applied."""
-    from cli import screen
     from orchestrator.master import LoopSettings, StepControl
     from orchestrator.system import load, whole_steps
 

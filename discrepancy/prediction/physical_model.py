@@ -178,7 +178,7 @@ class PhysicalModel:
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
             return record.values + IMPOSSIBLE * self.sizes[record.quantity] * signs
-        for name, module in MODULES.items():
+        for module in MODULES.values():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
             place = places[module.PER]
 

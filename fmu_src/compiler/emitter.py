@@ -7,7 +7,6 @@ done again; two walks do.  Variables stand in memory and LLVM makes registers of
 
 import ast
 import builtins
-import math
 import difflib
 import types as python_types
 from collections.abc import Callable
@@ -20,7 +19,21 @@ from fmu_src.arrays import field_of
 from fmu_src.compiler import arithmetic
 from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import (
-    ELEMENTS, FLOAT, INTEGER, NOTHING, TRUTH, Array, Group, KernelFault, Layout, Number, Record, Records, Type, Value, joined,
+    ELEMENTS,
+    FLOAT,
+    INTEGER,
+    NOTHING,
+    TRUTH,
+    Array,
+    Group,
+    KernelFault,
+    Layout,
+    Number,
+    Record,
+    Records,
+    Type,
+    Value,
+    joined,
 )  # fmt: skip
 
 BUILTINS = ("abs", "min", "max", "int", "float", "bool", "len")

@@ -82,7 +82,7 @@ class KernelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
     def check_sources(self, folder: Path) -> None:
         """Two FMUs in one process share imported modules: they must be of one source."""
         imported = Path(fmu_src.__file__).resolve().parents[1]
-        if imported != folder.resolve() and LOADED_HASH != self.stamp["source_hash"]:
+        if imported != folder.resolve() and self.stamp["source_hash"] != LOADED_HASH:
             raise UnitFault(
                 f"this process already runs another version of fmu_src, from {imported}."
                 " Use FMUs of one build in one process, or start a fresh process"

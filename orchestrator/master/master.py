@@ -75,7 +75,7 @@ class Master:
         if extrapolation not in range(HIGHEST_ORDER + 1):
             raise InputFault(f"extrapolation of order {extrapolation}: choose 0 (hold), 1 (linear) or 2 (quadratic)")
         self.components = components
-        self.ratios = {name: 1 for name in components} | (ratios or {})
+        self.ratios = dict.fromkeys(components, 1) | (ratios or {})
         for name, ratio in self.ratios.items():
             if name not in components:
                 raise InputFault(f"ratio for {name!r}, which is no component; there are {', '.join(components)}")

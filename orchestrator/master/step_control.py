@@ -134,7 +134,7 @@ class Controller:
                 " sets the length of the next one"
             )
         method = settings.method
-        self.doubles = method == "doubling" or method == "auto" and self.can_reject
+        self.doubles = method == "doubling" or (method == "auto" and self.can_reject)
         # Power of the step by which estimate over allowance changes.
         self.order = master.coupling_order if self.doubles else master.extrapolation + 1
         watched = [resolve(master.components, path) for path in settings.watch]

@@ -135,7 +135,7 @@ def roller_map(result: Result, at_start: bool) -> Figure:
         force = result["roller_force"][i][every(result), d]
         rows = []
         for c in range(t.cranks):
-            rows += short(force[:, c, :].T, 3) + [[None] * force.shape[0]]
+            rows += [*short(force[:, c, :].T, 3), [None] * force.shape[0]]
         return [{"z": rows[:-1]}]
 
     middle = [c * (t.rollers + 1) + (t.rollers - 1) / 2 for c in range(t.cranks)]

@@ -117,7 +117,7 @@ def run_rows(result: Result) -> list[tuple[str, str]]:
         made.append(("full meshing cycles simulated", str(int(attributes["cycles_simulated"]))))
     versions = json.loads(attributes.get("software", "{}"))
     made += [(name, text) for name, text in versions.items()]
-    return made + [("hash of the source", attributes.get("source_hash", "not recorded"))]
+    return [*made, ("hash of the source", attributes.get("source_hash", "not recorded"))]
 
 
 def counts(result: Result) -> list[tuple[str, str]]:

@@ -20,7 +20,7 @@ def page_of(result: Result) -> str:
     hours = [hour_text(result.hours[i]) for i in result.shown]
     figures = {
         "parts": [parts.disc(result), tooth.shape(result), tooth.depth(result), *circles.figures(result)],
-        "turn": contacts.figures(result) + [phase.figure(result)],
+        "turn": [*contacts.figures(result), phase.figure(result)],
         "growth": growth.figures(result),
         "orders": spectrum.figures(result),
     }

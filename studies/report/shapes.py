@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 from fmu_src.arrays import Floats, Points
-
 from pages import look
 from rv_plant.geometry import flank_curvature, lobe_point
 from studies.report.result import Result

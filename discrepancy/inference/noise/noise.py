@@ -179,7 +179,7 @@ def _signals(
         else:
             level = UNREPLICATED_INFLATION * scale
             note, source = "no replicates: noise guessed from the fast part of the residual", "fast residual"
-        scales = {c: level for c in scales}
+        scales = dict.fromkeys(scales, level)
         scale, known = level, UNREPLICATED_DOF
     every = np.concatenate([e / scales[d.condition] for e, d in zip(inside, deviations)])
     tail = float(np.mean(np.abs(every) > CUT))

@@ -166,7 +166,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
             x, r, cost = trial, new_r, new
         if gain < 0.05:
             # done, unless frozen sensitivities left it above what the partly linear fit promised
-            if fresh or cost < expected + 0.5 and cost < space.base.chi2:
+            if fresh or (cost < expected + 0.5 and cost < space.base.chi2):
                 break
             columns = space.columns(parameters, box.named(x))
             fresh = True
