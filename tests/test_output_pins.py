@@ -12,6 +12,7 @@ from reducers.reducer import load_reducer
 from rv_plant import faults, plant
 from rv_plant.assembly import assemble
 from rv_plant.equilibrium import equilibrium
+from rv_plant.faults import FAULTS
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
 
@@ -139,7 +140,7 @@ def test_play_of_the_pins_is_their_clearance_over_their_circle(drive):
 ])  # fmt: skip
 def test_impossible_holes_are_refused(drive, values, fault):
     assert plant.initialise(records_of(drive.plant, **values)) == fault
-    assert plant.FAULTS[fault].format(**{n: only(records_of(drive.plant, **values))[n] for n in (
+    assert FAULTS[fault].format(**{n: only(records_of(drive.plant, **values))[n] for n in (
         "output_pin_radius", "output_circle_radius", "eccentricity", "outer_race_radius")})  # fmt: skip
 
 
