@@ -57,6 +57,7 @@ def install(what: str, *arguments: str) -> None:
     count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
     with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
         told, fetched, lines = time.monotonic(), 0, []
+        assert pip.stdout is not None
         for line in pip.stdout:
             lines.append(line)
             fetched += line.startswith("Collecting")
@@ -97,7 +98,7 @@ def bench(arguments: list[str]) -> int:
 
 
 def main(arguments: list[str]) -> int:
-    if sys.version_info < (3, 11):
+    if sys.version_info < (3, 11):  # noqa: UP036
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
     set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
     if arguments[:1] == ["test"]:

@@ -14,12 +14,12 @@ import json
 import sys
 from pathlib import Path
 
+from reducers.reducer import load_reducer
 from studies.coupled_master import CoupledMaster
 from studies.hysteresis import hysteresis
 from studies.life import Life, LifeSettings, live, wear_figures
 from studies.modes import modes
 from studies.pair import make_pair
-from reducers.reducer import load_reducer
 from studies.solve import measure
 
 DESIGNS = ("RV20E-121", "BX-40E")

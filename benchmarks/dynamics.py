@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 from fmu_src.variables import Table
 from reducers.reducer import load_reducer
@@ -26,6 +26,7 @@ from rv_plant import plant
 from rv_plant.assembly import assemble, bearing_contacts
 from rv_plant.dynamics import assemble_motion, bearing_in_motion
 from rv_plant.equilibrium import newton_direction
+from rv_plant.faults import FAULTS
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import mesh_contacts
 from rv_plant.poses import disc_offset
@@ -44,7 +45,7 @@ def start(table: Table, **values: float) -> tuple[np.ndarray, float]:
     for name, value in values.items():
         records[name] = value
     status = plant.initialise(records)
-    assert status == 0, plant.FAULTS[status]
+    assert status == 0, FAULTS[status]
     return records, 2.0 * math.pi / abs(float(records["crank_speed"][0]))
 
 
@@ -53,7 +54,7 @@ def run(records: np.ndarray, step: float, count: int, look: Callable[[np.void], 
     seen = []
     for _ in range(count):
         status = plant.step(records, 0.0, step)
-        assert status == 0, plant.FAULTS[status]
+        assert status == 0, FAULTS[status]
         seen.append(look(records[0]))
     return seen
 
@@ -136,7 +137,7 @@ def through_equilibria(table: Table) -> dict[str, Any]:
     fine, windows = 1152, 18
     records, turn = start(table, largest_crank_step=1.0)
     first = forces(records[0])
-    reference = np.array([first] + run(records, turn / fine, fine, forces))
+    reference = np.array([first, *run(records, turn / fine, fine, forces)])
     rows = []
     limits_found: dict[str, float] = {}
     for count in (18, 36, 72, 144, 288):

@@ -17,10 +17,11 @@ from scipy.optimize import root
 from benchmarks.numba_peer import njit
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Measured, Ratio, cost, cost_at
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble
+from rv_plant.faults import FAULTS
 
 LEVEL = 1e-6
 TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
@@ -35,7 +36,7 @@ OfState = Callable[[Floats, float, float], Floats]
 def start(name: str) -> tuple[np.ndarray, float]:
     records = load_reducer(name).plant.new_records()
     status = plant.initialise(records)
-    assert status == 0, plant.FAULTS[status]
+    assert status == 0, FAULTS[status]
     step = 2.0 * math.pi / 72 / abs(float(records["crank_speed"][0]))
     return records, step
 
@@ -48,7 +49,7 @@ def reference(name: str, positions: int) -> tuple[list[tuple[float, float]], Flo
     angles, forces = [], []
     for _ in range(positions):
         status = plant.step(records, 0.0, step)
-        assert status == 0, plant.FAULTS[status]
+        assert status == 0, FAULTS[status]
         angles.append((float(records["ideal_output"][0]), float(records["cage"][0])))
         forces.append(records["mesh_force_now"][0].copy())
     return angles, np.array(forces)

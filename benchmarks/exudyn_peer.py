@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from benchmarks.numba_peer import njit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from rv_plant.dynamics import assemble_motion
 
 # Steps from one communication point to the next, relative tolerance of Newton's method, whether its matrix

@@ -24,7 +24,7 @@ DRIVER = Path(__file__).with_name("count.c")
 TOOLS = ("valgrind", "gcc", "objdump")
 # Operations of one scalar instruction; packed ones work on two (or four) numbers, fused ones make two.
 ARITHMETIC = re.compile(r"^v?(add|sub|mul|div|sqrt|min|max|fmadd\d*|fmsub\d*|fnmadd\d*|fnmsub\d*)(sd|pd)$")
-KERNEL = re.compile(r"^_ZN8rv_plant(\d+)(.*)$")
+KERNEL = re.compile(r"^rv_plant\.(.*)\.\d+$")
 # Double-precision operations a cycle: one scalar unit adding or multiplying, and the widest of this machine.
 WIDEST = {"avx512f": 32, "fma": 16, "avx": 8}
 
@@ -44,16 +44,9 @@ def available() -> bool:
 
 
 def kernel_name(symbol: str) -> str:
-    """``mesh.mesh_contacts`` of numba's mangled name; libm's names stay."""
+    """``mesh.mesh_contacts`` of the compiler's ``rv_plant.mesh.mesh_contacts.47``; libm's names stay."""
     match = KERNEL.match(symbol)
-    if not match:
-        return symbol
-    parts, rest = ["rv_plant"], symbol[len("_ZN8rv_plant"):]
-    while number := re.match(r"\d+", rest):
-        size = int(number[0])
-        parts.append(rest[len(number[0]) : len(number[0]) + size])
-        rest = rest[len(number[0]) + size :]
-    return ".".join(parts[1:])
+    return match[1] if match else symbol
 
 
 def operations_by_address(program: Path) -> dict[int, int]:

@@ -4,15 +4,13 @@ import math
 import sys
 from pathlib import Path
 
-try:
+if sys.platform != "win32":
     import resource
-except ImportError:  # Windows
-    resource = None
 
 
 def most() -> float:
     """Most that was resident so far."""
-    if resource is None:
+    if sys.platform == "win32":
         return math.nan
     # Darwin counts bytes, the others kilobytes.
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1.0 if sys.platform == "darwin" else 1024.0)
@@ -21,6 +19,6 @@ def most() -> float:
 def present() -> float:
     """Resident now."""
     pages = Path("/proc/self/statm")
-    if resource is None or not pages.exists():
+    if sys.platform == "win32" or not pages.exists():
         return math.nan
     return float(int(pages.read_text(encoding="ascii").split()[1]) * resource.getpagesize())

@@ -26,7 +26,7 @@ from benchmarks.integrators.runs import REFERENCE, Solver, errors, with_alpha, w
 from benchmarks.integrators.stretches import Stretch, observe, rated
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Curve, Figure, Measured, Ratio
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 
 LEVELS = (1e-2, 3e-3)

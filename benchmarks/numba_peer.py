@@ -12,7 +12,6 @@ from numba.extending import typeof_impl
 
 from fmu_src.kernel import Kernel
 
-
 # Division by zero gives inf, as in the kernels.
 njit = numba.njit(error_model="numpy")
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 # Points and directions of the plane.
 Complex = npt.NDArray[np.complex128]

@@ -22,9 +22,8 @@ def amount(value: float, unit: str) -> str:
         return "-"
     if unit != "s":
         return f"{value:.4g}" + ("" if unit == "1" else f" {unit}")
-    for factor, name in ((1.0, "s"), (1e3, "ms"), (1e6, "us"), (1e9, "ns")):
-        if value * factor >= 1.0:
-            break
+    sizes = ((1.0, "s"), (1e3, "ms"), (1e6, "us"), (1e9, "ns"))
+    factor, name = next((size for size in sizes if value * size[0] >= 1.0), sizes[-1])
     return f"{value * factor:.3g} {name}"
 
 

@@ -40,7 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = top.parse_args(arguments)
     try:
         with told_to(new_screen()):
-            return options.run(options)
+            return int(options.run(options))
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2

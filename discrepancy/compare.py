@@ -15,7 +15,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 # A run whose error is this many times its noise is worth a look.
 CONSPICUOUS = 1.5

@@ -23,8 +23,8 @@ from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
-from fmu_src.faults import InputFault
 from fmu_src.effect_check import UNITS, require_sound_effects
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
@@ -139,7 +139,7 @@ def extended_reducer(file: ModelFile) -> Reducer:
     """The reducer with settings and effects as start values, for FMUs that carry them."""
     known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
     values = {name: value for name, value in file.values().items() if name in known}
-    sources = {name: f"model {file.name}" for name in values}
+    sources = dict.fromkeys(values, f"model {file.name}")
     return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
 
 

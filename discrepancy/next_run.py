@@ -17,8 +17,9 @@ from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
 from discrepancy.verdict import Answer, diagnose
+from fmu_src.arrays import Floats
 from studies.hysteresis import torque_way
 
 HOUR = 3600.0

@@ -8,12 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
-import numpy as np
-import numpy.typing as npt
-
-# Measured or computed numbers, rows or columns of them; and which of them are meant.
-Floats = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,8 @@ WIDTH, EDGE, BETWEEN, GAP = 1040, 20, 24, 40
 LINE, TOP, BOTTOM = 17, 24, 10
 # Pixels per letter of the small type, on average.
 LETTER = 6.3
+# Left edge, upper edge, width, height.
+Box = tuple[float, float, float, float]
 STYLE = (
     "text { font: 12px system-ui, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif; fill: #1d2733 } "
     ".name { font-size: 15px; font-weight: 650 } .quiet { fill: #5d6975 } .parts { fill: #0b4f94 } "
@@ -83,7 +85,8 @@ def picture(lines: dict[str, int]) -> str:
     rows: dict[int, list[str]] = {}
     for name in folders():
         rows.setdefault(TABLE[name]["row"], []).append(name)
-    boxes, below, y = {}, [], EDGE
+    boxes: dict[str, Box] = {}
+    below, y = [], EDGE
     for _, names in sorted(rows.items()):
         width = (WIDTH - 2 * EDGE - (len(names) - 1) * BETWEEN) / len(names)
         said = {name: texts(name, lines, uses, width) for name in names}
@@ -113,7 +116,7 @@ def picture(lines: dict[str, int]) -> str:
     return "\n".join([*head, *(arrow(boxes[a], boxes[b]) for a, b in drawn(uses)), *below, "</svg>"]) + "\n"
 
 
-def arrow(above: tuple, under: tuple) -> str:
+def arrow(above: Box, under: Box) -> str:
     """From the middle of what two boxes have in common sideways, or from middle to middle."""
     left, right = max(above[0], under[0]), min(above[0] + above[2], under[0] + under[2])
     from_x = to_x = 0.5 * (left + right)
@@ -124,8 +127,9 @@ def arrow(above: tuple, under: tuple) -> str:
 
 def shown_lines(text: str) -> dict[str, int]:
     """The counts of lines that a picture was made with."""
-    kept = re.search(r"<!-- lines: (.*) -->", text)[1]
-    return {name: int(count) for name, _, count in (entry.rpartition("=") for entry in kept.split())}
+    kept = re.search(r"<!-- lines: (.*) -->", text)
+    assert kept is not None, "a picture that was not made here"
+    return {name: int(count) for name, _, count in (entry.rpartition("=") for entry in kept[1].split())}
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ def exported_symbols(library: bytes) -> set[str]:
     return kind_of(library)(library).exported
 
 
-def kind_of(library: bytes) -> type:
+def kind_of(library: bytes) -> "type[Elf | Pe | MachO]":
     for magic, kind in ((b"\x7fELF", Elf), (b"MZ", Pe), (b"\xcf\xfa\xed\xfe", MachO)):
         if library.startswith(magic):
             return kind
@@ -59,9 +59,10 @@ class Elf:
         names = sections[dynamic[6]][4]
         tags = struct.iter_unpack("<qQ", data[dynamic[4] : dynamic[4] + dynamic[5]])
         self.needed = {text_at(data, names + value) for tag, value in tags if tag == 1}
-        self.imported, self.exported = set(), set()
+        self.imported: set[str] = set()
+        self.exported: set[str] = set()
         names = sections[symbols[6]][4]
-        for name, info, _, section, _, _ in struct.iter_unpack("<IBBHQQ", data[symbols[4] + 24 : symbols[4] + symbols[5]]):
+        for name, _info, _, section, _, _ in struct.iter_unpack("<IBBHQQ", data[symbols[4] + 24 : symbols[4] + symbols[5]]):
             (self.exported if section else self.imported).add(text_at(data, names + name))
 
 
@@ -72,9 +73,13 @@ class Pe:
         self.data = data
         head = struct.unpack_from("<I", data, 0x3C)[0] + 4
         count, optional = struct.unpack_from("<H", data, head + 2)[0], struct.unpack_from("<H", data, head + 16)[0]
-        self.sections = [struct.unpack_from("<IIII", data, head + 20 + optional + 40 * k + 8) for k in range(count)]
+        self.sections: list[tuple[int, int, int, int]] = [
+            struct.unpack_from("<IIII", data, head + 20 + optional + 40 * k + 8) for k in range(count)
+        ]
         exports, _, imports = struct.unpack_from("<III", data, head + 20 + 112)
-        self.needed, self.imported, self.exported = set(), set(), set()
+        self.needed: set[str] = set()
+        self.imported: set[str] = set()
+        self.exported: set[str] = set()
         place = self.offset(imports)
         while any(entry := struct.unpack_from("<IIIII", data, place)):
             self.needed.add(text_at(data, self.offset(entry[3])))
@@ -100,7 +105,9 @@ class MachO:
     """64-bit Darwin library: load commands and symbol table."""
 
     def __init__(self, data: bytes):
-        self.needed, self.imported, self.exported = set(), set(), set()
+        self.needed: set[str] = set()
+        self.imported: set[str] = set()
+        self.exported: set[str] = set()
         place = 32
         for _ in range(struct.unpack_from("<I", data, 16)[0]):
             command, size = struct.unpack_from("<II", data, place)

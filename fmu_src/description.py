@@ -7,14 +7,14 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from fmu_src.project import Project
-from fmu_src.unit import LOG_CATEGORIES
+from fmu_src.unit import LOG_CATEGORIES, Specification
 from fmu_src.units import fmi_base_unit
 from fmu_src.variables import Table, Variable
 
 CAUSALITY = {"input": "input", "parameter": "parameter", "output": "output"}
 
 
-def guid(specification: dict, code_hash: str) -> str:
+def guid(specification: Specification, code_hash: str) -> str:
     """Identity of a unit: the same code, sizes and start values give the same one."""
     text = code_hash + json.dumps(specification, sort_keys=True)
     digest = hashlib.sha256(text.encode()).hexdigest()
@@ -31,8 +31,8 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
     root = Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=table.name, guid=identity,
         description=table.description, generationTool=tool, variableNamingConvention="structured", numberOfEventIndicators="0",
-        **made_by.attributes(code_hash),
-    )
+    )  # fmt: skip
+    root.attrib.update(made_by.attributes(code_hash))
     SubElement(
         root, "CoSimulation", modelIdentifier=table.name, needsExecutionTool="false",
         canHandleVariableCommunicationStepSize="true", canInterpolateInputs="false",
@@ -101,7 +101,7 @@ def add_variables(root: Element, table: Table, variables: list[Variable]) -> Non
     initial = SubElement(structure, "InitialUnknowns")
     for position in unknowns:
         SubElement(outputs, "Unknown", index=str(position), dependencies="")
-        SubElement(initial, "Unknown", index=str(position), **starts_from(table))
+        SubElement(initial, "Unknown", {"index": str(position), **starts_from(table)})
 
 
 def starts_from(table: Table) -> dict[str, str]:

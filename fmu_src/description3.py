@@ -14,8 +14,8 @@ def model_description3(table: Table, identity: str, code_hash: str, step_size: f
     root = Element(
         "fmiModelDescription", fmiVersion="3.0", modelName=table.name, instantiationToken=identity,
         description=table.description, generationTool=tool, variableNamingConvention="structured",
-        **made_by.attributes(code_hash),
-    )
+    )  # fmt: skip
+    root.attrib.update(made_by.attributes(code_hash))
     SubElement(
         root, "CoSimulation", modelIdentifier=table.name, needsExecutionTool="false",
         canBeInstantiatedOnlyOncePerProcess="false", canGetAndSetFMUState="true", canSerializeFMUState="true",
@@ -75,4 +75,4 @@ def add_variables3(root: Element, table: Table, variables: list[Variable]) -> No
     for v in unknowns:
         # New surfaces are even: what is hidden in FMI 2 depends on nothing at the start.
         dependencies = {"dependencies": ""} if v.profile else starts_from(table)
-        SubElement(structure, "InitialUnknown", valueReference=str(table.offset[v.name]), **dependencies)
+        SubElement(structure, "InitialUnknown", {"valueReference": str(table.offset[v.name]), **dependencies})

@@ -14,16 +14,16 @@ All effects of a unit are composed into one module, so that the compiler sees pl
 import importlib
 import linecache
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from fmu_src.effect_check import OWN
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
-
 
 # In a unit's ``ALLOWED``, for hooks that may set the effect's own states.
 OWN_STATES = {OWN: "="}
@@ -75,14 +75,19 @@ class Effect:
         return [p.variable for p in self.parameters] + list(self.states)
 
 
-def amplitude(name, unit, text, scale, low, high, off=0.0, sign=0, source="off", group="", **more) -> EffectParameter:
+def amplitude(
+    name: str, unit: str, text: str, scale: float, low: float, high: float, off: float = 0.0, sign: int = 0, source: str = "off",
+    group: str = "", **more: Any,
+) -> EffectParameter:  # fmt: skip
     """A parameter that is off at ``off``; [low, high] are its bounds in ``unit``."""
     variable = Variable(name, "parameter", unit, f"{text} ({off:g}: off)", off, minimum=low, maximum=high,
                         nominal=abs(scale), source=source, **more)
     return EffectParameter(variable, "amplitude", scale, sign, (), group)
 
 
-def shape(name, unit, text, start, low, high, source, grid=(), group="") -> EffectParameter:
+def shape(
+    name: str, unit: str, text: str, start: float, low: float, high: float, source: str, grid: Iterable[float] = (), group: str = "",
+) -> EffectParameter:  # fmt: skip
     """A parameter that says how an effect acts once it is on; ``group`` names one group or several."""
     variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=abs(start) or 1.0,
                         source=source)
@@ -91,7 +96,7 @@ def shape(name, unit, text, start, low, high, source, grid=(), group="") -> Effe
     return EffectParameter(variable, "shape", scale, 0, tuple(grid), group)
 
 
-def choice(name, text, start=1, low=1, high=400) -> EffectParameter:
+def choice(name: str, text: str, start: int = 1, low: int = 1, high: int = 400) -> EffectParameter:
     """Which part an effect sits on, counted from 1."""
     variable = Variable(name, "parameter", "1", text, start, minimum=low, maximum=high, integer=True,
                         source="assumed: the first")
@@ -105,7 +110,7 @@ def effect_modules(package: str) -> dict[str, ModuleType]:
     the unit's table is made, before anything is compiled.
     """
     parent = importlib.import_module(package)
-    own = {p.stem for p in Path(parent.__file__).parent.glob("*.py") if p.stem != "__init__"}
+    own = {p.stem for p in Path(parent.__path__[0]).glob("*.py") if p.stem != "__init__"}
     modules = {name: importlib.import_module(f"{package}.{name}") for name in own}
     for _, file in user_effect_files(package.partition(".")[0]):
         if str(file.parent) not in parent.__path__:

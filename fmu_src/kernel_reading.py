@@ -37,6 +37,8 @@ class Part:
 
 
 Parts = frozenset[Part]
+# What has a line of its own in a file.
+Place = ast.expr | ast.stmt
 NOTHING: Parts = frozenset()
 RECORD: Parts = frozenset({Part()})
 
@@ -154,10 +156,10 @@ class Call:
                 self.run(statement)
         return self.given
 
-    def note(self, name: str, action: str, node: ast.AST) -> None:
+    def note(self, name: str, action: str, node: Place) -> None:
         self.reading.uses.add(Use(name, action, self.source.file, node.lineno))
 
-    def trouble(self, node: ast.AST, text: str) -> None:
+    def trouble(self, node: Place, text: str) -> None:
         if self.own:
             self.reading.troubles.add(Trouble(self.source.file, node.lineno, text))
 
@@ -264,7 +266,7 @@ class Call:
             self.trouble(node, f"math has no {node.attr}" + nearest(node.attr, dir(math)))
         return NOTHING
 
-    def inside(self, parts: Parts, indices: int, node: ast.AST) -> Parts:
+    def inside(self, parts: Parts, indices: int, node: Place) -> Parts:
         """What is left of arrays after more indices; a number is read."""
         deeper = {Part(p.name, p.indices + indices) for p in parts if p.name}
         for part in deeper:
@@ -272,7 +274,7 @@ class Call:
                 self.note(part.name, "read", node)
         return frozenset(p for p in deeper if p.indices < self.reading.dimensions[p.name])
 
-    def read_all(self, parts: Parts, node: ast.AST) -> None:
+    def read_all(self, parts: Parts, node: Place) -> None:
         for part in parts:
             if part.name:
                 self.note(part.name, "read", node)

@@ -79,10 +79,11 @@ def compiler(target: Platform, portable: bool) -> tuple[str, ...]:
             if name and shutil.which(name):
                 # Start files would add symbols of the compiler's own library.
                 return (name, "-nostartfiles") if target.suffix == ".so" else (name,)
-    if zig() is None:
+    command = zig()
+    if command is None:
         what = "for all platforms zig is needed" if portable else "there is no C compiler (cc, gcc, clang or zig)"
         raise NativeFault(f"{what}; install it with: pip install \"rvwear[build]\"")
-    return (*zig(), "-target", target.zig_target, "-fno-sanitize=all")
+    return (*command, "-target", target.zig_target, "-fno-sanitize=all")
 
 
 def shared_library(name: str, table: str, code: bytes, target: Platform, portable: bool) -> bytes:

@@ -11,12 +11,13 @@ is loaded in a few milliseconds.
 
 import ctypes
 from collections.abc import Callable
+from typing import Any
 
 from fmu_src.compiler import loading
 from fmu_src.compiler.module import host_triple
 from fmu_src.compiler.types import Layout
 from fmu_src.faults import RunFault
-from fmu_src.unit import make_unit
+from fmu_src.unit import Specification, make_unit
 
 __all__ = ["NativeFault", "host_triple", "load_object", "object_code", "object_codes"]
 
@@ -25,19 +26,21 @@ class NativeFault(RunFault):
     """A library that could not be made or would not run without Python."""
 
 
-def object_codes(specification: dict, triples: tuple[str, ...]) -> dict[str, bytes]:
+def object_codes(specification: Specification, triples: tuple[str, ...]) -> dict[str, bytes]:
     """Object code of a unit for several targets (LLVM triples): sources and array sizes decide it, start values do not."""
     unit = make_unit(specification)
-    return loading.unit_code(unit.initialise, unit.step, Layout(unit.table.dtype), triples)
+    if unit.kernels is None:
+        raise NativeFault("kernels run as plain Python here and are not compiled; unset RVWEAR_PLAIN_PYTHON")
+    return loading.unit_code(*unit.kernels, Layout(unit.table.dtype), triples)
 
 
-def object_code(specification: dict, triple: str | None = None) -> bytes:
+def object_code(specification: Specification, triple: str | None = None) -> bytes:
     """Object code of a unit for one target (default this machine), plain instructions only."""
     triple = triple or host_triple()
     return object_codes(specification, (triple,))[triple]
 
 
-def load_object(code: bytes) -> dict[str, Callable]:
+def load_object(code: bytes) -> dict[str, Callable[..., Any]]:
     """The entry points of an object, callable as ``f(address of the record, ...)``.
 
     The loaded code lives as long as the process; loading the same bytes twice gives the
@@ -52,4 +55,4 @@ def load_object(code: bytes) -> dict[str, Callable]:
     return _loaded[code]
 
 
-_loaded: dict[bytes, dict[str, Callable]] = {}
+_loaded: dict[bytes, dict[str, Callable[..., Any]]] = {}

@@ -13,6 +13,7 @@ import tempfile
 import zipfile
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import fmpy
@@ -22,13 +23,13 @@ from fmpy.validation import validate_model_description
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
 from fmu_src.faults import RunFault
-from fmu_src.link import PLATFORMS, host_platform, shared_library, universal
+from fmu_src.link import PLATFORMS, Platform, host_platform, shared_library, universal
 from fmu_src.native import host_triple, object_code, object_codes
 from fmu_src.presentation import files_for_people
 from fmu_src.project import project
 from fmu_src.slaves.kernel_slave import OBJECT_CODE
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
-from fmu_src.unit import make_unit
+from fmu_src.unit import Specification, make_unit
 from fmu_src.unit_table import c_source
 
 # pythonfmu's builder writes its own defaults over the description unless told so.
@@ -42,7 +43,7 @@ class PackageFault(RunFault):
     """An FMU that does not validate."""
 
 
-def stamp_of(specification: dict, step_size: float, tool: str, flavour: str) -> dict:
+def stamp_of(specification: Specification, step_size: float, tool: str, flavour: str) -> dict[str, Any]:
     """What this project writes into its FMUs, to know them again."""
     code_hash = source_hash()
     return {
@@ -51,7 +52,9 @@ def stamp_of(specification: dict, step_size: float, tool: str, flavour: str) -> 
     }  # fmt: skip
 
 
-def build_fmu(name: str, specification: dict, step_size: float, tool: str, target: Path, code: bytes | None = None) -> Path:
+def build_fmu(
+    name: str, specification: Specification, step_size: float, tool: str, target: Path, code: bytes | None = None
+) -> Path:
     """Build ``target``/``name``.fmu (FMI 2.0, pythonfmu) from a unit's specification.
 
     ``step_size`` [s] is the default experiment's.  The FMU carries the sources, so it
@@ -71,7 +74,9 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
         (folder / OBJECT_CODE).write_bytes(code or object_code(specification))
         contents = [folder / package for package in KERNEL_PACKAGES] + [folder / STAMP, folder / OBJECT_CODE]
         # In a process of its own: pythonfmu imports the slave and leaves it in sys.modules.
-        command = [sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *CAPABILITIES, *contents]
+        command: list[str | Path] = [
+            sys.executable, "-m", "pythonfmu", "build", "-f", script, "-d", folder / "raw", *CAPABILITIES, *contents,
+        ]  # fmt: skip
         done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise PackageFault(f"pythonfmu could not pack {name}: {done.stderr.strip()}")
@@ -82,7 +87,7 @@ def build_fmu(name: str, specification: dict, step_size: float, tool: str, targe
 
 
 def build_native(
-    name: str, specification: dict, step_size: float, tool: str, target: Path,
+    name: str, specification: Specification, step_size: float, tool: str, target: Path,
     versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None,
 ) -> list[Path]:  # fmt: skip
     """Build ``target``/fmi2/``name``.fmu and ``target``/fmi3/``name``.fmu, which need no Python.
@@ -116,7 +121,7 @@ def triples_for(all_platforms: bool) -> tuple[str, ...]:
     return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms))))
 
 
-def folders2(libraries: dict) -> dict[tuple[str, str], bytes]:
+def folders2(libraries: dict[Platform, bytes]) -> dict[tuple[str, str], bytes]:
     """Libraries by FMI 2.0 folder; Darwin has one for both processors."""
     joined: dict[tuple[str, str], list[bytes]] = {}
     for p, library in libraries.items():
@@ -124,11 +129,11 @@ def folders2(libraries: dict) -> dict[tuple[str, str], bytes]:
     return {place: parts[0] if len(parts) == 1 else universal(parts) for place, parts in joined.items()}
 
 
-def folders3(libraries: dict) -> dict[tuple[str, str], bytes]:
+def folders3(libraries: dict[Platform, bytes]) -> dict[tuple[str, str], bytes]:
     return {(p.name, p.suffix): library for p, library in libraries.items()}
 
 
-def stamp_bytes(stamp: dict) -> bytes:
+def stamp_bytes(stamp: dict[str, Any]) -> bytes:
     return json.dumps(stamp, sort_keys=True, indent=1).encode()
 
 

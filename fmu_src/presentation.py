@@ -3,11 +3,13 @@
 import re
 import struct
 import zlib
+from collections.abc import Iterator
 from functools import cache
 from html import escape
 
 import numpy as np
 
+from fmu_src.arrays import Mask
 from fmu_src.link import FMI_HEADERS
 from fmu_src.project import Project
 from fmu_src.variables import Table, Variable
@@ -98,13 +100,13 @@ def picture(size: int) -> bytes:
     x, y = np.meshgrid(axis, -axis)
     colours = np.zeros((fine * size, fine * size, 4))
 
-    def paint(where, colour):
+    def paint(where: Mask, colour: str) -> None:
         colours[where] = (*(int(colour[i : i + 2], 16) for i in (1, 3, 5)), 255)
 
-    def circle(cx, cy, radius):
+    def circle(cx: float, cy: float, radius: float) -> Mask:
         return np.hypot(x - cx, y - cy) < radius
 
-    def around(count, radius):
+    def around(count: int, radius: float) -> Iterator[tuple[float, float]]:
         angles = 2.0 * np.pi * np.arange(count) / count
         return zip(radius * np.cos(angles), radius * np.sin(angles))
 
@@ -125,7 +127,7 @@ def picture(size: int) -> bytes:
     pixels = colours.reshape(size, fine, size, fine, 4).mean((1, 3)).astype("u1")
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
 
-    def chunk(kind, data):
+    def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", size, size, 8, 6, 0, 0, 0)
@@ -135,8 +137,9 @@ def picture(size: int) -> bytes:
 def licence(table: Table, made_by: Project) -> str:
     """Whose the parts are; the FMI headers ask for their notice in binaries."""
     header = (FMI_HEADERS / "fmi3Functions.h").read_text(encoding="utf-8")
-    notice = re.search(r"Copyright \(C\).*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL).group()
+    notice = re.search(r"Copyright \(C\).*?POSSIBILITY OF SUCH DAMAGE\.", header, re.DOTALL)
+    assert notice is not None, "FMI's headers carry no copyright notice any more"
     return (
         f"{table.name}, made with rvwear. {made_by.terms()}\n"
-        f"It contains the headers of the FMI standard:\n\n{notice}\n"
+        f"It contains the headers of the FMI standard:\n\n{notice.group()}\n"
     )

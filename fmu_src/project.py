@@ -48,7 +48,8 @@ def project() -> Project:
 
 
 def entry_of(file: Path) -> dict[str, Any]:
-    return tomllib.loads(file.read_text(encoding="utf-8")).get("project", {})
+    entry: dict[str, Any] = tomllib.loads(file.read_text(encoding="utf-8")).get("project", {})
+    return entry
 
 
 def of_checkout(file: Path) -> Project:

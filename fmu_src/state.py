@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_src.arrays import Floats
+
 MAGIC = b"RVstate3"
 HEADER = struct.Struct("<8s40sqqqdd")
 SUMS = struct.Struct("<QQ")
@@ -24,7 +26,7 @@ class StateFault(ValueError):
 
 @dataclass(frozen=True)
 class State:
-    cells: np.ndarray
+    cells: Floats
     phase: int
     time: float
 

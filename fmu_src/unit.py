@@ -8,9 +8,10 @@ array sizes, ``starts`` and ``sources`` the start values that differ from the ta
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypedDict
 
-import numpy as np
-
+from fmu_src.arrays import Records
+from fmu_src.kernel import Kernel
 from fmu_src.variables import Table
 
 # A communication step beyond this is a slip, not a wish [s].
@@ -29,6 +30,16 @@ class UnitFault(RuntimeError):
     """A unit that refused to initialise or to step; the text says what, where and the remedy."""
 
 
+class Specification(TypedDict):
+    """See above; ``reducer`` is the name of the reducer file's."""
+
+    unit: str
+    reducer: str
+    sizes: dict[str, dict[str, int]]
+    starts: dict[str, float]
+    sources: dict[str, str]
+
+
 @dataclass(frozen=True)
 class Unit:
     """``initialise(records)`` and ``step(records, time, duration)`` return 0 or a key of ``faults``.
@@ -38,8 +49,8 @@ class Unit:
     """
 
     table: Table
-    initialise: Callable[[np.ndarray], int]
-    step: Callable[[np.ndarray, float, float], int]
+    initialise: Callable[[Records], int]
+    step: Callable[[Records, float, float], int]
     faults: dict[int, str]
     fault_reach: int | None = None
 
@@ -48,20 +59,29 @@ class Unit:
         """Number of leading cells that are put back after a fault."""
         return self.table.state_cells if self.fault_reach is None else self.fault_reach
 
-    def bound(self, records: np.ndarray) -> tuple[Callable[[], int], Callable[[float, float], int]]:
+    @property
+    def kernels(self) -> tuple[Kernel, Kernel] | None:
+        """``initialise`` and ``step`` as the compiler takes them; None where kernels run as plain Python."""
+        if isinstance(self.initialise, Kernel) and isinstance(self.step, Kernel):
+            return self.initialise, self.step
+        return None
+
+    def bound(self, records: Records) -> tuple[Callable[[], int], Callable[[float, float], int]]:
         """``initialise()`` and ``step(time, duration)`` of one record, which must stay where it is; compiled now if need be."""
-        if not getattr(self.step, "is_kernel", False):
+        kernels = self.kernels
+        if kernels is None:
             return lambda: self.initialise(records), lambda time, duration: self.step(records, time, duration)
         from fmu_src.compiler.calling import bound_unit
 
-        return bound_unit(self.initialise, self.step, records)
+        return bound_unit(*kernels, records)
 
-    def fault_text(self, code: int, records: np.ndarray, time: float) -> str:
+    def fault_text(self, code: int, records: Records, time: float) -> str:
         """What a status code means for this record, in words."""
         scalars = {v.name: records[v.name][0] for v in self.table.variables if not v.shape}
         return f"{self.table.name} at time {time:.9g} s: {self.faults[code].format(**scalars)}"
 
 
-def make_unit(specification: dict) -> Unit:
+def make_unit(specification: Specification) -> Unit:
     """The unit of a specification."""
-    return importlib.import_module(f"{specification['unit']}.unit").make_unit(specification)
+    unit: Unit = importlib.import_module(f"{specification['unit']}.unit").make_unit(specification)
+    return unit

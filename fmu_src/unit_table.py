@@ -69,7 +69,7 @@ def fault_pieces(table: Table, code: int, text: str) -> list[str]:
     """A fault's format text as literals and cells; the numbers come out as Python's ``format`` gives them."""
     pieces = []
     for literal, name, spec, conversion in Formatter().parse(text):
-        if name is None:
+        if name is None or spec is None:
             pieces.append(f"{{{c_string(literal)}, -1, 0, NULL}}")
             continue
         v = table.by_name.get(name)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fmu_src.cache_folder import cache_folder
 
@@ -36,7 +36,7 @@ class BaseUnit:
 
 
 @cache
-def registry() -> "pint.UnitRegistry":
+def registry() -> "pint.UnitRegistry[float]":
     """pint's units; half a second of reading, for those only who need them."""
     import pint
 
@@ -48,7 +48,7 @@ def parse(text: str) -> "pint.Unit":
     """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
     try:
         unit = registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
-    except Exception as problem:
+    except Exception as problem:  # noqa: BLE001
         raise UnitError(f"unit {text!r} is not known ({problem}); write it like mm, N.m, 1/Pa, rad/s, or 1") from None
     return unit
 
@@ -71,8 +71,9 @@ def fmi_base_unit(text: str) -> dict[str, float]:
     """Exponents, factor and offset of FMI's ``BaseUnit`` element, defaults left out."""
     base = registry().Quantity(1.0, parse(text)).to_base_units()
     offset = float(registry().Quantity(0.0, parse(text)).to_base_units().magnitude)
-    exponents = dict(base.unit_items())
-    attributes = {
+    # Whole numbers, which pint's types do not say.
+    exponents: dict[str, Any] = dict(base.unit_items())
+    attributes: dict[str, float] = {
         fmi_name: int(exponents[pint_name]) for fmi_name, pint_name in FMI_BASE.items() if pint_name in exponents
     }
     factor = float(base.magnitude) - offset

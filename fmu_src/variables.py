@@ -10,7 +10,8 @@ one copy of the leading cells.  Roles stand in the order of ``ROLES``; scratch,
 which holds nothing between two steps, comes last and is not part of the state.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -18,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from fmu_src.arrays import Floats, Mask, Records, field_of
 from fmu_src.limits import usual_limits
 
 
@@ -26,6 +28,8 @@ class ValueFault(ValueError):
 
 
 ROLES = ("input", "parameter", "output", "state", "scratch")
+# In place of a bound or nominal value: the usual one.
+USUAL = math.nan
 
 
 @dataclass(frozen=True)
@@ -47,23 +51,23 @@ class Variable:
     start: float | int = 0.0
     shape: tuple[int, ...] = ()
     axes: tuple[str, ...] = ()
-    minimum: float | None = None
-    maximum: float | None = None
-    nominal: float | None = None
+    minimum: float = USUAL
+    maximum: float = USUAL
+    nominal: float = USUAL
     choices: tuple[str, ...] = ()
     integer: bool = False
     tunable: bool = False
     profile: bool = False
     source: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.role not in ROLES:
             raise ValueError(f"variable {self.name}: role {self.role!r} is none of {ROLES}")
         if len(self.axes) != len(self.shape):
             raise ValueError(f"variable {self.name}: {len(self.shape)} dimensions but axes {self.axes}")
         usual = (0, len(self.choices) - 1, 1.0) if self.choices else usual_limits(self.unit, self.is_integer)
         for name, value in zip(("minimum", "maximum", "nominal"), usual):
-            if getattr(self, name) is None:
+            if math.isnan(getattr(self, name)):
                 object.__setattr__(self, name, value)
 
     @property
@@ -154,7 +158,7 @@ class Table:
         self.dtype = with_views(
             np.dtype([(v.name, "i8" if v.is_integer else "f8", v.shape) for v in self.variables], align=True), self.views
         )
-        self.offset = {v.name: self.dtype.fields[v.name][1] // 8 for v in self.variables}
+        self.offset = {v.name: field_of(self.dtype, v.name)[1] // 8 for v in self.variables}
 
     @cached_property
     def cell_count(self) -> int:
@@ -171,7 +175,7 @@ class Table:
         return sum(v.size for v in self.interface())
 
     @cached_property
-    def bounds(self) -> tuple[np.ndarray, np.ndarray]:
+    def bounds(self) -> tuple[Floats, Floats]:
         """(lowest, highest) value of each interface cell that may be set; NaN where none may."""
         lowest, highest = np.full((2, self.interface_cells), np.nan)
         for v in self.of_role("input", "parameter"):
@@ -180,7 +184,7 @@ class Table:
         return lowest, highest
 
     @cached_property
-    def integer_cells(self) -> np.ndarray:
+    def integer_cells(self) -> Mask:
         """Which interface cells hold integers."""
         mask = np.zeros(self.interface_cells, bool)
         for v in self.interface():
@@ -188,7 +192,7 @@ class Table:
         return mask
 
     @cached_property
-    def fixed_cells(self) -> np.ndarray:
+    def fixed_cells(self) -> Mask:
         """Which interface cells may not be set once the unit is initialised."""
         mask = np.zeros(self.interface_cells, bool)
         for v in self.of_role("parameter"):
@@ -206,7 +210,7 @@ class Table:
         """Whether an importing tool with arrays sees it: the interface and the surfaces' profiles."""
         return v.role in ("input", "parameter", "output") or v.profile
 
-    def new_records(self) -> np.ndarray:
+    def new_records(self) -> Records:
         """A one-element record array holding every start value."""
         records = np.zeros(1, self.dtype)
         for v in self.variables:
@@ -221,7 +225,7 @@ class Table:
         ]
         return Table(self.name, self.description, changed, self.starts_from_nothing, self.views)
 
-    def cells(self, records: np.ndarray) -> np.ndarray:
+    def cells(self, records: Records) -> Floats:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
         return records.view("f8")
 
@@ -251,7 +255,7 @@ class Table:
                 return v, next(name for i, name in enumerate(v.element_names()) if i == cell - first)
         raise IndexError(f"{self.name} has no cell {cell}")
 
-    def check_values(self, cells: list[int], values) -> None:
+    def check_values(self, cells: Iterable[int], values: Iterable[float]) -> None:
         """Raise ValueFault for the first value that its variable cannot take."""
         for cell, value in zip(cells, values):
             if not 0 <= cell < self.interface_cells:
@@ -279,12 +283,11 @@ def with_views(plain: np.dtype, views: dict[str, dict[str, str]]) -> np.dtype:
 
     def overlay(fields: list[tuple[str, np.dtype, int]]) -> np.dtype:
         names, formats, offsets = zip(*fields)
-        layout = {"names": names, "formats": formats, "offsets": offsets, "itemsize": plain.itemsize}
-        return np.dtype(layout, align=True)
+        return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": plain.itemsize}, align=True)
 
-    own = [(name, *plain.fields[name][:2]) for name in plain.names]
+    own = [(name, *field_of(plain, name)) for name in plain.names or ()]
     laid = [
-        (view, overlay([(field, *plain.fields[name][:2]) for field, name in fields.items()]), 0)
+        (view, overlay([(field, *field_of(plain, name)) for field, name in fields.items()]), 0)
         for view, fields in views.items()
     ]
     return overlay([*own, *laid, ("cells", np.dtype(("i8", (plain.itemsize // 8,))), 0)])

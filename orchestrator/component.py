@@ -10,17 +10,21 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from fmu_src.unit import Unit, make_unit
+from fmu_src.arrays import Integers, Records
+from fmu_src.faults import InputFault, RunFault
+from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
-from fmu_src.faults import InputFault, RunFault
-
 
 # (dtype, reference): FMI 2 counts its references anew for each type.
 Element = tuple[str, int]
+# A component's state as only the component itself can read it.
+Snapshot = Any
 
 
 @dataclass(frozen=True)
@@ -108,7 +112,14 @@ class Component(ABC):
         self.reader(signal.references, buffer)()
         return buffer.reshape(signal.shape) if signal.shape else buffer[0].item()
 
-    def set(self, name: str, value) -> None:
+    def number(self, name: str) -> float:
+        """Present value of a scalar signal."""
+        value = self.get(name)
+        if isinstance(value, np.ndarray):
+            raise InputFault(f"{self.name}.{name} has the shape {value.shape}: one element of it is needed, {name}[1]")
+        return value
+
+    def set(self, name: str, value: npt.ArrayLike) -> None:
         """Set a parameter or input; a scalar given for an array fills it."""
         signal = self.signal(name)
         buffer = signal.new_buffer()
@@ -159,17 +170,17 @@ class Component(ABC):
     @abstractmethod
     def restore(self, state: bytes) -> None: ...
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         """The state for ``revert`` in this process, cheaper than ``save`` where that is possible."""
         return self.save()
 
-    def revert(self, snapshot) -> None:
+    def revert(self, snapshot: Snapshot) -> None:
         self.restore(snapshot)
 
-    def forget(self, snapshot) -> None:
+    def forget(self, snapshot: Snapshot) -> None:
         """Free a snapshot."""
 
-    def record(self) -> np.ndarray:
+    def record(self) -> Records:
         """The unit's record (one element, dtype of its table), hidden surfaces included."""
         raise InputFault(f"{self.name} is not one of this project's units: it has no record")
 
@@ -180,31 +191,35 @@ class Component(ABC):
 class InProcess(Component):
     """A unit whose compiled kernels run in this process."""
 
-    def __init__(self, name: str, specification: dict):
+    def __init__(self, name: str, specification: Specification):
         self.name = name
         self.unit: Unit = make_unit(specification)
         self.table: Table = self.unit.table
         self.signals = {v.name: signal_of(v, self.table) for v in self.table.interface()}
         self.records = self.table.new_records()
         self.cells = self.table.cells(self.records)
-        self.integers = self.cells.view("i8")
+        self.integers: Integers = self.cells.view("i8")
 
     @cached_property
     def entry_points(self) -> tuple[Callable[[], int], Callable[[float, float], int]]:
         """Compiled when they are first needed: who only asks for values waits for nothing."""
         return self.unit.bound(self.records)
 
-    def reader(self, references, buffer):
-        cells = self.integers if buffer.dtype == np.int64 else self.cells
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
+        cells: np.ndarray = self.integers if buffer.dtype == np.int64 else self.cells
         index = np.array(references)
-        return lambda: np.take(cells, index, out=buffer, mode="clip")
 
-    def writer(self, references, buffer):
-        cells = self.integers if buffer.dtype == np.int64 else self.cells
+        def read() -> None:
+            np.take(cells, index, out=buffer, mode="clip")
+
+        return read
+
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
+        cells: np.ndarray = self.integers if buffer.dtype == np.int64 else self.cells
         index = np.array(references)
         lowest, highest = (bound[index] for bound in self.table.bounds)
 
-        def write():
+        def write() -> None:
             # A NaN fails both comparisons, as does a cell that may not be set.
             if not ((buffer >= lowest) & (buffer <= highest)).all():
                 try:
@@ -215,26 +230,26 @@ class InProcess(Component):
 
         return write
 
-    def enter_initialisation(self, start_time):
+    def enter_initialisation(self, start_time: float) -> None:
         pass
 
-    def exit_initialisation(self):
+    def exit_initialisation(self) -> None:
         code = self.entry_points[0]()
         if code != 0:
             raise InputFault(f"{self.name}: {self.unit.fault_text(code, self.records, 0.0)}")
 
-    def step(self, time, duration):
+    def step(self, time: float, duration: float) -> None:
         code = self.entry_points[1](time, duration)
         if code != 0:
             raise RunFault(f"{self.name}: {self.unit.fault_text(code, self.records, time)}")
 
-    def save(self):
+    def save(self) -> bytes:
         return self.cells[: self.table.state_cells].tobytes()
 
-    def restore(self, state):
+    def restore(self, state: bytes) -> None:
         self.cells[: self.table.state_cells] = np.frombuffer(state, "f8")
 
-    def record(self):
+    def record(self) -> Records:
         return self.records.copy()
 
 

@@ -7,6 +7,7 @@ as much as a native unit needs to copy three hundred values.
 import ctypes
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from fmpy.fmi2 import (
@@ -18,6 +19,7 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
+from orchestrator.component import Snapshot
 from orchestrator.model_description import Described
 
 # Statuses above "warning" are failures.
@@ -31,7 +33,9 @@ TYPE = {"f8": "Real", "i8": "Integer", "?": "Boolean"}
 class Fmi2:
     """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
 
-    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
+    def __init__(
+        self, name: str, described: Described, folder: Path, log: Callable[[str], None], refuse: Callable[[str, int], None]
+    ):
         description = described.description
         self.slave = FMU2Slave(
             instanceName=name, guid=description.guid, unzipDirectory=str(folder),
@@ -46,13 +50,13 @@ class Fmi2:
         self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
         self.do_step = self.bound("fmi2DoStep", STEP)
 
-    def bound(self, function: str, types: tuple, *arguments) -> Callable[..., None]:
+    def bound(self, function: str, types: tuple[type, ...], *arguments: Any) -> Callable[..., None]:
         """The function with the instance and arguments held."""
         call = self.slave.dll[function]
         call.argtypes, call.restype = types, ctypes.c_int
         instance, refuse = self.slave.component, self.refuse
 
-        def run(*rest):
+        def run(*rest: float) -> None:
             status = call(instance, *arguments, *rest)
             if status > WARNING:
                 refuse(function, status)
@@ -64,25 +68,19 @@ class Fmi2:
         kind = TYPE["?" if buffer.dtype == bool else buffer.dtype.str[1:]]
         native = buffer if kind == "Real" else np.zeros(len(references), np.int32)
         numbers = (ctypes.c_uint * len(references))(*references)
-        call = self.bound(f"fmi2{verb}{kind}", VALUES, numbers, len(references), native.ctypes.data)
-        if native is buffer:
-            # The address alone does not keep the buffer alive.
-            call.buffer = buffer
-            return call
-        return copied(call, verb, native, buffer)
+        call = self.bound(f"fmi2{verb}{kind}", VALUES, numbers, len(references), address(native))
+        return call if native is buffer else copied(call, verb, native, buffer)
 
-    def reader(self, references, buffer):
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         return self.values("Get", references, buffer)
 
-    def writer(self, references, buffer):
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         return self.values("Set", references, buffer)
 
-    def derivative_writer(self, references, order, buffer):
+    def derivative_writer(self, references: tuple[int, ...], order: int, buffer: np.ndarray) -> Callable[[], None]:
         n = len(references)
         numbers, orders = (ctypes.c_uint * n)(*references), (ctypes.c_int * n)(*[order] * n)
-        call = self.bound("fmi2SetRealInputDerivatives", DERIVATIVES, numbers, n, orders, buffer.ctypes.data)
-        call.buffer = buffer
-        return call
+        return self.bound("fmi2SetRealInputDerivatives", DERIVATIVES, numbers, n, orders, address(buffer))
 
     def set_text(self, reference: int, text: str) -> None:
         self.slave.setString([reference], [text])
@@ -97,30 +95,35 @@ class Fmi2:
     def step(self, time: float, duration: float) -> None:
         self.do_step(time, duration, self.keeps_state)
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         return self.slave.getFMUstate()
 
-    def revert(self, snapshot) -> None:
+    def revert(self, snapshot: Snapshot) -> None:
         self.slave.setFMUstate(snapshot)
 
-    def forget(self, snapshot) -> None:
+    def forget(self, snapshot: Snapshot) -> None:
         self.slave.freeFMUstate(snapshot)
 
-    def serialise(self, snapshot) -> bytes:
+    def serialise(self, snapshot: Snapshot) -> bytes:
         return bytes(self.slave.serializeFMUstate(snapshot))
 
-    def deserialise(self, state: bytes):
+    def deserialise(self, state: bytes) -> Snapshot:
         return self.slave.deSerializeFMUstate(state)
+
+
+def address(buffer: np.ndarray) -> ctypes.c_void_p:
+    """Of a buffer's values; it keeps the buffer alive, as a plain number would not."""
+    return buffer.ctypes.data_as(ctypes.c_void_p)
 
 
 def copied(call: Callable[[], None], verb: str, native: np.ndarray, buffer: np.ndarray) -> Callable[[], None]:
     """A transfer through an array of another width."""
 
-    def read():
+    def read() -> None:
         call()
         buffer[:] = native
 
-    def write():
+    def write() -> None:
         native[:] = buffer
         call()
 
@@ -130,7 +133,7 @@ def copied(call: Callable[[], None], verb: str, native: np.ndarray, buffer: np.n
 def make_callbacks(log: Callable[[str], None]) -> fmi2CallbackFunctions:
     """fmpy's callbacks, with messages kept for the error text instead of printed."""
 
-    def logger(environment, instance, status, category, message):
+    def logger(environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
         log(message.decode("utf-8", "replace").strip())
 
     callbacks = fmi2CallbackFunctions()

@@ -4,11 +4,14 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from fmpy.fmi3 import FMU3Slave
 
-from orchestrator.fmi2 import ERROR, WARNING
+from fmu_src.arrays import Integers
+from orchestrator.component import Snapshot
+from orchestrator.fmi2 import ERROR, WARNING, address
 from orchestrator.model_description import Described
 
 VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t)
@@ -24,10 +27,10 @@ class Block:
     """Whole variables of one type, moved in one call; ``place`` is where they stand in the buffer."""
 
     kind: str
-    numbers: ctypes.Array
+    numbers: ctypes.Array[ctypes.c_uint]
     values: np.ndarray
-    taken: np.ndarray
-    place: np.ndarray
+    taken: Integers
+    place: Integers
 
     @property
     def is_whole(self) -> bool:
@@ -37,7 +40,9 @@ class Block:
 class Fmi3:
     """One instance; where the unit refuses, ``refuse(function, status)`` is to raise."""
 
-    def __init__(self, name: str, described: Described, folder: Path, log: Callable, refuse: Callable):
+    def __init__(
+        self, name: str, described: Described, folder: Path, log: Callable[[str], None], refuse: Callable[[str, int], None]
+    ):
         description = described.description
         self.slave = FMU3Slave(
             instanceName=name, guid=description.instantiationToken, unzipDirectory=str(folder),
@@ -47,7 +52,7 @@ class Fmi3:
         self.keeps_state = not description.coSimulation.canGetAndSetFMUstate
 
     def instantiate(self) -> None:
-        def message(environment, status, category, text):
+        def message(environment: object, status: int, category: bytes, text: bytes) -> None:
             self.log(text.decode("utf-8", "replace").strip())
 
         self.slave.instantiate(loggingOn=True, logMessage=message)
@@ -57,13 +62,13 @@ class Fmi3:
         self.results = (first, first + 1, first + 2, ctypes.addressof(self.reached))
         self.do_step = self.bound("fmi3DoStep", STEP)
 
-    def bound(self, function: str, types: tuple, *arguments) -> Callable[..., None]:
+    def bound(self, function: str, types: tuple[type, ...], *arguments: Any) -> Callable[..., None]:
         """The function with the instance and arguments held."""
         call = self.slave.dll[function]
         call.argtypes, call.restype = types, ctypes.c_int
         instance, refuse = self.slave.component, self.refuse
 
-        def run(*rest):
+        def run(*rest: float) -> None:
             status = call(instance, *arguments, *rest)
             if status > WARNING:
                 refuse(function, status)
@@ -71,12 +76,10 @@ class Fmi3:
         return run
 
     def call_on(self, verb: str, block: Block) -> Callable[[], None]:
-        call = self.bound(
+        return self.bound(
             f"fmi3{verb}{'Int64' if block.kind == 'Enumeration' else block.kind}", VALUES,
-            block.numbers, len(block.numbers), block.values.ctypes.data, block.values.size,
+            block.numbers, len(block.numbers), address(block.values), block.values.size,
         )  # fmt: skip
-        call.buffer = block.values
-        return call
 
     def blocks(self, references: tuple[int, ...], buffer: np.ndarray) -> list[Block]:
         """The variables that the elements belong to, by type; in the buffer itself if they fill it."""
@@ -94,20 +97,20 @@ class Fmi3:
             blocks.append(Block(kind, numbers, buffer if fills else np.zeros(size, NATIVE[kind]), taken, place))
         return blocks
 
-    def reader(self, references, buffer):
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         blocks = self.blocks(references, buffer)
         calls = [self.call_on("Get", block) for block in blocks]
         if len(blocks) == 1 and blocks[0].values is buffer:
             return calls[0]
 
-        def read():
+        def read() -> None:
             for call, block in zip(calls, blocks):
                 call()
                 buffer[block.place] = block.values[block.taken]
 
         return read
 
-    def writer(self, references, buffer):
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         blocks = self.blocks(references, buffer)
         calls = [self.call_on("Set", block) for block in blocks]
         if len(blocks) == 1 and blocks[0].values is buffer:
@@ -115,7 +118,7 @@ class Fmi3:
         # FMI sets arrays as a whole: elements that are not written keep what they hold.
         present = [None if block.is_whole else self.call_on("Get", block) for block in blocks]
 
-        def write():
+        def write() -> None:
             for get, put, block in zip(present, calls, blocks):
                 if get is not None:
                     get()
@@ -139,17 +142,17 @@ class Fmi3:
             self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
             self.refuse("fmi3DoStep", ERROR)
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         return self.slave.getFMUState()
 
-    def revert(self, snapshot) -> None:
+    def revert(self, snapshot: Snapshot) -> None:
         self.slave.setFMUState(snapshot)
 
-    def forget(self, snapshot) -> None:
+    def forget(self, snapshot: Snapshot) -> None:
         self.slave.freeFMUState(snapshot)
 
-    def serialise(self, snapshot) -> bytes:
+    def serialise(self, snapshot: Snapshot) -> bytes:
         return bytes(self.slave.serializeFMUState(snapshot))
 
-    def deserialise(self, state: bytes):
+    def deserialise(self, state: bytes) -> Snapshot:
         return self.slave.deserializeFMUState(state)

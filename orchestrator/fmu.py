@@ -6,21 +6,27 @@ import shutil
 import weakref
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any, ParamSpec, TypeVar
 
 import fmpy
+import numpy as np
 from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 
+from fmu_src.arrays import Records
 from fmu_src.faults import InputFault, RunFault
-from fmu_src.slaves.kernel_slave import STAMP
-from fmu_src.source_hash import source_hash
+from fmu_src.source_hash import STAMP, source_hash
 from fmu_src.state import unpack
-from fmu_src.unit import make_unit
-from orchestrator.component import Component
+from fmu_src.unit import Specification, make_unit
+from orchestrator.component import Component, Element, Snapshot
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
 
-VERSIONS = {"2.0": Fmi2, "3.0": Fmi3}
+VERSIONS: dict[str, type[Fmi2 | Fmi3]] = {"2.0": Fmi2, "3.0": Fmi3}
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 
 class Fmu(Component):
@@ -34,7 +40,7 @@ class Fmu(Component):
         try:
             # Other people's descriptions need not be flawless: what matters is checked where it is used.
             self.description = fmpy.read_model_description(str(self.path), validate=False)
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             raise InputFault(f"{self.path} is not an FMU: {problem}") from None
         version = self.description.fmiVersion
         if self.description.coSimulation is None:
@@ -59,28 +65,29 @@ class Fmu(Component):
             self.calls = VERSIONS[version](
                 name, self.described, self.folder, self.messages.append, self.refuse
             )
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception for a library that is missing or does not load.
             raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
         try:
             self.calls.instantiate()
-        except Exception as problem:
+        except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
-        self.step = self.begin_step = self.calls.step
+        self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step
+
 
     @property
-    def slave(self):
+    def slave(self) -> FMU2Slave | FMU3Slave:
         """fmpy's object, for what the master does not need."""
         return self.calls.slave
 
-    def feedthrough(self):
+    def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         return self.described.feedthrough()
 
     def last_messages(self) -> str:
         return "; ".join(self.messages[-3:]) or "it logged nothing"
 
-    def attempt(self, function: Callable, *arguments, **named):
+    def attempt(self, function: Callable[Arguments, Result], *arguments: Arguments.args, **named: Arguments.kwargs) -> Result:
         """Call it; on an FMI error raise RunFault with what the FMU logged."""
         try:
             return function(*arguments, **named)
@@ -91,42 +98,44 @@ class Fmu(Component):
         """Raise for a call that the unit refused."""
         self.attempt(raise_refusal, function, status)
 
-    def reader(self, references, buffer):
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         return self.calls.reader(references, buffer)
 
-    def writer(self, references, buffer):
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         return self.calls.writer(references, buffer)
 
-    def derivative_writer(self, references, order, buffer):
+    def derivative_writer(self, references: tuple[int, ...], order: int, buffer: np.ndarray) -> Callable[[], None]:
+        # FMI 3 has none: its units say so by ``input_derivatives``.
+        assert isinstance(self.calls, Fmi2)
         return self.calls.derivative_writer(references, order, buffer)
 
-    def set_text(self, name, text):
+    def set_text(self, name: str, text: str) -> None:
         if name not in self.described.texts:
             super().set_text(name, text)
         self.attempt(self.calls.set_text, self.described.texts[name], text)
 
-    def enter_initialisation(self, start_time):
+    def enter_initialisation(self, start_time: float) -> None:
         self.attempt(self.calls.enter_initialisation, start_time)
 
-    def exit_initialisation(self):
+    def exit_initialisation(self) -> None:
         try:
             self.attempt(self.calls.exit_initialisation)
         except RunFault as fault:
             raise InputFault(str(fault)) from None
 
-    def step(self, time, duration):
+    def step(self, time: float, duration: float) -> None:
         """Replaced in the instance by the bound call."""
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         return self.attempt(self.calls.snapshot)
 
-    def revert(self, snapshot):
+    def revert(self, snapshot: Snapshot) -> None:
         self.attempt(self.calls.revert, snapshot)
 
-    def forget(self, snapshot):
+    def forget(self, snapshot: Snapshot) -> None:
         self.calls.forget(snapshot)
 
-    def save(self):
+    def save(self) -> bytes:
         if not self.description.coSimulation.canSerializeFMUstate:
             raise InputFault(f"{self.path}: this unit cannot write its state down (canSerializeFMUstate)")
         snapshot = self.snapshot()
@@ -135,14 +144,14 @@ class Fmu(Component):
         finally:
             self.forget(snapshot)
 
-    def restore(self, state):
+    def restore(self, state: bytes) -> None:
         snapshot = self.attempt(self.calls.deserialise, state)
         try:
             self.revert(snapshot)
         finally:
             self.forget(snapshot)
 
-    def stamp(self) -> dict | None:
+    def stamp(self) -> dict[str, Any] | None:
         """What this project writes into its FMUs; None for an FMU made by others."""
         path = self.folder / "resources" / STAMP
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
@@ -156,21 +165,22 @@ class Fmu(Component):
         if stamp is not None and stamp["source_hash"] != source_hash():
             raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
 
-    def specification(self) -> dict:
+    def specification(self) -> Specification:
         """What this project's FMU was built from, see fmu_src.unit."""
         stamp = self.stamp()
         if stamp is None:
             raise InputFault(f"{self.path} is not one of this project's FMUs; build them with: rvwear build")
-        return stamp["specification"]
+        specification: Specification = stamp["specification"]
+        return specification
 
-    def record(self):
+    def record(self) -> Records:
         table = make_unit(self.specification()).table
         records = table.new_records()
         identity = self.description.guid or self.description.instantiationToken
         table.cells(records)[: table.state_cells] = unpack(identity, self.save(), table.state_cells).cells
         return records
 
-    def close(self):
+    def close(self) -> None:
         with contextlib.suppress(FMICallException):
             # Refused before initialisation; it is freed all the same.
             self.slave.terminate()

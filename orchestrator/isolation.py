@@ -12,13 +12,16 @@ import struct
 import subprocess
 import sys
 import weakref
+from collections.abc import Callable
 from pathlib import Path
 from threading import Timer
+from typing import IO, Any
 
 import numpy as np
 
+from fmu_src.arrays import Records
 from fmu_src.faults import InputFault, RunFault
-from orchestrator.component import Component
+from orchestrator.component import Component, Element, Snapshot
 from orchestrator.fmu import Fmu
 from orchestrator.interrupts import interrupts_later
 from orchestrator.scratch import Scratch
@@ -52,6 +55,7 @@ class Isolated(Component):
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": str(self.scratch.path)},
             )  # fmt: skip
         # Also when nobody closes this: a unit that hangs would stay behind.
+        self.requests, self.answers = streams(self.process)
         self.end = weakref.finalize(self, end, self.process)
         try:
             shown = self.answer()
@@ -60,22 +64,22 @@ class Isolated(Component):
             raise
         for key in SHOWN:
             setattr(self, key, shown[key])
-        self.through = shown["feedthrough"]
+        self.through: dict[Element, tuple[Element, ...]] = shown["feedthrough"]
 
-    def call(self, method: str, *arguments):
+    def call(self, method: str, *arguments: object) -> Any:
         """Have the unit do something and return what comes of it."""
         self.send(method, *arguments)
         return self.answer()
 
-    def send(self, method: str, *arguments) -> None:
+    def send(self, method: str, *arguments: object) -> None:
         try:
-            write(self.process.stdin, (method, arguments))
+            write(self.requests, (method, arguments))
         except OSError:
             raise self.loss() from None
 
-    def answer(self):
+    def answer(self) -> Any:
         try:
-            kind, value = read(self.process.stdout)
+            kind, value = read(self.answers)
         except (EOFError, OSError):
             raise self.loss() from None
         if kind in FAULTS:
@@ -99,44 +103,44 @@ class Isolated(Component):
             " unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step"
         )
 
-    def feedthrough(self):
+    def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         return self.through
 
-    def reader(self, references, buffer):
+    def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         key = self.call("new_reader", references, buffer.dtype.str)
 
-        def read_values():
+        def read_values() -> None:
             buffer[:] = np.frombuffer(self.call("read", key), buffer.dtype)
 
         return read_values
 
-    def writer(self, references, buffer):
+    def writer(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         key = self.call("new_writer", references, buffer.dtype.str)
         return lambda: self.call("write", key, buffer.tobytes())
 
-    def derivative_writer(self, references, order, buffer):
+    def derivative_writer(self, references: tuple[int, ...], order: int, buffer: np.ndarray) -> Callable[[], None]:
         key = self.call("new_writer", references, buffer.dtype.str, order)
         return lambda: self.call("write", key, buffer.tobytes())
 
-    def set_text(self, name, text):
+    def set_text(self, name: str, text: str) -> None:
         self.call("set_text", name, text)
 
-    def enter_initialisation(self, start_time):
+    def enter_initialisation(self, start_time: float) -> None:
         self.doing = "initialisation"
         self.call("enter_initialisation", start_time)
 
-    def exit_initialisation(self):
+    def exit_initialisation(self) -> None:
         self.call("exit_initialisation")
 
-    def step(self, time, duration):
+    def step(self, time: float, duration: float) -> None:
         self.begin_step(time, duration)
         self.end_step()
 
-    def begin_step(self, time, duration):
+    def begin_step(self, time: float, duration: float) -> None:
         self.doing = f"the step of {duration:.6g} s at time {time:.9g} s"
         self.send("step", time, duration)
 
-    def end_step(self):
+    def end_step(self) -> None:
         if self.timeout is None:
             self.answer()
             return
@@ -151,40 +155,49 @@ class Isolated(Component):
         self.timed_out = True
         self.process.kill()
 
-    def save(self):
-        return self.call("save")
+    def save(self) -> bytes:
+        state: bytes = self.call("save")
+        return state
 
-    def restore(self, state):
+    def restore(self, state: bytes) -> None:
         self.call("restore", state)
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         return self.call("keep_snapshot")
 
-    def revert(self, snapshot):
+    def revert(self, snapshot: Snapshot) -> None:
         self.call("revert_to", snapshot)
 
-    def forget(self, snapshot):
+    def forget(self, snapshot: Snapshot) -> None:
         self.call("drop_snapshot", snapshot)
 
-    def record(self):
-        return self.call("record")
+    def record(self) -> Records:
+        record: Records = self.call("record")
+        return record
 
-    def close(self):
+    def close(self) -> None:
         self.end()
         self.scratch.remove()
 
 
-def end(process: subprocess.Popen) -> None:
+def streams(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:
+    """To where requests go and from where answers come."""
+    assert process.stdin is not None and process.stdout is not None
+    return process.stdin, process.stdout
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
     """Let go of a process: it ends when it comes to read, and is killed if it does not come to that."""
+    requests, answers = streams(process)
     # What was not sent to a process that crashed cannot be sent any more.
     with contextlib.suppress(OSError):
-        process.stdin.close()
+        requests.close()
     try:
         process.wait(CLOSING_SECONDS)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
-    process.stdout.close()
+    answers.close()
 
 
 class Worker:
@@ -192,32 +205,32 @@ class Worker:
 
     def __init__(self, component: Component):
         self.component = component
-        self.transfers: list[tuple] = []
-        self.snapshots: dict[int, object] = {}
+        self.transfers: list[tuple[Callable[[], None], np.ndarray]] = []
+        self.snapshots: dict[int, Snapshot] = {}
         self.taken = 0
 
-    def do(self, method: str, arguments: tuple):
+    def do(self, method: str, arguments: tuple[Any, ...]) -> Any:
         own = getattr(self, method, None)
         return own(*arguments) if own is not None else getattr(self.component, method)(*arguments)
 
-    def new_reader(self, references, dtype) -> int:
+    def new_reader(self, references: tuple[int, ...], dtype: str) -> int:
         buffer = np.zeros(len(references), dtype)
         self.transfers.append((self.component.reader(references, buffer), buffer))
         return len(self.transfers) - 1
 
-    def new_writer(self, references, dtype, order=None) -> int:
+    def new_writer(self, references: tuple[int, ...], dtype: str, order: int | None = None) -> int:
         buffer = np.zeros(len(references), dtype)
         made = self.component.writer(references, buffer) if order is None else (
             self.component.derivative_writer(references, order, buffer))
         self.transfers.append((made, buffer))
         return len(self.transfers) - 1
 
-    def read(self, key) -> bytes:
+    def read(self, key: int) -> bytes:
         transfer, buffer = self.transfers[key]
         transfer()
         return buffer.tobytes()
 
-    def write(self, key, values) -> None:
+    def write(self, key: int, values: bytes) -> None:
         transfer, buffer = self.transfers[key]
         buffer[:] = np.frombuffer(values, buffer.dtype)
         transfer()
@@ -227,24 +240,24 @@ class Worker:
         self.snapshots[self.taken] = self.component.snapshot()
         return self.taken
 
-    def revert_to(self, key) -> None:
+    def revert_to(self, key: int) -> None:
         self.component.revert(self.snapshots[key])
 
-    def drop_snapshot(self, key) -> None:
+    def drop_snapshot(self, key: int) -> None:
         self.component.forget(self.snapshots.pop(key))
 
 
-def write(stream, message) -> None:
+def write(stream: IO[bytes], message: object) -> None:
     data = pickle.dumps(message)
     stream.write(LENGTH.pack(len(data)) + data)
     stream.flush()
 
 
-def read(stream):
+def read(stream: IO[bytes]) -> Any:
     head = stream.read(LENGTH.size)
     if len(head) < LENGTH.size:
         raise EOFError
-    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))
+    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))  # noqa: S301
 
 
 def main(name: str, path: str) -> None:

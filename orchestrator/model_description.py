@@ -8,11 +8,17 @@ the set is complete and in order.  FMI 3 has arrays; each element gets a number 
 import re
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
+from fmu_src.arrays import Integers
 from fmu_src.units import BaseUnit
 from orchestrator.component import Element, Signal
+
+if TYPE_CHECKING:
+    from fmpy.model_description import ModelDescription, ModelVariable
 
 EXPONENTS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 REALS = ("Real", "Float64", "Float32")
@@ -27,12 +33,12 @@ MOST_CHOICES = 1000
 class Cells:
     """Place of every FMI 3 variable among the elements of all: first cell, size, reference, type."""
 
-    first: np.ndarray
-    size: np.ndarray
-    value_reference: np.ndarray
+    first: Integers
+    size: Integers
+    value_reference: npt.NDArray[np.uint32]
     kind: tuple[str, ...]
 
-    def variable_of(self, cells: np.ndarray) -> np.ndarray:
+    def variable_of(self, cells: Integers) -> Integers:
         """Index of the variable that each cell belongs to."""
         return np.searchsorted(self.first, cells, side="right") - 1
 
@@ -40,7 +46,7 @@ class Cells:
 class Described:
     """A model description, read once."""
 
-    def __init__(self, description):
+    def __init__(self, description: "ModelDescription"):
         self.description = description
         self.is_fmi3 = description.fmiVersion.startswith("3")
         self.variables = [
@@ -71,7 +77,7 @@ class Described:
     def signals(self) -> dict[str, Signal]:
         if self.is_fmi3:
             return {v.name: self.signal(v.name, [v], shape_of(v)) for v in self.variables}
-        signals = {}
+        signals: dict[str, Signal] = {}
         for base, members in grouped(self.variables).items():
             shape = array_shape(members)
             if shape is None:
@@ -80,7 +86,7 @@ class Described:
                 signals[base] = self.signal(base, members, shape)
         return signals
 
-    def signal(self, name: str, members: list, shape: tuple[int, ...]) -> Signal:
+    def signal(self, name: str, members: list["ModelVariable"], shape: tuple[int, ...]) -> Signal:
         v = members[0]
         unit = v.unit or (v.declaredType.unit if v.declaredType is not None else None)
         return Signal(
@@ -92,7 +98,7 @@ class Described:
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         """Output element -> input elements; an output without a declaration depends on every input."""
         inputs = [v for v in self.variables if v.causality == "input"]
-        depends = {}
+        depends: dict[Element, tuple[Element, ...]] = {}
         for unknown in self.description.outputs:
             if unknown.variable.name not in self.references:
                 continue
@@ -102,26 +108,26 @@ class Described:
                 depends |= dict.fromkeys(self.elements(unknown.variable), causes)
         return depends
 
-    def elements(self, variable) -> list[Element]:
+    def elements(self, variable: "ModelVariable") -> list[Element]:
         kind = "?" if variable.type == "Boolean" else "i8" if variable.type in INTEGERS else "f8"
         return [(kind, r) for r in self.references[variable.name]]
 
 
-def shape_of(variable) -> tuple[int, ...]:
+def shape_of(variable: "ModelVariable") -> tuple[int, ...]:
     """An FMI 3 variable's shape; a dimension is a number or a structural parameter's start."""
     return tuple(int(d.start if d.start is not None else d.variable.start) for d in variable.dimensions or [])
 
 
-def grouped(variables: list) -> dict[str, list]:
+def grouped(variables: list["ModelVariable"]) -> dict[str, list["ModelVariable"]]:
     """Scalars by the name before their indices."""
-    groups: dict[str, list] = {}
+    groups: dict[str, list[ModelVariable]] = {}
     for v in variables:
         match = INDEXED.fullmatch(v.name)
         groups.setdefault(match[1] if match else v.name, []).append(v)
     return groups
 
 
-def array_shape(members: list) -> tuple[int, ...] | None:
+def array_shape(members: list["ModelVariable"]) -> tuple[int, ...] | None:
     """Shape of the array that the scalars make up, row by row from 1; None if they make none."""
     indices = []
     for v in members:
@@ -136,7 +142,7 @@ def array_shape(members: list) -> tuple[int, ...] | None:
     return shape
 
 
-def choices_of(variable) -> tuple[str, ...]:
+def choices_of(variable: "ModelVariable") -> tuple[str, ...]:
     """Names of an enumeration's values, by value; those of a Boolean are false and true."""
     if variable.type == "Boolean":
         return ("false", "true")

@@ -4,6 +4,7 @@ import json
 import sys
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,7 +14,7 @@ from fmu_src.source_hash import source_hash
 LIBRARIES = ("llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu")
 
 
-def provenance(inputs: dict) -> dict[str, str]:
+def provenance(inputs: dict[str, Any]) -> dict[str, str]:
     """Attributes that say how a result came about."""
     return {
         "inputs": json.dumps(inputs, sort_keys=True),
@@ -24,7 +25,7 @@ def provenance(inputs: dict) -> dict[str, str]:
     }
 
 
-def series_dataset(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict) -> xr.Dataset:
+def series_dataset(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict[str, Any]) -> xr.Dataset:
     """Series of a run over ``time``; names ``component.signal``."""
     variables = {}
     for name, values in series.items():

@@ -105,7 +105,7 @@ def write_junit(comparisons: Sequence[Comparison], suite: str, seconds: float, w
     failed = [c for c in comparisons if not c.passed]
     counts = {"tests": str(len(comparisons)), "failures": str(len(failed)), "errors": "0"}
     root = ElementTree.Element("testsuites", counts)
-    element = ElementTree.SubElement(root, "testsuite", name=suite, time=f"{seconds:.3f}", skipped="0", **counts)
+    element = ElementTree.SubElement(root, "testsuite", {"name": suite, "time": f"{seconds:.3f}", "skipped": "0"} | counts)
     for comparison in comparisons:
         case = ElementTree.SubElement(element, "testcase", classname=suite, name=comparison.variable, time="0")
         if not comparison.passed:

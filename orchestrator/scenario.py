@@ -161,16 +161,16 @@ def seconds(quantity: Quantity, place: str) -> float:
 
 def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool) -> Component:
     place = f"{path}: components.{name}"
-    if (entry.fmu is None) == (entry.reducer is None):
-        raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant", "wear" or "reducer"')
-    if entry.fmu is not None:
+    if entry.fmu is not None and entry.reducer is None:
         component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate)
-    else:
+    elif entry.reducer is not None and entry.fmu is None:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant", "wear" or "reducer" (both in one)')
         reducer_path = path.parent / entry.reducer if entry.reducer.endswith(".toml") else entry.reducer
         unit = {"plant": "rv_plant", "wear": "wear_fmu", "reducer": "rv_reducer"}[entry.unit]
         component = InProcess(name, load_reducer(reducer_path).specification(unit))
+    else:
+        raise InputFault(f'{place}: give either fmu = "FILE" or reducer = "NAME" with unit = "plant", "wear" or "reducer"')
     for key, value in entry.parameters.items():
         set_parameter(component, key, value, place)
     return component

@@ -2,6 +2,7 @@
 
 import csv
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from orchestrator import netcdf
 SUFFIXES = (".csv", ".nc")
 
 
-def write_series(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict, path: Path) -> Path:
+def write_series(series: dict[str, np.ndarray], units: dict[str, str], inputs: dict[str, Any], path: Path) -> Path:
     """CSV or NetCDF by the file's ending; Booleans become 0 and 1."""
     plain = {name: values.astype("i4") if values.dtype == bool else values for name, values in series.items()}
     if path.suffix != ".csv":
@@ -36,7 +37,7 @@ def read_series(path: Path) -> dict[str, np.ndarray]:
             dataset = netcdf.read(path)
         except (OSError, ValueError) as problem:
             raise InputFault(f"{path} is not a result of rvwear run: {problem}") from None
-        columns = flat({name: values.values for name, values in dataset.variables.items()})
+        columns = flat({str(name): values.values for name, values in dataset.variables.items()})
     else:
         columns = read_csv(path)
     if "time" not in columns or len(columns["time"]) == 0:

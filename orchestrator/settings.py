@@ -6,12 +6,14 @@
 
 import difflib
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import Table, ValueFault
-from orchestrator.component import Component
+from fmu_src.variables import Table, ValueFault, Variable
+from orchestrator.component import Component, Signal
 
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
 
@@ -22,6 +24,14 @@ class Setting:
 
     name: str
     value: float | int
+
+
+@dataclass(frozen=True)
+class ArraySetting:
+    """A value for each element of an array, in its shape."""
+
+    name: str
+    value: Floats
 
 
 def parse_setting(text: str, tables: list[Table]) -> Setting:
@@ -52,7 +62,7 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
     return Setting(name, number)
 
 
-def parse_value(text: str, variable) -> float | int:
+def parse_value(text: str, variable: Variable | Signal) -> float | int:
     """A number with an optional unit, or a choice's name, in the variable's unit."""
     if variable.choices:
         if text not in variable.choices:
@@ -72,7 +82,7 @@ def parse_value(text: str, variable) -> float | int:
     return number
 
 
-def apply(settings: list[Setting], components: dict[str, Component]) -> None:
+def apply(settings: Iterable[Setting | ArraySetting], components: Mapping[str, Component]) -> None:
     """Set each on every component that has it."""
     for setting in settings:
         base = setting.name.partition("[")[0]

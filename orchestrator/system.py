@@ -5,12 +5,14 @@
     series = system.run(duration=0.2, record=["plant.lag"])
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fmu_src.faults import InputFault
 from orchestrator.component import Component
@@ -47,7 +49,7 @@ class System:
         name, signal = resolve(self.master.components, path)
         return self.master.components[name].get(signal.name)
 
-    def __setitem__(self, path: str, value) -> None:
+    def __setitem__(self, path: str, value: npt.ArrayLike) -> None:
         """Set a parameter or input: a number in its unit, or a text with its own ("150 N.m")."""
         name, signal = resolve(self.master.components, path)
         self.master.components[name].set(signal.name, parse_value(value, signal) if isinstance(value, str) else value)
@@ -117,7 +119,7 @@ def whole_steps(duration: float, step: float) -> int:
     return round(steps)
 
 
-def load(path: str | Path, step: float | None = None, isolate: bool = False, **master) -> System:
+def load(path: str | Path, step: float | None = None, isolate: bool = False, **master: Any) -> System:
     """The system of an SSP package (.ssp, .ssd or a folder), a scenario (.toml), or a single FMU.
 
     ``step`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
@@ -139,7 +141,7 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
             structure.notes.append(f"{name}.{variable}")
     named = step or structure.step or usual_step(components, structure.stop)
     size = named or LAST_RESORT
-    usual = {"start_time": structure.start, "scheme": structure.scheme or SCHEMES[0]}
+    usual: dict[str, Any] = {"start_time": structure.start, "scheme": structure.scheme or SCHEMES[0]}
     made = Master(components, structure.connections, size, **usual | master)
     if structure.notes:
         made.warn(f"{path.name}: left out the values of {', '.join(structure.notes)}, which are no variables of the system")
@@ -150,8 +152,8 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
 
 
 def connect(
-    fmus: dict[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
-    step: float | None = None, isolate: bool = False, **master,
+    fmus: Mapping[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
+    step: float | None = None, isolate: bool = False, **master: Any,
 ) -> System:  # fmt: skip
     """A system of FMUs by name and their connections."""
     components = {

@@ -2,15 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from pages import look
-from pages.look import Figure
+from pages.look import Figure, Layout
 
 # Colour-blind safe, in the order of use.
 COLOURS = ("#0b4f94", "#d55e00", "#009e73", "#98a3af", "#cc79a7", "#e0a000")
+
+
+Row = npt.NDArray[np.floating | np.integer]
 
 
 @dataclass(frozen=True)
@@ -18,8 +21,8 @@ class Curve:
     """One line (or scatter, with ``mode`` "markers")."""
 
     label: str
-    x: np.ndarray
-    y: np.ndarray
+    x: Row
+    y: Row
     colour: str = ""
     dash: str = "solid"
     mode: str = "lines"
@@ -28,7 +31,7 @@ class Curve:
 
 def chart(
     name: str, title: str, caption: str, curves: Sequence[Curve], x_title: str, y_title: str, columns: int = 6, height: int = 300,
-    marks: Sequence[tuple[float, str]] = (), x_axis: dict[str, Any] | None = None, y_axis: dict[str, Any] | None = None,
+    marks: Sequence[tuple[float, str]] = (), x_axis: Layout | None = None, y_axis: Layout | None = None,
 ) -> Figure:  # fmt: skip
     """A figure of curves; ``marks`` are (x, text) of vertical dotted lines."""
     traces = []
@@ -53,7 +56,7 @@ def chart(
     return Figure(name, title, caption, traces, picture, columns, height)
 
 
-def degrees_axis(last: float = 180.0) -> dict:
+def degrees_axis(last: float = 180.0) -> Layout:
     """Phase on the tooth, 0 root to 180 tip (and 360 the next root)."""
     return {"range": [0.0, last], "dtick": 30.0 if last <= 180.0 else 60.0, "tick0": 0.0}
 
@@ -62,7 +65,7 @@ PHASE = "phase on the tooth [°]: 0 root, 180 tip"
 
 
 def picture(name: str, title: str, caption: str, curves: Sequence[Curve], columns: int = 6, height: int = 340) -> Figure:
-    """Curves of complex points to scale, without axes."""
+    """Curves to scale, without axes."""
     traces = []
     for i, curve in enumerate(curves):
         colour = curve.colour or COLOURS[i % len(COLOURS)]

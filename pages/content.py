@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from pages.look import Figure
+from pages.look import Figure, Layout, Trace
 
 
 @dataclass(frozen=True)
@@ -10,8 +10,8 @@ class Choice:
     """One entry of a figure's selector: an update for each trace, and what changes in the layout."""
 
     label: str
-    traces: list[dict]
-    layout: dict = field(default_factory=dict)
+    traces: list[Trace]
+    layout: Layout = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

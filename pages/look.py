@@ -2,8 +2,10 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 INK, QUIET, GRID, STEEL, PAPER = "#1d2733", "#5d6975", "#e4e9ee", "#eceff2", "#ffffff"
 START, NOW = "#98a3af", "#0b4f94"
@@ -20,6 +22,10 @@ SURFACES = {
 }
 FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", sans-serif'
 
+# As plotly.js takes them, ready for JSON: a trace or changes to one, a layout or a part of one.
+Trace = dict[str, Any]
+Layout = dict[str, Any]
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -35,13 +41,13 @@ class Figure:
     name: str
     title: str
     caption: str
-    data: list[dict]
-    layout: dict
+    data: list[Trace]
+    layout: Layout
     columns: int = 6
     height: int = 300
     aspect: str = ""
     keys: list[tuple[str, str, str]] = field(default_factory=list)
-    states: list[list[list[dict | int | None]]] = field(default_factory=list)
+    states: list[list[list[Trace | int | None]]] = field(default_factory=list)
     rows_of: str = ""
     rows: int = 1
 
@@ -60,11 +66,11 @@ def hour_colours(count: int) -> list[str]:
     return [blend(HOURS, i / max(count - 1, 1)) if count > 1 else HOURS[-1] for i in range(count)]
 
 
-def colour_scale(scale: tuple[str, ...]) -> list[list]:
+def colour_scale(scale: tuple[str, ...]) -> list[list[float | str]]:
     return [[i / (len(scale) - 1), colour] for i, colour in enumerate(scale)]
 
 
-def short(values, digits: int = 4):
+def short(values: npt.ArrayLike, digits: int = 4) -> Any:
     """Nested lists with as many decimals as ``digits`` of the largest value need; NaN becomes None."""
     array = np.asarray(values, float)
     finite = np.abs(array[np.isfinite(array)])
@@ -74,7 +80,7 @@ def short(values, digits: int = 4):
     return plain(rounded.tolist())
 
 
-def plain(value):
+def plain(value: Any) -> Any:
     if isinstance(value, list):
         return [plain(v) for v in value]
     if value is None or not math.isfinite(value):
@@ -82,7 +88,7 @@ def plain(value):
     return int(value) if value == int(value) else value
 
 
-def axis(title: str, **more) -> dict:
+def axis(title: str, **more: Any) -> Layout:
     """An axis with its title; quiet lines."""
     return {
         "title": {"text": title, "font": {"size": 12, "color": QUIET}, "standoff": 8},
@@ -91,17 +97,17 @@ def axis(title: str, **more) -> dict:
     } | more  # fmt: skip
 
 
-def hour_axis(hours: np.ndarray) -> dict:
+def hour_axis(hours: npt.NDArray[np.float64]) -> Layout:
     """Operating time from zero to a little beyond the last recorded hour."""
     last = float(hours[-1]) or 1.0
     return axis("operating time [h]", range=[-0.03 * last, 1.04 * last], tickformat=",~r", nticks=6, automargin=False)
 
 
-def angle_axis(title: str, low: float, high: float, step: float, **more) -> dict:
+def angle_axis(title: str, low: float, high: float, step: float, **more: Any) -> Layout:
     return axis(title, range=[low, high], dtick=step, tick0=low, automargin=False, **more)
 
 
-def layout(**more) -> dict:
+def layout(**more: Any) -> Layout:
     """A figure's layout: transparent, small margins, no legend (keys stand in the page)."""
     return {
         "font": {"family": FONT, "size": 12, "color": INK}, "paper_bgcolor": "rgba(0,0,0,0)",
@@ -111,7 +117,7 @@ def layout(**more) -> dict:
     } | more  # fmt: skip
 
 
-def drawing(x_range: list[float], y_range: list[float], **more) -> dict:
+def drawing(x_range: list[float], y_range: list[float], **more: Any) -> Layout:
     """Layout of a picture to scale: equal units, no axes."""
     bare = {"visible": False, "fixedrange": False}
     return layout(
@@ -122,22 +128,24 @@ def drawing(x_range: list[float], y_range: list[float], **more) -> dict:
     )
 
 
-def line(x, y, colour: str, width: float = 1.8, dash: str = "solid", hover: str | None = None, **more) -> dict:
-    """A line trace; without ``hover`` text it does not react to the pointer."""
-    trace = {"type": "scatter", "mode": "lines", "y": y, "line": {"color": colour, "width": width, "dash": dash}}
+def line(x: Any, y: Any, colour: str, width: float = 1.8, dash: str = "solid", hover: str | None = None, **more: Any) -> Trace:
+    """A line trace through ``short`` values; without ``hover`` text it does not react to the pointer."""
+    trace: Trace = {"type": "scatter", "mode": "lines", "y": y, "line": {"color": colour, "width": width, "dash": dash}}
     trace |= {} if x is None else {"x": x}
     trace |= {"hovertemplate": hover + "<extra></extra>"} if hover else {"hoverinfo": "skip"}
     return trace | more
 
 
-def path(points: np.ndarray, colour: str, width: float = 1.2, close: bool = False, digits: int = 5, **more) -> dict:
+def path(
+    points: npt.NDArray[np.complex128], colour: str, width: float = 1.2, close: bool = False, digits: int = 5, **more: Any
+) -> Trace:
     """A line through complex points."""
     if close:
         points = np.append(points, points[0])
     return line(short(points.real, digits), short(points.imag, digits), colour, width, **more)
 
 
-def note(x: float, y: float, text: str, **more) -> dict:
+def note(x: float, y: float, text: str, **more: Any) -> Layout:
     """An annotation without arrow."""
     return {
         "x": round(float(x), 4), "y": round(float(y), 4), "text": text, "showarrow": False,
@@ -145,7 +153,7 @@ def note(x: float, y: float, text: str, **more) -> dict:
     } | more  # fmt: skip
 
 
-def upright(x: float, text: str = "", colour: str = QUIET, reference: str = "paper") -> tuple[dict, dict]:
+def upright(x: float, text: str = "", colour: str = QUIET, reference: str = "paper") -> tuple[Layout, Layout]:
     """A vertical dotted line over the whole plot and its label on top: (shape, annotation)."""
     shape = {
         "type": "line", "xref": "x", "yref": reference, "x0": x, "x1": x, "y0": 0, "y1": 1, "layer": "below",
@@ -155,7 +163,7 @@ def upright(x: float, text: str = "", colour: str = QUIET, reference: str = "pap
     return shape, label
 
 
-def padded(values, floor: float = 0.0, share: float = 0.06) -> list[float]:
+def padded(values: npt.ArrayLike, floor: float = 0.0, share: float = 0.06) -> list[float]:
     """Range of all finite values with a margin; at least ``floor`` wide."""
     array = np.asarray(values, float)
     array = array[np.isfinite(array)]
@@ -164,7 +172,7 @@ def padded(values, floor: float = 0.0, share: float = 0.06) -> list[float]:
     return [low - spare, high + spare]
 
 
-def scale_bars(start: complex, step: complex, room: float, times: float) -> tuple[list[dict], list[dict]]:
+def scale_bars(start: complex, step: complex, room: float, times: float) -> tuple[list[Trace], list[Layout]]:
     """Bars, at most ``room`` long and ``step`` apart, for the part [mm] and its wear [um]: (traces, labels)."""
     bars = [(round_down(room), "{:g} mm of the part", QUIET)]
     if times:

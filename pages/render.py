@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
@@ -58,7 +59,7 @@ def embedded(figures: Sequence[Figure], hours: Sequence[str]) -> Markup:
     return Markup(text.replace("<", "\\u003c"))
 
 
-def described(figure: Figure) -> dict:
+def described(figure: Figure) -> dict[str, Any]:
     choices = figure.choices if isinstance(figure, Choosable) else []
     return {
         "name": figure.name, "data": figure.data, "layout": figure.layout, "states": figure.states, "rows": figure.rows_of,

@@ -8,7 +8,7 @@ def hour_text(hours: float) -> str:
     return f"{hours:,.4g} h" if hours < 1000.0 else f"{hours:,.0f} h"
 
 
-def number(value: float, digits: int = 3) -> str:
+def number(value: float | None, digits: int = 3) -> str:
     """Rounded to significant digits, thousands marked, no exponent between 1e-3 and 1e6."""
     if value is None or not math.isfinite(value):
         return "–"

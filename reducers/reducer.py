@@ -11,10 +11,12 @@ import tomllib
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fmu_src.faults import InputFault
+from fmu_src.unit import Specification
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
@@ -27,6 +29,9 @@ from wear_fmu.variables import Resolution, wear_table
 
 class Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=False)
+
+
+Piece = TypeVar("Piece", bound=Strict)
 
 
 class Entry(Strict):
@@ -67,7 +72,7 @@ class Reducer:
     path: Path
     resolution: Resolution = Resolution()
 
-    def specification(self, unit: str) -> dict:
+    def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         names = {"rv_plant": self.plant, "wear_fmu": self.wear, "rv_reducer": self.joint}[unit].by_name
         return {
@@ -128,7 +133,8 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
             " the axis turns the discs; set cranks = 1, or output_pins = 0"
         )
     topology = Topology(**counts.model_dump())
-    starts, sources = {}, {}
+    starts: dict[str, float] = {}
+    sources: dict[str, str] = {}
     tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
     for section, entries in content.items():
         if not isinstance(entries, dict):
@@ -147,13 +153,13 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
     return Reducer(head.name, head.description, topology, starts, sources, path)
 
 
-def checked(model: type[Strict], raw, path: Path, place: str):
+def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
     """Validate one piece of the file; the error names file, key, value and remedy."""
     if raw is None:
         raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
     if not isinstance(raw, dict):
         raise InputFault(
-            f"{path}: {place} = {raw!r} has no unit: write {place.split('.')[-1]} ="
+            f"{path}: {place} = {raw!r} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
             ' { value = ..., unit = "...", source = "..." }'
         )
     try:

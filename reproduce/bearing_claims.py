@@ -4,15 +4,29 @@ import math
 
 import numpy as np
 
+from fmu_src.arrays import Floats
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CONDITIONAL, NEEDLE, REPRODUCED, Finding, Number, states,
+    CONDITIONAL,
+    NEEDLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.contacts import Contacts
 from reproduce.context import BX, RV, Context
 from reproduce.force_claims import ring_moment
-from pages.charts import Curve, chart
 from rv_plant.contact import (
-    LINE, LITERAL, PALMGREN, SI, STEP, damped_force, hertz_half_width, hertz_peak_pressure, law_constants,
+    LINE,
+    LITERAL,
+    PALMGREN,
+    SI,
+    STEP,
+    damped_force,
+    hertz_half_width,
+    hertz_peak_pressure,
+    law_constants,
 )  # fmt: skip
 from rv_plant.gear_stage import total_ratio
 
@@ -50,7 +64,7 @@ def clearance(context: Context) -> Finding:
         CONDITIONAL, "The radii close to zero clearance, which no real bearing has; lag and transmission error"
         " depend on it most of all. It has to be an extra parameter.",
         numbers, [("closed to a nanometre", abs(play) < 1e-9),
-                  ("ten micrometres quadruple the lag", numbers[7].value > 4.0 * numbers[1].value)],
+                  ("ten micrometres quadruple the lag", numbers[7].found > 4.0 * numbers[1].found)],
                   "clearance stated separately (here 2.5 µm, assumed)",
     )  # fmt: skip
 
@@ -69,7 +83,7 @@ def stiffness(context: Context) -> Finding:
     found = {}
     for name, audited in ((RV, (382.0, 199.0)), (BX, (1113.0, 581.0))):
         torque = context.reducer(name).starts["load_torque"]
-        for i, reading in enumerate(("SI", "literal")):
+        for _i, reading in enumerate(("SI", "literal")):
             full, half = (float(context.contacts(name, f"stiffness_reading={reading}",
                                                  f"load_torque={t!r}").turn["lag"].mean()) for t in (torque,
                                                      0.5 * torque))
@@ -89,7 +103,7 @@ def stiffness(context: Context) -> Finding:
 
 @states("N04", NEEDLE, "Contact damping", "F = K d^(10/9) + C c_c v with a damping tuning factor c_c.")
 def damping(context: Context) -> Finding:
-    record = context.pair(RV).plant.records
+    record = context.pair(RV).plant.record()
     k, n = float(record["mesh_constant"][0]), float(record["mesh_exponent"][0])
     c, depth, speed = 300.0, 1e-6, 5e-3
     first, _, _, _ = damped_force(1e-12, speed, k, n, STEP, c, depth, speed)
@@ -124,14 +138,14 @@ def half_widths(context: Context) -> Finding:
     )  # fmt: skip
 
 
-def bearing_loads(contacts: Contacts) -> np.ndarray:
+def bearing_loads(contacts: Contacts) -> Floats:
     """Resultant of the rollers [N], (position, disc, crank)."""
     force = contacts.turn["roller_force"]
     cage = contacts.turn["cage_angle"].ravel()
     middle = cage - 0.5 * np.diff(cage).mean()
     n = force.shape[-1]
     angle = middle[:, None] + 2.0 * np.pi * np.arange(n) / n
-    return np.abs((force * np.exp(1j * angle)[:, None, None, :]).sum(axis=-1))
+    return np.asarray(np.abs((force * np.exp(1j * angle)[:, None, None, :]).sum(axis=-1)))
 
 
 @states("N06", NEEDLE, "Instantaneous centre near the bearing", "The instantaneous centre of the meshing"

@@ -8,8 +8,10 @@ the verdict no longer stands, and table, page and tests say so.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from pages.look import Figure
 from reproduce.context import Context
@@ -27,6 +29,9 @@ CATALOGUE = "catalogue"
 INDIVIDUALITY = "individuality of parts"
 SOURCES = (TOOTH, NEEDLE, LITERATURE, CATALOGUE, INDIVIDUALITY)
 
+# A value, or a range (low, high).
+Audited = float | tuple[float, float]
+
 
 @dataclass(frozen=True)
 class Number:
@@ -41,20 +46,27 @@ class Number:
     unit: str
     value: float | None = None
     printed: float | None = None
-    audited: float | tuple[float, float] | None = None
+    audited: Audited | None = None
     tolerance: float = 0.03
+
+    @property
+    def found(self) -> float:
+        """What the right physics gives, else what the printed formula gives."""
+        found = self.printed if self.value is None else self.value
+        if found is None:
+            raise ValueError(f"{self.label}: neither computed nor printed")
+        return found
 
     @property
     def agrees(self) -> bool | None:
         """Whether the number confirms the independent check; None without one."""
         if self.audited is None:
             return None
-        found = self.printed if self.value is None else self.value
         if isinstance(self.audited, tuple):
             low, high = self.audited
             spare = self.tolerance * max(abs(low), abs(high))
-            return low - spare <= found <= high + spare
-        return math.isclose(found, self.audited, rel_tol=self.tolerance, abs_tol=1e-12)
+            return bool(low - spare <= self.found <= high + spare)
+        return math.isclose(self.found, self.audited, rel_tol=self.tolerance, abs_tol=1e-12)
 
 
 @dataclass(frozen=True)
@@ -64,7 +76,7 @@ class Finding:
     verdict: str
     why: str
     numbers: list[Number]
-    grounds: list[tuple[str, bool]]
+    grounds: Sequence[tuple[str, bool | np.bool]]
     condition: str = ""
     figures: list[Figure] = field(default_factory=list)
 
@@ -95,15 +107,16 @@ class Claim:
         return [number for number in self.numbers if number.agrees is False]
 
 
+Finder = Callable[[Context], Finding]
 REGISTRY: dict[str, Callable[[Context], Claim]] = {}
 
 
-def states(identity: str, source: str, title: str, says: str):
+def states(identity: str, source: str, title: str, says: str) -> Callable[[Finder], Finder]:
     """Register the function below as the claim ``identity`` of a source."""
     if identity in REGISTRY:
         raise ValueError(f"claim {identity} is registered twice")
 
-    def register(function: Callable[[Context], Finding]) -> Callable[[Context], Finding]:
+    def register(function: Finder) -> Finder:
         def judge(context: Context) -> Claim:
             f = function(context)
             if f.verdict not in VERDICTS or (f.verdict == CONDITIONAL) != bool(f.condition):
@@ -119,6 +132,6 @@ def states(identity: str, source: str, title: str, says: str):
     return register
 
 
-def listed(values, unit: str = "", digits: int = 3) -> str:
+def listed(values: Iterable[float], unit: str = "", digits: int = 3) -> str:
     """Numbers in running text."""
     return ", ".join(f"{v:.{digits}g}" for v in values) + (f" {unit}" if unit else "")

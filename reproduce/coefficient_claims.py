@@ -3,15 +3,27 @@
 import math
 
 import numpy as np
+import numpy.typing as npt
 
-from studies.life import run_cycle, wear_figures
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, TOOTH, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    NOT_TESTABLE,
+    REPRODUCED,
+    TOOTH,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import BX, Context
-from pages.charts import Curve, chart
+from studies.life import run_cycle, wear_figures
 from wear_fmu.pin_on_disc import (
-    PinOnDiscTest, instantaneous_coefficient, secant_coefficient, smallest_visible_coefficient, worn_mass,
+    PinOnDiscTest,
+    instantaneous_coefficient,
+    secant_coefficient,
+    smallest_visible_coefficient,
+    worn_mass,
 )  # fmt: skip
 from wear_fmu.wear_laws import CONSTANT, run_in_factor, wear_coefficient
 
@@ -21,21 +33,21 @@ BALANCE = 1e-7  # kg, a balance of 0.1 mg
 CYCLES = 5000.0
 
 
-def test_of(load: float, hours, law: tuple[float, float, float, float]) -> PinOnDiscTest:
+def test_of(load: float, hours: npt.ArrayLike, law: tuple[float, float, float, float]) -> PinOnDiscTest:
     """A test without noise under the law (K, r, s0 [m], m), reference load 40 N."""
-    times = 3600.0 * np.atleast_1d(hours)
-    empty = PinOnDiscTest(load, RADIUS, REVOLUTIONS, HARDNESS, DENSITY, times, 0.0 * times)
+    times = tuple((3600.0 * np.atleast_1d(hours)).tolist())
+    empty = PinOnDiscTest(load, RADIUS, REVOLUTIONS, HARDNESS, DENSITY, times, (0.0,) * len(times))
     k, r, s0, m = law
     x = np.array([math.log(k), math.log(r), math.log(s0), m])
     losses, _ = worn_mass(x, empty.distances, empty.mass_per_distance, math.log(load / 40.0))
-    return PinOnDiscTest(load, RADIUS, REVOLUTIONS, HARDNESS, DENSITY, times, losses)
+    return PinOnDiscTest(load, RADIUS, REVOLUTIONS, HARDNESS, DENSITY, times, tuple(losses.tolist()))
 
 
 def new_wear_per_turn(context: Context) -> tuple[float, float]:
     """(flank depth [um] per crank turn and kappa, hours per crank turn) of new parts, constant kappa."""
     def make() -> tuple[float, float]:
         pair = context.pair(BX, "mesh_wear_law=constant")
-        kappa, hour = pair.wear.get("mesh_wear_coefficient"), pair.turn_time / 3600.0
+        kappa, hour = pair.wear.number("mesh_wear_coefficient"), pair.turn_time / 3600.0
         run_cycle(pair, 1.0)
         return wear_figures(pair.wear.record())["disc_flank_um"] * hour / kappa, hour
 
@@ -60,7 +72,7 @@ def five_thousand_cycles(context: Context) -> Finding:
     lived = float(np.interp(5.0, life.figure("disc_flank_um"), life.hours))
     numbers += [Number("hours for 5 µm at kappa = 5e-9, loads as new", "h", hours),
                 Number("the same with the loads moving on", "h", lived, None, (1000.0, 10_000.0))]
-    lowest, highest = numbers[4].value, numbers[1].value
+    lowest, highest = numbers[4].found, numbers[1].found
     return Finding(
         NOT_TESTABLE, "Neither the depth nor kappa nor what a cycle is are given. Wear of micrometres in 5,000"
         " cycles needs the kappa above, a thousand"

@@ -7,9 +7,11 @@ flank gets a false second hump (claim T26).
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from orchestrator.settings import Setting, parse_setting
 from reducers.reducer import Reducer, load_reducer
 from reproduce.contacts import Contacts, contacts_of
@@ -26,6 +28,8 @@ POSITIONS, TOLERANCE, HOURS = 72, 0.02, 10_000.0
 # At most [h]: statements are looked at from a few hundred hours on.
 FIRST_JUMP = 200.0
 
+Made = TypeVar("Made")
+
 
 @dataclass
 class LifeRun:
@@ -37,25 +41,25 @@ class LifeRun:
     lost_motion_arcsec: list[float] = field(default_factory=list)
 
     @property
-    def hours(self) -> np.ndarray:
+    def hours(self) -> Floats:
         return np.array(self.life.hours)
 
-    def figure(self, name: str) -> np.ndarray:
+    def figure(self, name: str) -> Floats:
         """A figure over the recorded hours."""
         return np.array([figures[name] for figures in self.life.figures])
 
-    def tooth(self, hour: int = -1) -> np.ndarray:
+    def tooth(self, hour: int = -1) -> Floats:
         """Mean depth over all teeth [m], by the bins of a lobe from root to root."""
         wear = self.life.surfaces[hour]["disc_wear"]
         lobes = self.pair.reducer.topology.lobes
-        return wear.reshape(wear.shape[0] * lobes, -1).mean(axis=0)
+        return np.asarray(wear.reshape(wear.shape[0] * lobes, -1).mean(axis=0))
 
     def at(self, hours: float) -> int:
         """Index of the recorded hour nearest to ``hours``."""
         return int(np.abs(self.hours - hours).argmin())
 
 
-def flank_of(tooth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def flank_of(tooth: Floats) -> tuple[Floats, Floats]:
     """(phase [deg, 0 to 180], depth) of the more worn flank of a tooth's bins."""
     half = tooth.size // 2
     phase = 180.0 * (np.arange(half) + 0.5) / half
@@ -68,15 +72,16 @@ class Context:
 
     def __init__(self, progress: Callable[[str], None] = lambda _: None):
         self.progress = progress
-        self.known: dict[tuple, object] = {}
+        self.known: dict[tuple[object, ...], Any] = {}
 
-    def once(self, key: tuple, make: Callable[[], object], text: str = ""):
+    def once(self, key: tuple[object, ...], make: Callable[[], Made], text: str = "") -> Made:
         """The value of ``key``, made at the first call."""
         if key not in self.known:
             if text:
                 self.progress(text)
             self.known[key] = make()
-        return self.known[key]
+        made: Made = self.known[key]
+        return made
 
     def reducer(self, name: str) -> Reducer:
         return self.once(("reducer", name), lambda: load_reducer(name))
@@ -119,7 +124,7 @@ class Context:
         def make() -> LifeRun:
             pair = self.pair(name, *texts)
             run = LifeRun(pair, Life(LifeSettings(hours=hours)))
-            torque = pair.plant.get("load_torque")
+            torque = pair.plant.number("load_torque")
             for _ in range(parts):
                 for sign in (1.0, -1.0):
                     pair.plant.set("load_torque", sign * torque)
@@ -136,9 +141,9 @@ class Context:
         make = lambda: hysteresis(self.reducer(name), self.settings(name, texts), steps=20, angles=8)  # noqa: E731
         return self.once(("stiffness", name, texts), make)
 
-    def output_turn(self, name: str, *texts: str, positions: int = 48):
+    def output_turn(self, name: str, *texts: str, positions: int = 48) -> Floats:
         """Lag of a new reducer over one output turn [arcsec], as the plant's series."""
-        def make() -> np.ndarray:
+        def make() -> Floats:
             pair = self.pair(name, *texts, positions=positions)
             pair.wear.set("acceleration", 0.0)
             return ARCSEC * record_turn(pair, positions * pair.reducer.topology.lobes)["lag"].ravel()
@@ -148,7 +153,7 @@ class Context:
 
 def lost_motion(pair: Pair) -> float:
     """Turning between +3 % and -3 % of the torque at the present wear [arcsec]."""
-    saved, torque = pair.master.save(), pair.plant.get("load_torque")
+    saved, torque = pair.master.save(), pair.plant.number("load_torque")
     pair.wear.set("acceleration", 0.0)
     means = []
     for sign in (1.0, -1.0):
@@ -158,6 +163,6 @@ def lost_motion(pair: Pair) -> float:
     return float(means[0] - means[1]) * ARCSEC
 
 
-def amplitude(series: np.ndarray, order: int) -> float:
+def amplitude(series: Floats, order: int) -> float:
     """Amplitude of an order per output turn in a record of one output turn."""
     return float(2.0 * abs(np.fft.rfft(series)[order]) / series.size)

@@ -1,5 +1,7 @@
 """Tooth-profile document: where and how fast flanks and pins wear."""
 
+from typing import Any
+
 import numpy as np
 
 from pages.charts import PHASE, Curve, chart, degrees_axis
@@ -11,7 +13,7 @@ UM = 1e6
 PROUD = ("pin_radius_error[5]=5um",)
 
 
-def tooth_curve(label: str, run: LifeRun, scale: float = UM, **more) -> Curve:
+def tooth_curve(label: str, run: LifeRun, scale: float = UM, **more: Any) -> Curve:
     """Depth of the mean tooth from root to root."""
     tooth = run.tooth()
     return Curve(label, 360.0 * (np.arange(tooth.size) + 0.5) / tooth.size, scale * tooth, **more)

@@ -4,7 +4,9 @@ import math
 
 import numpy as np
 
+from fmu_src.arrays import Floats, Points
 from pages.charts import PHASE, Curve, chart, degrees_axis, picture
+from pages.look import Figure
 from reproduce import printed_forms as printed
 from reproduce.claim import CONDITIONAL, CONTRADICTED, REPRODUCED, TOOTH, Finding, Number, states
 from reproduce.context import BX, RV, Context
@@ -13,7 +15,7 @@ from rv_plant.geometry import flank_curvature, lobe_point, shortening
 MM, UM = 1e3, 1e6
 
 
-def profile(starts: dict, phase: np.ndarray, lobes: int = 39) -> np.ndarray:
+def profile(starts: dict[str, float], phase: Floats, lobes: int = 39) -> Points:
     """The true flank from the kernel [m, complex]."""
     circle, radius, throw = starts["pin_circle_radius"], starts["pin_radius"], starts["eccentricity"]
     k1 = shortening(throw, lobes, circle)
@@ -151,11 +153,11 @@ def wear_in_profile(context: Context) -> Finding:
     normal = np.conj(rows[:, 2] + 1j * rows[:, 3])
     new = printed.printed_profile(phase, circle, radius, throw, 40, 1.0)
 
-    def outward(**change) -> np.ndarray:
-        moved = printed.printed_profile(phase, circle, radius, throw, 40, 1.0, **change) - new
-        return (moved * np.conj(normal)).real
+    def outward(disc_change: float, pin_change: float) -> Floats:
+        moved = printed.printed_profile(phase, circle, radius, throw, 40, 1.0, disc_change, pin_change) - new
+        return np.asarray((moved * np.conj(normal)).real)
 
-    by_disc, by_pin = outward(disc_change=depth), outward(pin_change=depth)
+    by_disc, by_pin = outward(depth, 0.0), outward(0.0, depth)
     figure = chart("wear_in_profile", "What 10 µm put into the printed profile does",
                    "Along the flank's normal; sign of y mended.",
                    [Curve("dR_p = 10 µm (disc)", degrees, UM * by_disc),
@@ -177,7 +179,7 @@ def wear_in_profile(context: Context) -> Finding:
 
 @states("T08", TOOTH, "Radius of curvature", "rho_i = R_p S^(3/2)/|K1 (Z_p+1) cos phi - (1 + Z_p K1^2)| + r_rp.")
 def curvature(context: Context) -> Finding:
-    numbers, grounds, figure = [], [], None
+    numbers, grounds, figures = [], [], list[Figure]()
     for name, low, radii in ((BX, 20.0, (2.7, 8.7)), (RV, 14.0, None)):
         contacts = context.contacts(name)
         g = contacts.geometry
@@ -197,20 +199,19 @@ def curvature(context: Context) -> Finding:
         ]
         grounds.append((f"{name}: printed convex radius is 2 r_rp too large",
                         math.isclose(printed_sharp - sharp, 2e3 * g.radius, rel_tol=1e-6)))
-        if figure is None:
-            figure = chart("curvature", f"Radius of curvature, {name}", "Convex part: the printed radius is 2 r_rp"
-                           " too large; the concave part is right.",
-                           [Curve("true, |rho|", degrees, MM * np.abs(true)),
-                            Curve("printed", degrees, MM * wrong, dash="dash")],
-                           PHASE, "radius [mm]", 6, 300, [(g.inflection, "inflection")], degrees_axis(),
-                           {"range": [0, 60]})
-            figure = [figure]
+        if not figures:
+            figures.append(chart("curvature", f"Radius of curvature, {name}", "Convex part: the printed radius is 2 r_rp"
+                                 " too large; the concave part is right.",
+                                 [Curve("true, |rho|", degrees, MM * np.abs(true)),
+                                  Curve("printed", degrees, MM * wrong, dash="dash")],
+                                 PHASE, "radius [mm]", 6, 300, [(g.inflection, "inflection")], degrees_axis(),
+                                 {"range": [0, 60]}))
     return Finding(
         CONTRADICTED, "The radius needs its sign: a parallel curve adds r_rp to a concave and takes it off a convex"
         " radius."
         " With |...| the concave root is right, the convex flank is 2 r_rp too blunt, and its pressure comes out too"
         " low.",
-        numbers, grounds, figures=figure,
+        numbers, grounds, figures=figures,
     )  # fmt: skip
 
 

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from pages.charts import Curve, chart
+from pages.look import Figure
 from reproduce.claim import INDIVIDUALITY, REPRODUCED, Finding, Number, states
 from reproduce.context import RV, Context
 from studies.life import run_cycle
@@ -22,16 +24,16 @@ UM = 1e6
 class Marks:
     """Wear over that of ideal parts, minus 1 [%]: pins and lobes per disc, raceways (disc, crank)."""
 
-    pins: np.ndarray
-    lobes: np.ndarray
-    races: np.ndarray
+    pins: Floats
+    lobes: Floats
+    races: Floats
     # Depth of the inner raceways [um], (disc, crank, bin).
-    inner: np.ndarray
+    inner: Floats
 
 
-def worn(context: Context, *texts: str) -> dict[str, np.ndarray]:
+def worn(context: Context, *texts: str) -> dict[str, Floats]:
     """Wear of each pin, lobe and bearing after a full meshing cycle."""
-    def make() -> dict[str, np.ndarray]:
+    def make() -> dict[str, Floats]:
         pair = context.pair(RV, *texts)
         run_cycle(pair, HOURS)
         record, t = pair.wear.record(), pair.reducer.topology
@@ -44,10 +46,11 @@ def worn(context: Context, *texts: str) -> dict[str, np.ndarray]:
 
 def marks_of(context: Context, *texts: str) -> Marks:
     ideal, found = worn(context), worn(context, *texts)
-    return Marks(*(PERCENT * (found[k] / ideal[k] - 1.0) for k in ("pins", "lobes", "races")), found["inner"])
+    pins, lobes, races = (PERCENT * (found[k] / ideal[k] - 1.0) for k in ("pins", "lobes", "races"))
+    return Marks(pins, lobes, races, found["inner"])
 
 
-def others(values: np.ndarray, *places: tuple[int, int]) -> float:
+def others(values: Floats, *places: tuple[int, int]) -> float:
     """Largest size of all values but those at ``places``."""
     left = np.ones(values.shape, bool)
     for place in places:
@@ -55,14 +58,14 @@ def others(values: np.ndarray, *places: tuple[int, int]) -> float:
     return float(np.abs(values[left]).max())
 
 
-def along(name: str, title: str, values: np.ndarray, what: str):
+def along(name: str, title: str, values: Floats, what: str) -> Figure:
     """Extra wear over the number of pin or lobe, one curve per disc."""
     numbers = np.arange(values.shape[1]) + 1
     curves = [Curve(f"disc {d + 1}", numbers, row, mode="lines+markers") for d, row in enumerate(values)]
     return chart(name, title, "Wear over that of ideal parts at the same place, minus 1.", curves, what, "[%]", 6, 280)
 
 
-def around(context: Context, name: str, title: str, marks: Marks):
+def around(context: Context, name: str, title: str, marks: Marks) -> Figure:
     """Depth around the inner raceways, one curve per disc and crank, and the ideal one."""
     bins = marks.inner.shape[2]
     angle = 360.0 * (np.arange(bins) + 0.5) / bins

@@ -3,17 +3,35 @@
 Known from abstracts, conclusions and excerpts only; the reducers are others.
 """
 
+from typing import TypedDict
+
 import numpy as np
 
+from fmu_src.arrays import Floats
+from pages.charts import PHASE, Curve, chart, degrees_axis
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, LITERATURE, NOT_TESTABLE, REPRODUCED, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    LITERATURE,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import MODIFIED, RV, STAND, Context, LifeRun, flank_of
-from reproduce.flank_wear_claims import hump, humps, smooth
-from pages.charts import PHASE, Curve, chart, degrees_axis
+from reproduce.flank_wear_claims import hump, humps
+from reproduce.sliding_claims import smooth
 
 DURABILITY = "Lubricants 2025, 13(8), 362"
-SHORT = {"hours": 300.0, "tolerance": 0.1}
+
+
+class Span(TypedDict):
+    hours: float
+    tolerance: float
+
+
+SHORT: Span = {"hours": 300.0, "tolerance": 0.1}
 
 
 @states("L01", LITERATURE, "Lost motion grows, transmission error does not", f"{DURABILITY}: over 1,550 h the lost"
@@ -21,7 +39,10 @@ SHORT = {"hours": 300.0, "tolerance": 0.1}
 def lost_motion(context: Context) -> Finding:
     run = context.life(RV)
     lost, error = np.array(run.lost_motion_arcsec), run.figure("transmission_error_pp_arcsec")
-    at = lambda row, hours: float(np.interp(hours, run.hours, row))  # noqa: E731
+
+    def at(row: Floats, hours: float) -> float:
+        return float(np.interp(hours, run.hours, row))
+
     grown = at(lost, 1550.0) - lost[0]
     figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121", "Torque one way during life; lost"
                    " motion between +3 and -3 % of it.",
@@ -126,8 +147,8 @@ def growth_exponent(low: LifeRun, high: LifeRun, name: str, ratio: float) -> flo
         f" radial load.")
 def with_load(context: Context) -> Finding:
     law = context.life(RV, "load_torque=83.5", **SHORT), context.life(RV, **SHORT)
-    constant = tuple(context.life(RV, "raceway_wear_law=constant", torque,
-                                  **SHORT) for torque in ("load_torque=83.5", "load_torque=167"))
+    constant = (context.life(RV, "raceway_wear_law=constant", "load_torque=83.5", **SHORT),
+                context.life(RV, "raceway_wear_law=constant", "load_torque=167", **SHORT))
     found = [growth_exponent(*runs, name, 2.0) for runs in (law, constant) for name in ("inner_raceway_um",
         "outer_raceway_um")]
     return Finding(

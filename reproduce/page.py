@@ -18,6 +18,6 @@ def page_of(claims: list[Claim]) -> str:
         TEMPLATE, [figure for claim in claims for figure in claim.figures],
         groups=[(source, found) for source, found in groups if found], tones=TONES, number=value_text, audited=audited_text,
         counts=[(v, TONES[v], sum(c.verdict == v for c in claims)) for v in VERDICTS], total=len(claims),
-        confirmed=sum(n.agrees for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
+        confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
         discrepancies=[(c, n) for c in claims for n in c.discrepancies],
     )  # fmt: skip

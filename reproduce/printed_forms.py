@@ -5,18 +5,23 @@ They are kept to show what they give.  All lengths in m, angles in rad, NumPy ar
 
 import numpy as np
 
+from fmu_src.arrays import Floats, Points
 
-def root_s(phase, k1):
+
+def root_s(phase: Floats, k1: float) -> Floats:
     """sqrt(S), S = 1 + K1^2 - 2 K1 cos(phi)."""
-    return np.sqrt(1.0 + k1 * k1 - 2.0 * k1 * np.cos(phase))
+    return np.asarray(np.sqrt(1.0 + k1 * k1 - 2.0 * k1 * np.cos(phase)))
 
 
-def sine_of_pressure_angle(phase, k1):
+def sine_of_pressure_angle(phase: Floats, k1: float) -> Floats:
     """sin(alpha) = sin(phi)/sqrt(S): the normal's lever about the disc's centre is a z_c sin(alpha)."""
     return np.sin(phase) / root_s(phase, k1)
 
 
-def printed_profile(phase, circle, radius, eccentricity, pins, y_sign=-1.0, disc_change=0.0, pin_change=0.0):
+def printed_profile(
+    phase: Floats, circle: float, radius: float, eccentricity: float, pins: int, y_sign: float = -1.0, disc_change: float = 0.0,
+    pin_change: float = 0.0,
+) -> Points:  # fmt: skip
     """Worn profile, tooth-profile document (the first two equations), as complex numbers [m].
 
         x = (R_p + dR_p cos alpha) cos(phi - phi_H) - a cos phi_H
@@ -40,28 +45,30 @@ def printed_profile(phase, circle, radius, eccentricity, pins, y_sign=-1.0, disc
     return x + 1j * y
 
 
-def printed_radius_of_curvature(phase, circle, radius, pins, k1):
+def printed_radius_of_curvature(phase: Floats, circle: float, radius: float, pins: int, k1: float) -> Floats:
     """rho_i = R_p S^(3/2) / |K1 (z_p + 1) cos phi - (1 + z_p K1^2)| + r_rp, tooth-profile document [m]."""
     bend = k1 * (pins + 1) * np.cos(phase) - (1.0 + pins * k1 * k1)
     return circle * root_s(phase, k1) ** 3 / np.abs(bend) + radius
 
 
-def printed_profile_error(disc_wear, pin_wear):
+def printed_profile_error(disc_wear: float, pin_wear: float) -> float:
     """e_cp = dR_p - dR_rp, tooth-profile document [m]."""
     return disc_wear - pin_wear
 
 
-def linear_forces(phase, moment, eccentricity, lobes, k1, exponent=10.0 / 9.0):
+def linear_forces(
+    phase: Floats, moment: float, eccentricity: float, lobes: int, k1: float, exponent: float = 10.0 / 9.0
+) -> Floats:
     """Forces [N] by delta_i = theta_c r_i - e with e = 0 and F = K delta^n, tooth-profile document.
 
     r_i = a z_c sin(alpha_i); theta_c follows from sum F_i r_i = moment [N m], K drops out.
     """
     lever = eccentricity * lobes * np.maximum(0.0, sine_of_pressure_angle(phase, k1))
     weight = lever**exponent
-    return moment * weight / np.sum(weight * lever, axis=-1, keepdims=True)
+    return np.asarray(moment * weight / np.sum(weight * lever, axis=-1, keepdims=True))
 
 
-def printed_sliding_speed_signed(phase, eccentricity, pins, k1):
+def printed_sliding_speed_signed(phase: Floats, eccentricity: float, pins: int, k1: float) -> Floats:
     """v_s/omega = a [z_p/(z_p - 1) - sin alpha / sin(alpha + beta)], tooth-profile document [m/rad].
 
     The fraction is 1/sqrt(S): alpha and beta are angles of the triangle of ring centre, pitch

@@ -2,15 +2,21 @@
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from orchestrator.component import InProcess
-from studies.life import HOUR, SURFACES, wear_figures
 from orchestrator.master import Master
-from studies.pair import CONNECTIONS
+from pages.charts import Curve, chart, polar
 from reproduce.claim import (
-    CONTRADICTED, NEEDLE, REPRODUCED, Finding, Number, states,
+    CONTRADICTED,
+    NEEDLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import RV, Context, LifeRun
-from pages.charts import Curve, chart, polar
+from studies.life import HOUR, SURFACES, wear_figures
+from studies.pair import CONNECTIONS
 from wear_fmu.wear_laws import run_in_factor
 
 COMPUTED, MEASURED = (3.97, 3.11), (12.0, 5.6)
@@ -21,7 +27,8 @@ FORTH = [link for link in CONNECTIONS if not link[0].startswith("wear.")]
 
 def depths(run: LifeRun) -> tuple[float, float]:
     """Deepest wear of inner and outer raceway at the end [um]."""
-    return tuple(float(run.figure(f"{side}_raceway_um")[-1]) for side in SIDES)
+    inner, outer = (float(run.figure(f"{side}_raceway_um")[-1]) for side in SIDES)
+    return inner, outer
 
 
 def segmented(context: Context, hours: float = 10_000.0, segments: int = 5) -> list[dict[str, float]]:
@@ -32,21 +39,21 @@ def segmented(context: Context, hours: float = 10_000.0, segments: int = 5) -> l
     def make() -> list[dict[str, float]]:
         pair = context.pair(RV)
         reducer = pair.reducer
-        units = {"plant": pair.plant, "shown": InProcess("shown", reducer.specification("wear_fmu")),
-                 "wear": InProcess("wear", reducer.specification("wear_fmu"))}
+        shown, worn = (InProcess(name, reducer.specification("wear_fmu")) for name in ("shown", "wear"))
+        units = {"plant": pair.plant, "shown": shown, "wear": worn}
         links = FORTH + [(s, t.replace("wear.", "shown.")) for s,
                          t in FORTH] + [(s.replace("wear.", "shown."), t) for s, t in BACK]
         master = Master(units, links, pair.master.step_size)
         master.initialise()
-        units["shown"].set("acceleration", 0.0)
+        shown.set("acceleration", 0.0)
         steps = reducer.topology.lobes * pair.positions
         found = []
         for _ in range(segments):
-            units["wear"].set("acceleration", hours / segments * HOUR / (steps * master.step_size))
+            worn.set("acceleration", hours / segments * HOUR / (steps * master.step_size))
             master.run(steps)
             for name in (*SURFACES, "crank_travel"):
-                units["shown"].records[name] = units["wear"].records[name]
-            found.append(wear_figures(units["wear"].record()))
+                shown.records[name] = worn.records[name]
+            found.append(wear_figures(worn.record()))
         return found
 
     return context.once(("segmented", hours, segments), make, f"{RV}, {hours:.0f} h in {segments} segments of fixed"
@@ -104,14 +111,14 @@ def inner_side(context: Context) -> Finding:
     )  # fmt: skip
 
 
-def degrees_of(run: LifeRun, row: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def degrees_of(run: LifeRun, row: Floats) -> tuple[Floats, Floats]:
     """(angle the way the cranks turn [deg], depth) of a raceway, closed."""
-    sense = -1.0 if run.pair.plant.get("crank_speed") < 0.0 else 1.0
+    sense = -1.0 if run.pair.plant.number("crank_speed") < 0.0 else 1.0
     angle = sense * 360.0 * (np.arange(row.size) + 0.5) / row.size
     return np.append(angle, angle[0] + 360.0 * sense)[::2], np.append(row, row[0])[::2]
 
 
-def across(run: LifeRun, row: np.ndarray) -> float:
+def across(run: LifeRun, row: Floats) -> float:
     """Depth opposite to the deepest place."""
     return float(np.roll(row, row.size // 2)[row.argmax()])
 

@@ -2,11 +2,18 @@
 
 import numpy as np
 
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CONDITIONAL, CONTRADICTED, NEEDLE, NOT_TESTABLE, REPRODUCED, Finding, Number, states,
+    CONDITIONAL,
+    CONTRADICTED,
+    NEEDLE,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import RV, Context
-from pages.charts import Curve, chart
 from reproduce.raceway_claims import COMPUTED, MEASURED, SIDES, depths
 from wear_fmu.wear_laws import janakiraman, janakiraman_printed
 
@@ -15,7 +22,7 @@ ROUGHNESS, VISCOSITY = 1.589, 7.377
 SCALES = (1.0, 2.0, 4.0, 7.0)
 
 
-def law_arguments(context: Context, force: float = 650.0) -> tuple:
+def law_arguments(context: Context, force: float = 650.0) -> tuple[tuple[float, float, float, float, float], float]:
     """(load per length, radius, roughness, alpha, E') of a roller on the inner raceway, and the hardness."""
     s = context.reducer(RV).starts
     radius = 1.0 / (1.0 / s["roller_radius"] + 1.0 / s["inner_race_radius"])
@@ -27,7 +34,7 @@ def law_arguments(context: Context, force: float = 650.0) -> tuple:
 def coefficient(context: Context) -> Finding:
     arguments, hardness = law_arguments(context)
     right, wrong = janakiraman(*arguments), janakiraman_printed(*arguments, hardness)
-    load, radius, rough, alpha, modulus = arguments
+    load, radius, _rough, alpha, modulus = arguments
     roughness = np.geomspace(0.1e-6, 1.6e-6, 60)
     rows = [np.array([law(load, radius, r, alpha, modulus, *more) for r in roughness]) for law,
             more in ((janakiraman, ()), (janakiraman_printed, (hardness,)))]

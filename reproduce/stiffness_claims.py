@@ -3,11 +3,18 @@
 import numpy as np
 from scipy.optimize import brentq
 
+from pages.charts import Curve, chart
 from reproduce.claim import (
-    CATALOGUE, CONDITIONAL, LITERATURE, NOT_TESTABLE, REPRODUCED, Finding, Number, states,
+    CATALOGUE,
+    CONDITIONAL,
+    LITERATURE,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Number,
+    states,
 )  # fmt: skip
 from reproduce.context import BX, MODIFIED, RV, Context, amplitude
-from pages.charts import Curve, chart
 
 PINS = 40
 
@@ -127,7 +134,7 @@ def closing(context: Context, name: str, reading: str, target: float) -> float:
         texts = f"stiffness_reading={reading}", f"crank_support_compliance={10.0**-log_stiffness!r}m/N"
         return context.stiffness(name, *texts).stiffness_Nm_per_arcmin - target
 
-    return 10.0 ** brentq(excess, 7.0, 11.0, xtol=1e-3)
+    return float(10.0 ** brentq(excess, 7.0, 11.0, xtol=1e-3))
 
 
 @states("C01", CATALOGUE, "Torsional stiffness", "RV-20E 49, RV-40E 108 N m/arcmin.")

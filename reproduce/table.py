@@ -1,9 +1,11 @@
 """The claims on the screen and as plain data."""
 
+from typing import Any
+
 from rich.console import Console
 from rich.table import Table
 
-from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Claim, Number
+from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Audited, Claim, Number
 
 STYLES = {REPRODUCED: "green", CONDITIONAL: "yellow", CONTRADICTED: "red", NOT_TESTABLE: "dim"}
 
@@ -40,18 +42,17 @@ def print_table(claims: list[Claim]) -> None:
     console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)
     for claim in claims:
         for number in claim.discrepancies:
-            found = value_text(number.printed if number.value is None else number.value)
-            console.print(f"{claim.id} {number.label}: {found} {number.unit}, independent check"
+            console.print(f"{claim.id} {number.label}: {value_text(number.found)} {number.unit}, independent check"
                           f" {audited_text(number)}", highlight=False)
 
 
-def as_json(claims: list[Claim]) -> dict:
+def as_json(claims: list[Claim]) -> dict[str, Any]:
     """Everything but the figures as plain data."""
     return {"claims": [claim_data(c) for c in claims],
             "verdicts": {v: sum(c.verdict == v for c in claims) for v in VERDICTS}}
 
 
-def claim_data(c: Claim) -> dict:
+def claim_data(c: Claim) -> dict[str, Any]:
     numbers = [
         {"label": n.label, "unit": n.unit, "value": plain(n.value), "printed": plain(n.printed),
          "independent_check": plain(n.audited), "agrees": n.agrees}
@@ -65,7 +66,7 @@ def claim_data(c: Claim) -> dict:
     }  # fmt: skip
 
 
-def plain(value):
+def plain(value: Audited | None) -> float | list[float] | None:
     """NumPy scalars as Python numbers."""
     if value is None:
         return None

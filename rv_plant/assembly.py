@@ -20,7 +20,6 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift

@@ -11,7 +11,6 @@ beta: critically damped).  (Baumgarte 1972; Garcia de Jalon and Bayo 1994)
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.coordinates import moving_count
 from rv_plant.linear import cholesky_apply, cholesky_factor
 from rv_plant.mesh import ring_coordinate

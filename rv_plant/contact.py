@@ -27,7 +27,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable
-
 from rv_plant.dimension import FILE
 
 LINE, LANKARANI, PALMGREN = 0, 1, 2

@@ -19,7 +19,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, scratch, state
-
 from rv_plant.assembly import clear
 from rv_plant.constraints import CONSTRAINED, SETTLING
 from rv_plant.coordinates import moving_count
@@ -158,7 +157,7 @@ def tooth_contact(r, c, rate_weight):
     s (r1 (sun - turned) + r2 (crank - turned)) cos(alpha) - (distance - a0) sin(alpha) - backlash/2,
     with turned the way of the crank's centre round the sun.
     """
-    discs, cranks = r.roller_force.shape[:2]
+    discs, _cranks = r.roller_force.shape[:2]
     carrier = 3 * discs
     crank = carrier + 3 + 3 * c
     sun = ring_coordinate(r) + 1
@@ -186,7 +185,7 @@ def tooth_contact(r, c, rate_weight):
         approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - 0.5 * r.backlash - error
         if approach <= 0.0:
             continue
-        # d(turned)/d(x, y) is (-y, x)/distance^2.
+        # By x and y the angle turned changes by -y and x over distance^2.
         along = -s * ca * (small + planet) / (distance * distance)
         index[0], index[1], index[2], index[3], index[4] = carrier, crank, crank + 1, crank + 2, sun
         gap_slope = error_slope + s * r.tooth_gap_rate[c]

@@ -9,7 +9,6 @@ diagonal then leads to the next contact.
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.assembly import assemble
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.linear import cholesky_solve

@@ -6,7 +6,6 @@ The codes are the status of the plant's entry points; the texts name variables o
 import math
 
 from fmu_src.kernel import kernel
-
 from rv_plant.geometry import centre_curve_curvature
 from rv_plant.output_pins import has_output_pins
 

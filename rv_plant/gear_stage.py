@@ -17,7 +17,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, state
-
 from rv_plant.dimension import FILE
 
 

@@ -11,7 +11,6 @@ error and is repeated shorter.
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, scratch, state
-
 from rv_plant.constraints import CONSTRAINED, SETTLING, constrained_direction, start_multipliers
 from rv_plant.coordinates import moving_count
 from rv_plant.dynamics import RIGID, assemble_motion

@@ -4,7 +4,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
 from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
@@ -118,7 +117,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         along_disc = lobes * (r.pin_angle[j] - ideal_output - profile_turn)
         # Phases count from the nearest root; the tooth lies between two roots.
         ideal_phase = along_disc - 2.0 * math.pi * math.floor(along_disc / (2.0 * math.pi) + 0.5)
-        lobe = int(math.floor(along_disc / (2.0 * math.pi))) % lobes
+        lobe = math.floor(along_disc / (2.0 * math.pi)) % lobes
         # With one pin more than lobes the ideal phase is also the eccentric's angle less the
         # pin's, and the frame of the ideal contact lies along the pin's direction.
         pin_cos, pin_sin = r.pin_cos[j], r.pin_sin[j]

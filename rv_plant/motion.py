@@ -8,7 +8,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.constraints import CONSTRAINED, largest_drift
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio

@@ -13,7 +13,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-
 from rv_plant.contact import contact_force
 from rv_plant.dimension import FILE, length
 

@@ -3,7 +3,6 @@
 from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, state
-
 from rv_plant.contact import hertz_peak_pressure
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import clear_teeth

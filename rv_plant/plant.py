@@ -10,7 +10,6 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
-
 from rv_plant.assembly import assemble
 from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.coordinates import coordinate_count
@@ -18,7 +17,6 @@ from rv_plant.dimension import FILE
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
-from rv_plant.faults import FAULTS as FAULTS  # callers look up the status of an entry point here
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
 from rv_plant.mesh import clear_flanks
@@ -271,7 +269,7 @@ def step_through_equilibria(r, duration):
     crank_advance = abs(lobes * output_speed * duration)
     if not crank_advance < MOST_SUBSTEPS * r.largest_crank_step:
         return LONG_STEP
-    n = max(1, int(math.ceil(crank_advance / r.largest_crank_step - 1e-9)))
+    n = max(1, math.ceil(crank_advance / r.largest_crank_step - 1e-9))
     output_before, cage_before = r.ideal_output, r.cage
     copy_means(r, 0.0, 0.5 / n)
     spent = 0

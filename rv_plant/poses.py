@@ -4,7 +4,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, state
-
 from rv_plant.dimension import deviation, length
 
 

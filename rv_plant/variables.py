@@ -2,7 +2,6 @@
 
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Table, Variable
-
 from rv_plant import (
     assembly,
     constraints,

@@ -6,14 +6,13 @@ the master's Gauss-Seidel scheme.
 """
 
 from fmu_src.kernel import entry_point
-from rv_plant.plant import FAULTS as PLANT_FAULTS
+from rv_plant.faults import FAULTS as PLANT_FAULTS
 from rv_plant.plant import initialise as initialise_plant
 from rv_plant.plant import step as step_plant
+from rv_reducer.judgement import judge, start_judgement
 from wear_fmu.accumulator import FAULTS as WEAR_FAULTS
 from wear_fmu.accumulator import initialise as initialise_wear
 from wear_fmu.accumulator import step as step_wear
-
-from rv_reducer.judgement import judge, start_judgement
 
 # Status codes of the wear stand above those of the plant.
 OF_WEAR = 100

@@ -1,14 +1,13 @@
 """Plant and wear as one unit."""
 
-from fmu_src.unit import Unit
+from fmu_src.unit import Specification, Unit
 from rv_plant.topology import Topology
-from wear_fmu.variables import Resolution
-
 from rv_reducer.reducer import FAULTS, initialise, step
 from rv_reducer.variables import reducer_table
+from wear_fmu.variables import Resolution
 
 
-def make_unit(specification: dict) -> Unit:
+def make_unit(specification: Specification) -> Unit:
     """The unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
     table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))

@@ -9,17 +9,17 @@ import math
 from dataclasses import replace
 
 from fmu_src.variables import Table, Variable
+from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from wear_fmu.variables import Resolution, wear_table
-
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
+from wear_fmu.variables import Resolution, wear_table
 
 INTERFACE = ("input", "parameter", "output")
 LIMITS = ("none", "flank depth", "race depth", "lost motion")
 ARCMIN = math.pi / 10800.0
 
 
-def reducer_table(topology, resolution: Resolution = Resolution()) -> Table:
+def reducer_table(topology: Topology, resolution: Resolution = Resolution()) -> Table:
     """The unit's variables; ``topology`` has discs, cranks, pins, lobes, rollers."""
     plant, wear = plant_table(topology), wear_table(topology, resolution)
     plant_view = {v.name: name_beside(wear, v, "plant") for v in plant.variables}
@@ -56,16 +56,16 @@ def in_one_unit(v: Variable, name: str) -> Variable:
 def judgement(z: Variable) -> list[Variable]:
     """Worst depths, lost motion and remaining life; ``z`` is the plant's vector of coordinates."""
 
-    def limit(name, unit, text, start, nominal, source):
+    def limit(name: str, unit: str, text: str, start: float, nominal: float, source: str) -> Variable:
         return Variable(name, "parameter", unit, f"{text} at which the reducer's life ends (0: no limit)", start,
                         minimum=0.0, nominal=nominal, tunable=True, source=source)
 
-    def depth(name, text):
+    def depth(name: str, text: str) -> Variable:
         return Variable(name, "output", "m", f"deepest wear of {text}", nominal=1e-6)
 
-    def state(name, unit, text, like=None, **more):
+    def state(name: str, unit: str, text: str, like: Variable | None = None) -> Variable:
         shape, axes = (like.shape, like.axes) if like else ((), ())
-        return Variable(name, "state", unit, text, 0.0, shape, axes, **more)
+        return Variable(name, "state", unit, text, 0.0, shape, axes)
 
     return [
         limit("flank_depth_limit", "m", "wear of a flank", 20e-6, 1e-6, "assumed: two to three times that of 10,000 h"),

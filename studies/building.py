@@ -4,6 +4,7 @@ import sys
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import fmpy
 
@@ -16,8 +17,8 @@ from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
-from reducers.reducer import Reducer
 from orchestrator.ssp.exporter import Experiment, export_ssp
+from reducers.reducer import Reducer
 from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
@@ -32,13 +33,13 @@ class Wanted:
     all_platforms: bool = False
 
 
-def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict], list[Path]]:
+def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
     """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"{NAME} {project().version}"
     native = native_versions(wanted)
-    built = []
+    built: list[dict[str, Any]] = []
     for name, unit in UNITS.items():
         specification = reducer.specification(unit)
         identity = guid(specification, source_hash())

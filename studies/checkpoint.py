@@ -4,6 +4,7 @@ import json
 import zipfile
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -15,9 +16,10 @@ from studies.solve import Turn
 PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "coarse", "error_before")
 
 
-def save_checkpoint(path: Path, life: Life, saved: dict, inputs: dict) -> None:
+def save_checkpoint(path: Path, life: Life, saved: dict[str, Any], inputs: dict[str, Any]) -> None:
     """Write beside the target and move: a kill at any moment leaves a whole file."""
-    arrays = {f"state.{name}": np.frombuffer(state, "u1") for name, state in saved["states"].items()}
+    assert life.start is not None, "a life that was not begun"
+    arrays: dict[str, Any] = {f"state.{name}": np.frombuffer(state, "u1") for name, state in saved["states"].items()}
     arrays |= {f"start.{name}": np.frombuffer(state, "u1") for name, state in life.start["states"].items()}
     for name in life.surfaces[0]:
         arrays[f"surface.{name}"] = np.stack([surface[name] for surface in life.surfaces])
@@ -34,7 +36,7 @@ def save_checkpoint(path: Path, life: Life, saved: dict, inputs: dict) -> None:
     partial.replace(path)
 
 
-def load_checkpoint(path: Path, inputs: dict) -> tuple[Life, dict]:
+def load_checkpoint(path: Path, inputs: dict[str, Any]) -> tuple[Life, dict[str, Any]]:
     """(life, saved master) of a checkpoint; InputFault if it belongs to other inputs."""
     if not path.is_file():
         raise InputFault(f"no checkpoint at {path}: start the run without --resume")

@@ -7,7 +7,8 @@ thousands of runs.
 
 from fmu_src.kernel import kernel
 from rv_plant.equilibrium import newton_direction
-from rv_plant.plant import NO_EQUILIBRIUM, advance_effects, assemble_at_input, publish, turn_input
+from rv_plant.faults import NO_EQUILIBRIUM
+from rv_plant.plant import advance_effects, assemble_at_input, publish, turn_input
 from rv_plant.plant import step as step_plant
 from wear_fmu.accumulator import step as step_wear
 

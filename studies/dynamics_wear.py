@@ -8,6 +8,7 @@ parts on purpose: accelerated wear feeds back on a load that swings almost undam
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -96,7 +97,7 @@ def passing_frequency(pair: Pair) -> float:
     """How often a tooth of any disc takes up load [Hz]: pins times discs per output turn."""
     t = pair.reducer.topology
     ratio = total_ratio(pair.plant.get("first_stage_ratio"), t.pins, t.lobes)
-    return abs(pair.plant.get("input_speed") / ratio) / (2.0 * math.pi) * t.pins * t.discs
+    return float(abs(pair.plant.number("input_speed") / ratio) / (2.0 * math.pi) * t.pins * t.discs)
 
 
 def wearing_pair(reducer: Reducer, settings: list[Setting], speed: float, torque: float, moving: bool) -> Pair:
@@ -125,14 +126,14 @@ def compare_point(reducer: Reducer, settings: list[Setting], name: str, speed: f
         bins = still["slide"].shape[-1] if key == "disc_wear" else still[key].shape[-1]
         profiles[key] = tuple(1e6 * record[key][0].reshape(-1, bins).mean(axis=0) for record in records)
     return Point(
-        name, speed, torque, pair.plant.get("input_speed") * 30.0 / math.pi, pair.plant.get("load_torque"),
+        name, speed, torque, pair.plant.number("input_speed") * 30.0 / math.pi, pair.plant.number("load_torque"),
         passing_frequency(pair), {k: 100.0 * (depths[1][k] / depths[0][k] - 1.0) for k in WATCHED},
         {k: 100.0 * (float(moved[k][0] / still[k][0]) - 1.0) for k in VOLUMES},
         {k: 100.0 * float(np.abs(b - a).max() / a.max()) for k, (a, b) in profiles.items()}, profiles,
     )  # fmt: skip
 
 
-def as_json(found: Comparison) -> dict:
+def as_json(found: Comparison) -> dict[str, Any]:
     """Everything, profiles included."""
     points = [vars(p) | {"profiles": {k: [a.tolist(), b.tolist()] for k, (a, b) in p.profiles.items()},
                          "largest_difference": p.largest, "matters": p.largest > found.limit} for p in found.points]

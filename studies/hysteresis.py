@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
@@ -23,15 +24,15 @@ LOST_MOTION_SHARE = 0.03
 class Hysteresis:
     """Torque [N m] and turning of the output [arcmin] along the way, and what is read from them."""
 
-    torque: np.ndarray
-    turning: np.ndarray
+    torque: Floats
+    turning: Floats
     lost_motion_arcmin: float
     stiffness_Nm_per_arcmin: float
     stiffness_reverse_Nm_per_arcmin: float
     loop_area_Nm_arcmin: float
 
 
-def torque_way(rated: float, steps: int) -> np.ndarray:
+def torque_way(rated: float, steps: int) -> Floats:
     """0, +T, 0, -T, 0: ``steps`` per quarter, with +-3 % among them."""
     quarter = np.union1d(np.linspace(0.0, rated, steps + 1), [LOST_MOTION_SHARE * rated])
     up, down = quarter, quarter[-2::-1]
@@ -40,7 +41,7 @@ def torque_way(rated: float, steps: int) -> np.ndarray:
 
 def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = 40, angles: int = 8) -> Hysteresis:
     """The test at ``angles`` positions of the input spread over a crank turn, averaged."""
-    rated = abs(InProcess("plant", reducer.specification("rv_plant")).get("load_torque"))
+    rated = abs(InProcess("plant", reducer.specification("rv_plant")).number("load_torque"))
     for setting in settings:
         if setting.name == "load_torque":
             rated = abs(setting.value)
@@ -63,7 +64,7 @@ def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = 40, angle
     )
 
 
-def one_angle(reducer: Reducer, settings: list[Setting], torque: np.ndarray, share: float) -> np.ndarray:
+def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: float) -> Floats:
     """Turning of the output along the torques at one input angle, in the sense of the torque [arcmin]."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings, {"plant": plant})
@@ -76,5 +77,5 @@ def one_angle(reducer: Reducer, settings: list[Setting], torque: np.ndarray, sha
     for i, value in enumerate(torque):
         plant.set("load_torque", float(value))
         plant.step(0.0, 1.0)
-        turning[i] = -plant.get("transmission_error") * ARCMIN
+        turning[i] = -plant.number("transmission_error") * ARCMIN
     return turning

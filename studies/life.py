@@ -11,6 +11,7 @@ within ``tolerance`` of the depth at the end.  The finer run is kept.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -92,7 +93,7 @@ class Life:
     jumps: int = 0
     coarse: list[list[float]] = field(default_factory=list)
     error_before: float = math.inf
-    start: dict | None = None
+    start: dict[str, Any] | None = None
 
     def note(self, pair: Pair) -> None:
         """Record the present state of the pair."""
@@ -239,6 +240,7 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
 
 def begin(pair: Pair, life: Life, jumps: int, keep: Callable[[Life], None]) -> None:
     """From the new state again, in ``jumps`` jumps."""
+    assert life.start is not None
     pair.master.restore(life.start)
     life.forget()
     life.jumps = jumps
@@ -285,7 +287,8 @@ def estimates(life: Life, factor: int) -> list[float]:
     fine = np.array(life.watched())
     apart = np.abs(fine[::factor] - life.coarse) / np.maximum(fine[-1], LEAST_DEPTH)
     known = CAUTION / (factor - 1) * apart.max(axis=1)
-    return np.interp(life.hours, life.hours[::factor], known).tolist()
+    errors: list[float] = np.interp(life.hours, life.hours[::factor], known).tolist()
+    return errors
 
 
 def as_arrays(life: Life) -> dict[str, list[float]]:

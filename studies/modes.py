@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
+from fmu_src.arrays import Floats
 from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
@@ -36,16 +37,16 @@ def body_names(reducer: Reducer) -> list[str]:
     names = [f"disc {d + 1} {axis}" for d in range(t.discs) for axis in ("x", "y", "turning")]
     names += ["carrier turning", "carrier x", "carrier y"]
     names += [f"crank {c + 1} {axis}" for c in range(t.cranks) for axis in ("x", "y", "turning")]
-    return names + ["ring turning", "sun turning", "load turning"]
+    return [*names, "ring turning", "sun turning", "load turning"]
 
 
-def matrices(plant: InProcess) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def matrices(plant: InProcess) -> tuple[Floats, Floats, Floats]:
     """(mass diagonal, stiffness, damping) of an initialised plant with fidelity dynamic."""
     record = plant.records
 
-    def tangent(rate_weight: float) -> np.ndarray:
+    def tangent(rate_weight: float) -> Floats:
         linearise(record, rate_weight)
-        upper = np.triu(record["tangent"][0])
+        upper: Floats = np.triu(record["tangent"][0])
         return upper + np.triu(upper, 1).T
 
     # The tangent is linear in the weight; both weights let the damping forces of the motion act.

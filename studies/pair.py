@@ -1,6 +1,7 @@
 """Plant and wear unit of one reducer, connected."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING
 from fmu_src.faults import InputFault
 from orchestrator.component import Component, InProcess
 from orchestrator.master import Master
-from orchestrator.settings import Setting, apply
+from orchestrator.settings import ArraySetting, Setting, apply
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
@@ -63,11 +64,11 @@ class Pair:
 
 def crank_turn_time(reducer: Reducer, plant: Component) -> float:
     """Duration of one crank turn in the housing [s] at the plant's input speed."""
-    speed = plant.get("input_speed")
+    speed = plant.number("input_speed")
     if speed == 0.0:
         raise InputFault("input_speed = 0 rad/s: the cranks must turn; set input_speed, for instance 2000rpm")
     ratio = total_ratio(plant.get("first_stage_ratio"), reducer.topology.pins, reducer.topology.lobes)
-    return 2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes)
+    return float(2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes))
 
 
 def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
@@ -81,7 +82,7 @@ def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
 
 def make_pair(
     reducer: Reducer,
-    settings: list[Setting] = (),
+    settings: Sequence[Setting | ArraySetting] = (),
     fmus: Path | None = None,
     scheme: str = "gauss-seidel",
     positions: int = POSITIONS_PER_TURN,
@@ -90,21 +91,22 @@ def make_pair(
 ) -> Pair:
     """Initialised pair of a reducer: in this process, or as FMUs from the folder ``fmus``."""
     if fmus is None:
-        plant = InProcess("plant", reducer.specification("rv_plant"))
-        wear = InProcess("wear", reducer.specification("wear_fmu"))
+        plant: Component = InProcess("plant", reducer.specification("rv_plant"))
+        wear: Component = InProcess("wear", reducer.specification("wear_fmu"))
     else:
         # FMUs need more of a reader than a pair in this process.
-        from orchestrator.opening import open_fmu
+        from orchestrator.fmu import Fmu
 
-        plant, wear = open_fmu("plant", fmus / "RvPlant.fmu"), open_fmu("wear", fmus / "RvWear.fmu")
-        require_built_from(reducer, plant, "rv_plant")
-        require_built_from(reducer, wear, "wear_fmu")
+        units = Fmu("plant", fmus / "RvPlant.fmu"), Fmu("wear", fmus / "RvWear.fmu")
+        for fmu, package in zip(units, ("rv_plant", "wear_fmu")):
+            require_built_from(reducer, fmu, package)
+        plant, wear = units
     components = {"plant": plant, "wear": wear}
     connected = {target.partition(".")[2] for _, target in CONNECTIONS} - {"temperature"}
     for setting in settings:
         if setting.name.partition("[")[0] in connected:
             raise InputFault(f"{setting.name} is exchanged by the two units; a setting of it would have no effect")
-    apply(list(settings), components)
+    apply(settings, components)
     step = crank_turn_time(reducer, plant) / positions
     master = master_kind(components, CONNECTIONS, step, scheme=scheme)
     if scheme == "jacobi":

@@ -1,10 +1,12 @@
 """What a life leaves behind: figures, turns, surfaces and orders as one dataset."""
 
 import math
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from fmu_src.arrays import Floats
 from orchestrator.component import Component
 from orchestrator.netcdf import provenance
 from studies.figure_units import figure_unit
@@ -13,15 +15,16 @@ from studies.pair import Pair
 from studies.solve import SERIES, Turn
 
 
-def parameters_of(component: Component) -> dict:
+def parameters_of(component: Component) -> dict[str, Any]:
     """Present values of all parameters and inputs that are not exchanged arrays."""
-    values = {}
+    values: dict[str, Any] = {}
     for name, signal in component.signals.items():
-        if signal.causality == "parameter" or signal.causality == "input" and not signal.shape:
+        if signal.causality == "parameter" or (signal.causality == "input" and not signal.shape):
             value = component.get(name)
-            values[name] = value.tolist() if isinstance(value, np.ndarray) else value
-            if signal.choices and not signal.shape:
-                values[name] = signal.choices[value]
+            if isinstance(value, np.ndarray):
+                values[name] = value.tolist()
+            else:
+                values[name] = signal.choices[int(value)] if signal.choices else value
     return values
 
 
@@ -41,7 +44,7 @@ def axes_of(pair: Pair, unit: str, name: str) -> tuple[str, ...]:
     return table.by_name[name].axes
 
 
-def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict) -> xr.Dataset:
+def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict[str, Any]) -> xr.Dataset:
     """Everything that a life run found; one entry of ``hour`` per jump."""
     topology = pair.reducer.topology
     variables: dict[str, xr.Variable] = {}
@@ -59,8 +62,7 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict)
         if name == "disc_wear":
             stack = stack.reshape(len(life.hours), topology.discs, topology.lobes, -1)
         text = pair.reducer.wear.by_name[name].description
-        attributes = {"units": "m", "long_name": text}
-        variables[name] = xr.Variable(("hour", *axes), stack.astype("f4"), attributes)
+        variables[name] = xr.Variable(("hour", *axes), stack.astype("f4"), {"units": "m", "long_name": text})
     coordinates = {
         "hour": ("hour", life.hours, {"units": "hour", "long_name": "operating time"}),
         "flank_phase": ("flank_bin", bin_middles(variables["disc_wear"].shape[-1], 0.0, 360.0), {"units": "deg"}),
@@ -68,7 +70,7 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict)
         "race_phase": ("race_bin", bin_middles(variables["inner_race_wear"].shape[-1], 0.0, 360.0), {"units": "deg"}),
     }
     record = {"reducer": pair.reducer.name, "plant": parameters_of(pair.plant), "wear": parameters_of(pair.wear)}
-    attributes = provenance(inputs | {"parameters": record, "sources": pair.reducer.sources})
+    attributes: dict[str, Any] = dict(provenance(inputs | {"parameters": record, "sources": pair.reducer.sources}))
     attributes |= {"title": f"wear of {pair.reducer.name} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
     spectra = xr.concat(orders, "spectrum_hour", data_vars="minimal", coords="minimal", compat="equals", join="exact")
     return xr.Dataset(variables, coordinates, attributes).assign(spectra.data_vars).assign_coords(spectra.coords)
@@ -76,11 +78,11 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict)
 
 def figure_arrays(dataset: xr.Dataset) -> dict[str, list[float]]:
     """The figures of a life as arrays parallel to ``hours``."""
-    names = [n for n, v in dataset.data_vars.items() if v.dims == ("hour",)]
+    names = [str(n) for n, v in dataset.data_vars.items() if v.dims == ("hour",)]
     return {"hours": dataset["hour"].values.tolist()} | {n: dataset[n].values.tolist() for n in names}
 
 
-def bin_middles(count: int, low: float, high: float) -> np.ndarray:
+def bin_middles(count: int, low: float, high: float) -> Floats:
     return low + (np.arange(count) + 0.5) * (high - low) / count
 
 
@@ -101,7 +103,7 @@ def order_spectrum(pair: Pair, hours: float, positions: int = 120) -> xr.Dataset
     read = pair.plant.reader(tuple(s.references[0] for s in signals), buffer)
     series = np.zeros((count, 2))
 
-    def keep():
+    def keep() -> None:
         read()
         series[pair.master.steps_done - 1] = buffer
 

@@ -59,7 +59,7 @@ def measure(pair: Pair) -> tuple[Turn, dict[str, float]]:
     The state of both units is put back afterwards.
     """
     saved = pair.master.save()
-    torque = pair.plant.get("load_torque")
+    torque = pair.plant.number("load_torque")
     pair.wear.set("acceleration", 0.0)
     full = record_turn(pair, pair.positions)
     pair.plant.set("load_torque", 0.5 * torque)
@@ -105,9 +105,9 @@ def stiffness(torque: float, turning: float) -> float:
 def sliding_speeds(reducer: Reducer, plant: Component) -> tuple[float, float]:
     """Smallest (at the root) and largest (at the tip) sliding speed of flank on pin [m/s]."""
     lobes = reducer.topology.lobes
-    radius, pin = plant.get("pin_circle_radius"), plant.get("pin_radius")
-    k1 = plant.get("eccentricity") * reducer.topology.pins / radius
-    speed = abs(plant.get("crank_speed"))
+    radius, pin = plant.number("pin_circle_radius"), plant.number("pin_radius")
+    k1 = plant.number("eccentricity") * reducer.topology.pins / radius
+    speed = abs(plant.number("crank_speed"))
     root, tip = (abs(sliding_per_crank_angle(phi, lobes, radius, pin, k1)) * speed for phi in (0.0, math.pi))
     return root, tip
 

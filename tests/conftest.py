@@ -7,13 +7,13 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import settings
+from shared import made_once
+from small_fmus import build_spring
 
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import build_fmu, build_native, triples_for
 from reducers.reducer import load_reducer
-from shared import made_once
-from small_fmus import build_spring
 
 # Properties: the same few examples at every run; RVWEAR_PROPERTIES=thorough looks at many others.
 settings.register_profile("default", max_examples=12, derandomize=True, database=None, deadline=None)

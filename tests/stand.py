@@ -3,6 +3,7 @@
 import numpy as np
 
 from rv_plant import plant
+from rv_plant.faults import FAULTS
 from wear_fmu import accumulator
 
 SHARED = ("crank_angle", "crank_speed", "output_angle", "cage_angle", "mesh_force", "roller_force")
@@ -27,7 +28,7 @@ def in_equilibrium(table, angle=0.0, cage=0.0, **values):
     """The plant's record in equilibrium at an ideal output angle and a cage angle [rad]."""
     records = records_of(table, ideal_output=angle, cage=cage, **values)
     status = plant.initialise(records)
-    assert status == 0, plant.FAULTS[status]
+    assert status == 0, FAULTS[status]
     return only(records)
 
 
@@ -54,7 +55,7 @@ def run_plant(table, turns=1, steps_per_turn=72, **values):
     step = crank_period(records) / steps_per_turn
     for i in range(turns * steps_per_turn):
         status = plant.step(records, i * step, step)
-        assert status == 0, (i, plant.FAULTS[status])
+        assert status == 0, (i, FAULTS[status])
         yield only(records)
 
 
@@ -112,7 +113,7 @@ def in_motion(table, **values):
     """The plant's records with fidelity = dynamic, initialised."""
     records = records_of(table, fidelity=1, **values)
     status = plant.initialise(records)
-    assert status == 0, plant.FAULTS[status]
+    assert status == 0, FAULTS[status]
     return records
 
 
@@ -121,6 +122,6 @@ def run_motion(records, duration, count):
     series = []
     for i in range(count):
         status = plant.step(records, i * duration / count, duration / count)
-        assert status == 0, (i, plant.FAULTS[status])
+        assert status == 0, (i, FAULTS[status])
         series.append(only(records).copy())
     return series

@@ -1,10 +1,12 @@
 """The wear unit: balance of material, kinematics over many turns, run-in, convergence."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
-
 from stand import exchange, only, records_of, run_coupled
+
 from wear_fmu import accumulator
 from wear_fmu.kinematics import sliding_per_crank_angle
 
@@ -85,7 +87,7 @@ def test_flank_volume_is_the_integral_of_archards_law(rv20e):
     r = turned(rv20e, path, mesh_force=one_pin(force), **CONSTANT)
     profile = (LOBES, r.pin_circle_radius, r.pin_radius, r.eccentricity * PINS / r.pin_circle_radius)
     edges = np.concatenate([[0.0], path])
-    slid = sum(abs(quad(sliding_per_crank_angle, a, b, args=profile)[0]) for a, b in zip(edges, edges[1:]))
+    slid = sum(abs(quad(sliding_per_crank_angle, a, b, args=profile)[0]) for a, b in itertools.pairwise(edges))
     # Sliding within a bin counts as even: second order in the bin.
     assert r.flank_volume == pytest.approx(r.mesh_wear_coefficient / r.hardness * force * slid, rel=1e-4, abs=0)
 
@@ -145,7 +147,7 @@ def test_wear_goes_with_acceleration_and_does_not_mind_the_direction(rv20e):
     path = np.arange(1, 73) * np.pi / 36
     values = {"mesh_force": 300.0, "roller_force": 400.0, **CONSTANT}
     plain, fast = (turned(rv20e, path, acceleration=a, **values) for a in (1.0, 7.0))
-    back = turned(rv20e, path[::-1][1:].tolist() + [0.0], start=path[-1], **values)
+    back = turned(rv20e, [*path[::-1][1:].tolist(), 0.0], start=path[-1], **values)
     for name in SURFACES:
         assert fast[name] == pytest.approx(7 * plain[name], rel=1e-12, abs=0)
         assert back[name] == pytest.approx(plain[name], rel=1e-9, abs=1e-9 * max(plain[name].max(), 1e-30))

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from stand import gradient, imperfect, in_equilibrium
+from twin import Twin
 
 from rv_plant.assembly import assemble
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import gradient, imperfect, in_equilibrium
-from twin import Twin
 
 ANGLE, CAGE, LOAD = 0.123, 0.3, 167.0
 SOFT = {

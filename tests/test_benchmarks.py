@@ -9,7 +9,7 @@ from benchmarks.equilibrium import FREE, compiled, start
 from benchmarks.exudyn_peer import ExudynPlant
 from benchmarks.integrators.runs import errors, with_alpha
 from benchmarks.integrators.stretches import Stretch, rated
-from benchmarks.motion import Problem, check_right_hand_sides, cheapest
+from benchmarks.motion import Problem, cheapest, check_right_hand_sides
 from benchmarks.numpy_plant import NumpyPlant
 from benchmarks.ratios import Figure, Measured, Ratio, cost_at, exponent, machine
 from benchmarks.table import write

@@ -101,7 +101,8 @@ def test_table_and_value_written_in_the_campaign(tmp_path):
 
 
 def test_noise_of_a_temperature_is_a_difference(tmp_path):
-    text = 'tags.location = "housing"\nnoise = "0.2 degC"\ntable.time = { values = [0], unit = "s" }\n' + (
+    text = (
+        'tags.location = "housing"\nnoise = "0.2 degC"\ntable.time = { values = [0], unit = "s" }\n'
         'table.value = { values = [25], unit = "degC" }'
     )
     record = load(tmp_path, run(text, quantity="temperature")).records[0]

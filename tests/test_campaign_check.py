@@ -9,9 +9,9 @@ import pytest
 from cli.commands import campaign as campaign_commands
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
-from discrepancy.campaign.template import write_template
 from discrepancy.campaign.pairs import PAIRS
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.campaign.template import write_template
 from fmu_src.faults import InputFault
 
 

@@ -3,8 +3,8 @@
 import re
 
 from discrepancy.campaign.check import check_campaign
-from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.documentation import PAGE, page
+from discrepancy.campaign.load import load_campaign
 
 BLOCK = re.compile(r"```(?:toml|csv)\n# (\S+)\n(.*?)```", re.DOTALL)
 

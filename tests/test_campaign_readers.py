@@ -110,9 +110,9 @@ def test_mat_7_3(tmp_path, names):
     is_measured(campaign(tmp_path, f'file = "a.mat"\n{columns(*names)}').records[0])
 
 
-def write_mdf(path) -> None:
+def write_mdf(path, version="4.10") -> None:
     time, slow = np.linspace(0.0, 4.0, 5), np.linspace(0.0, 4.0, 9)
-    with MDF(version="4.10") as file:
+    with MDF(version=version) as file:
         file.append([Signal(ANGLE, time, name="phi"), Signal(ERROR, time, name="te")])
         file.append([Signal(np.interp(slow, time, ERROR), slow, name="te_fast")])
         file.save(path, overwrite=True)
@@ -124,6 +124,13 @@ def test_mdf4(tmp_path):
     record = campaign(tmp_path, run).records[0]
     is_measured(record)
     assert record.axes["time"] == pytest.approx(np.arange(5.0))
+
+
+def test_groups_of_mdf3_go_by_their_number(tmp_path):
+    write_mdf(tmp_path / "a.mdf", "3.30")
+    is_measured(campaign(tmp_path, f'file = "a.mdf"\n{columns()}\ngroup = "0"').records[0])
+    with pytest.raises(InputFault, match="column 'phi': the file has no such column"):
+        campaign(tmp_path, f'file = "a.mdf"\n{columns()}\ngroup = "1"')
 
 
 def test_channels_of_different_rates_are_interpolated_only_on_demand(tmp_path):

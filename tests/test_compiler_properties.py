@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kernel_sources import GIVEN, ROW, WHOLE, kernel_sources
+from properties import examples
 
 from fmu_src.compiler import store
 from fmu_src.compiler.types import KernelFault
 from fmu_src.kernel import Kernel
-from kernel_sources import GIVEN, ROW, WHOLE, kernel_sources
-from properties import examples
 
 # What Python does where a kernel gives inf, nan or 0, reads beyond an array or what has no value yet.
 RAISED = (ArithmeticError, ValueError, IndexError, UnboundLocalError)

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from stand import in_equilibrium
+from twin import Twin, centre_curve
 
 from rv_plant.contact import (
     LANKARANI,
@@ -15,8 +17,6 @@ from rv_plant.contact import (
     hertz_peak_pressure,
     law_constants,
 )
-from stand import in_equilibrium
-from twin import Twin, centre_curve
 
 EXPONENT = 10.0 / 9.0
 # 1/E* = 2 (1 - nu^2)/E for steel on steel; published as 113.7 GPa.

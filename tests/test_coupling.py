@@ -1,13 +1,14 @@
 """Extrapolation, step control, algebraic loops and the power residual against known solutions."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
+from python_units import Fragile, Gain, Motor, Oscillator, Shaft, modes
 
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.master import Connection, LoopSettings, Master, StepControl
-from python_units import Fragile, Gain, Motor, Oscillator, Shaft, modes
 
 RING = [("a.x", "b.u"), ("b.x", "a.u")]
 END = 4.0
@@ -32,7 +33,7 @@ def test_order_of_extrapolated_coupling(scheme, order, derivatives, expected):
     masters = [oscillators(h, derivatives, scheme=scheme, extrapolation=order) for h in steps]
     assert masters[0].coupling_order == expected
     errors = [error_at_end(master) for master in masters]
-    orders = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
+    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
     assert orders[-1] == pytest.approx(expected, abs=0.2)
 
 

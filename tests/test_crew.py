@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shared import gone
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
@@ -16,7 +17,7 @@ from discrepancy.prediction.crew import HOW, WAYS, Crew, shares
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault, RunFault
-from shared import gone
+from fmu_src.progress import task, told_to
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -102,6 +103,27 @@ def test_answers_of_an_interrupted_round_are_passed_over(way):
     with pytest.raises(KeyboardInterrupt):
         crew([0, 1, 2, 3], (1.0, 0))
     assert [y[0] for y in crew([3, 1], (2.0, None))] == [6.0, 2.0]
+    crew.close()
+
+
+class Deaf:
+    """A listener that must not be asked in another process: its locks may be held there for ever."""
+
+    def begin(self, task):
+        assert multiprocessing.parent_process() is None
+
+    end = say = begin
+
+
+def telling(i, factor, fails):
+    with task("predicting"):
+        return predict(i, factor, fails)
+
+
+def test_only_the_first_process_tells_how_far_it_is(way):
+    with told_to(Deaf()):
+        crew = Crew(RECORDS, telling, 2)
+        assert [y[0] for y in crew([3, 1], (2.0, None))] == [6.0, 2.0]
     crew.close()
 
 

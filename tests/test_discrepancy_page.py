@@ -77,7 +77,7 @@ def model_of(hidden=None, held=True, extra=None):
 
 def compared(model):
     doctor = Diagnostician(model)
-    localisation = doctor.prepare()
+    doctor.prepare()
     space = doctor.space
     predictions = space.predictions(space.base.values, list(range(len(space.records))))
     runs = []
@@ -133,7 +133,7 @@ def written(result, tmp_path):
     one, two = write_page(result, tmp_path / "one.html"), write_page(result, tmp_path / "two.html")
     assert one.read_bytes() == two.read_bytes() and one.stat().st_size < 7e6
     page = one.read_text(encoding="utf-8")
-    markup = re.sub(r"<script.*?</script>", "", page, flags=re.S)
+    markup = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"https?:|@import|url\(|<link|<img|<iframe", markup)
     assert not re.search(r"<script[^>]*\bsrc", page) and "plotly.js v" in page
     links = re.findall(r'href="#([^"]*)"', markup)
@@ -149,7 +149,7 @@ def written(result, tmp_path):
 
 
 def figures_of(page):
-    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.S)[1])["figures"]
+    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.DOTALL)[1])["figures"]
 
 
 def figure(page, name):

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from stand import gradient, imperfect, in_motion, only
 
 from rv_plant.dynamics import assemble_motion
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import gradient, imperfect, in_motion, only
 
 NONE, STEP, HYSTERETIC, MODAL = range(4)
 EVERY_LAW = pytest.mark.parametrize("law", [STEP, HYSTERETIC, MODAL], ids=["step", "hysteretic", "modal"])

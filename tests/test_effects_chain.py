@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from discrepancy.catalogue.examples import Case
-from discrepancy.catalogue.signature import ARCSEC, amplitudes, conditions, changed, new_bench, turn
+from discrepancy.catalogue.signature import ARCSEC, amplitudes, changed, conditions, new_bench, turn
 from discrepancy.effects import MODULES, STAGES
 from discrepancy.problem import Record
 

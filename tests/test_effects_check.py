@@ -8,11 +8,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from cli.main import main
 from discrepancy.catalogue.documentation import PAGE, own_part
 from discrepancy.draft import BODIES, PLANT_NAMES, WEAR_NAMES, text_of
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
-from cli.main import main
 
 HEAD = """import math
 from fmu_src.effect import Effect, amplitude

@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 import pytest
+from stand import in_equilibrium
 
 from discrepancy.catalogue.signature import ARCSEC, amplitudes, conditions, new_bench, observed, rated, turn, worn
 from discrepancy.prediction.bench import Condition
-from stand import in_equilibrium
 
 UM = 1e-6
 PINS, LOBES = 40, 39

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stand import SHARED, crank_period, exchange, only, records_of
 
 from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.effects import MODULES
@@ -9,7 +10,6 @@ from discrepancy.problem import Record
 from fmu_src.effect import Effect
 from rv_plant import plant
 from rv_plant.effects import EFFECTS as PLANT
-from stand import SHARED, crank_period, exchange, only, records_of
 from wear_fmu import accumulator
 from wear_fmu.effects import EFFECTS as WEAR
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+from stand import SHARED, crank_period, exchange, records_of
 
 from fmu_src.effect import effect_modules
 from reducers.reducer import load_reducer
@@ -18,7 +19,6 @@ from rv_plant import assembly, outputs, plant
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
 from rv_plant.effects import EFFECTS as PLANT
 from rv_plant.effects import HOOKS as PLANT_HOOKS
-from stand import SHARED, crank_period, exchange, records_of
 from wear_fmu import accumulator
 from wear_fmu.effects import ALLOWED as WEAR_ALLOWED
 from wear_fmu.effects import EFFECTS as WEAR

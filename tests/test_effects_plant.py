@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stand import crank_period, in_equilibrium, only, records_of, run_plant
+from twin import Twin
 
 from discrepancy.catalogue.signature import ARCSEC, amplitudes, cage_order, conditions, loop_width, new_bench, observed, rated, turn
 from rv_plant import plant
 from rv_plant.effects import stribeck_friction
-from stand import crank_period, in_equilibrium, only, records_of, run_plant
-from twin import Twin
 
 UM = 1e-6
 HOUR = 3600.0
@@ -310,7 +310,7 @@ def test_effects_act_in_motion_too(rv20e):
         records = records_of(rv20e.plant, fidelity=1, **v)
         assert plant.initialise(records) == 0
         found = []
-        for i in range(60):
+        for _i in range(60):
             assert plant.step(records, 0.0, crank_period(records) / 500.0) == 0
             found.append(float(records["drive_torque"][0]))
         added.append(np.mean(found[20:]))

@@ -6,13 +6,19 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+from stand import SHARED, crank_period, exchange, only, records_of
 
 from discrepancy.catalogue.signature import conditions, new_bench, worn
 from rv_plant import plant
-from stand import SHARED, crank_period, exchange, only, records_of
 from wear_fmu import accumulator
 from wear_fmu.effects import (
-    edge_loading, grease_ageing, hardness_gradient, load_exponent, lubrication_regime, roller_skidding, running_in,
+    edge_loading,
+    grease_ageing,
+    hardness_gradient,
+    load_exponent,
+    lubrication_regime,
+    roller_skidding,
+    running_in,
 )
 
 HOUR = 3600.0

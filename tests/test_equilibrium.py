@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy.optimize import root
+from stand import imperfect, in_equilibrium, only, records_of
+from twin import Twin
 
 from rv_plant import faults, plant
 from rv_plant.equilibrium import equilibrium
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import imperfect, in_equilibrium, only, records_of
-from twin import Twin
 
 ANGLE, CAGE = 0.0871, 1.3
 SUPPORTS = {

@@ -6,7 +6,6 @@ drive, needle clearances radial, 72 positions a turn of the cranks.
 
 import numpy as np
 import pytest
-
 from stand import ARCSEC, run_plant
 
 LOBES, PINS = 39, 40

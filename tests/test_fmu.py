@@ -10,18 +10,18 @@ import fmpy
 import fmpy.validation
 import numpy as np
 import pytest
-
 from conftest import UNITS
+
 from fmu_src.description import guid
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.native import host_triple
 from fmu_src.package import build_fmu
 from fmu_src.project import project
 from fmu_src.source_hash import source_hash
 from fmu_src.units import fmi_base_unit
-from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
-from studies.pair import make_pair
 from rv_plant.effects import EFFECTS as PLANT
+from studies.pair import make_pair
 from wear_fmu.effects import EFFECTS as WEAR
 
 NAMES = ["RvPlant", "RvWear"]

@@ -2,16 +2,16 @@
 
 import numpy as np
 import pytest
+from test_loop import CLEARANCE, campaign_of
 
 from discrepancy.model_file import ModelFile, load_model
 from discrepancy.prediction.bench import HOUR, Bench, Condition
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
-from studies.coupled import COLUMNS
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
-from test_loop import CLEARANCE, campaign_of
+from studies.coupled import COLUMNS
 
 ARCSEC = np.pi / 180.0 / 3600.0
 SHORT = Condition(209.0, 167.0)

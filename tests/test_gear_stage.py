@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from stand import in_equilibrium, only, records_of
 
 from rv_plant import plant
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
-from stand import in_equilibrium, only, records_of
 
 CIRCLE, RATIO = 28e-3, 3.0
 SUN = CIRCLE / (1 + RATIO)

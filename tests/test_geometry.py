@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
+from stand import in_equilibrium
+from twin import centre_curve, directions, outward_normal
 
 from rv_plant.assembly import assemble
 from rv_plant.geometry import (
@@ -14,8 +16,6 @@ from rv_plant.geometry import (
     shortening,
     turn_of,
 )
-from stand import in_equilibrium
-from twin import centre_curve, directions, outward_normal
 
 LOBES = 39
 # (pin circle radius, pin radius, eccentricity) of the generated profile [m]

@@ -15,7 +15,7 @@ SPEEDS = (100.0, 150.0, 200.0, 250.0)
 
 
 def line(order):
-    return 1.0 * (ORDERS == order)
+    return 1.0 * (order == ORDERS)
 
 
 REST = 1e-10 * np.cos(ORDERS)

@@ -66,8 +66,7 @@ def law(record, v):
         y = y + get("disc_c", 0.0) * np.cos(40 * x) + get("disc_s", 0.0) * np.sin(40 * x)
         c = get("clearance", 0.0)
         y = y + c * (0.7 * np.cos(80 * x) * (1 + load / 800) + f["direction"] * np.tanh(load / 100))
-        y = y + get("expansion", 0.0) * warm * f["direction"] + get("housing", 0.0) * load * f["direction"] + get("gap", 0.0) * f["direction"]
-        return y
+        return y + get("expansion", 0.0) * warm * f["direction"] + get("housing", 0.0) * load * f["direction"] + get("gap", 0.0) * f["direction"]
     if record.quantity == "torque":
         speed, load = record.axes["sliding_speed"], f["load"]
         y = get("friction", 0.02) * load * f["direction"] * (1 - 0.1 * np.log(speed / 0.3) * 0.2)
@@ -160,7 +159,7 @@ def design(rng, noise, samples=360):
     for k, (load, temperature, direction) in enumerate((a, b, c) for a in LOADS[:3] for b in (293.0, 320.0) for c in (1.0, -1.0)):
         add("torque", k, 2, lambda: {"sliding_speed": np.linspace(0.02, 0.9, 100)}, {"load": load, "temperature": temperature, "direction": direction})
     for k, (load, hours) in enumerate((a, b) for a in (100.0, 200.0, 400.0) for b in (50.0, 150.0, 400.0, 800.0)):
-        add("wear", k, 3, lambda: {}, {"load": load, "hours": hours * 3600, "temperature": 293.0 + 15 * ((k * 7) % 3)})
+        add("wear", k, 3, dict, {"load": load, "hours": hours * 3600, "temperature": 293.0 + 15 * ((k * 7) % 3)})
     return records
 
 

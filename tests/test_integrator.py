@@ -6,10 +6,10 @@ Chung and Hulbert (1993): second order; spectral radius rho far above the step.
 
 import numpy as np
 import pytest
+from stand import in_motion, only
 
 from rv_plant import plant
 from rv_plant.integrator import alpha_step, keep_start, next_step_size
-from stand import in_motion, only
 
 COMPLIANCE, INERTIA, START = 1e-4, 2.0, 1e-4
 OMEGA = 1.0 / np.sqrt(COMPLIANCE * INERTIA)

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shared import gone
 
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.isolation import Isolated
 from orchestrator.master import StepControl
 from orchestrator.system import connect
-from shared import gone
 
 RING = [("a.x", "b.u"), ("b.x", "a.u")]
 

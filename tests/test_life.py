@@ -64,7 +64,7 @@ DEMANDS = (0.1, 0.03, 0.01)
 
 @pytest.mark.parametrize("case", CASES)
 def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case):
-    make = lambda: make_coarse(rv20e, master_kind=CoupledMaster, **CASES[case])  # noqa: E731
+    make = lambda: make_coarse(rv20e, master_kind=CoupledMaster, **CASES[case])
     exact, hours, jumps = make(), 3000.0, 24
     for i in range(jumps):
         run_cycle(exact, hours * (2 * i + 1) / jumps**2)

@@ -117,7 +117,7 @@ def test_declared_nuisance_is_calibrated_and_no_candidate(file):
     level = Nuisance(Parameter("friction_coefficient", "1", 0.0, 0.0, 0.5, 0.01))
     comparison = compare(file, replace(campaign, nuisances=(level,)))
     assert comparison.nuisances["friction_coefficient"] == pytest.approx(0.02, abs=0.004)
-    assert all("stribeck_friction.mesh" != c.name for c in comparison.model.candidates)
+    assert all(c.name != "stribeck_friction.mesh" for c in comparison.model.candidates)
 
 
 def test_record_counted_from_another_angle_is_aligned(file):

@@ -1,13 +1,14 @@
 """The master: coupling schemes and their order, step ratios, units, faults, state."""
 
+import itertools
 import math
 
+import lag_unit
 import numpy as np
 import pytest
 
-import lag_unit
-from orchestrator.component import InProcess
 from fmu_src.faults import InputFault, RunFault
+from orchestrator.component import InProcess
 from orchestrator.master import Master
 
 
@@ -38,7 +39,7 @@ def coupled_error(make_lag, scheme: str, step: float) -> float:
 @pytest.mark.parametrize("scheme", ["gauss-seidel", "jacobi"])
 def test_coupling_error_is_of_first_order(make_lag, scheme):
     errors = [coupled_error(make_lag, scheme, step) for step in (1e-2, 5e-3, 2.5e-3)]
-    orders = [math.log2(coarse / fine) for coarse, fine in zip(errors, errors[1:])]
+    orders = [math.log2(coarse / fine) for coarse, fine in itertools.pairwise(errors)]
     assert orders == pytest.approx([1.0, 1.0], abs=0.03)
 
 

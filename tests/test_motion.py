@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from stand import crank_period, in_motion, only, records_of, run_motion
 
 from rv_plant import plant
-from stand import crank_period, in_motion, only, records_of, run_motion
 
 NONE, STEP, HYSTERETIC, MODAL = range(4)
 UNDAMPED = {"damping_law": NONE, "joint_damping_time": 0.0}
@@ -44,7 +44,7 @@ def test_energy_balances_over_a_crank_turn(request, reducer, law):
     damping = UNDAMPED if law == NONE else {"damping_law": law}
     records = in_motion(request.getfixturevalue(reducer).plant, **damping)
     first = only(records).copy()
-    series = [first] + run_motion(records, crank_period(records), 2000)
+    series = [first, *run_motion(records, crank_period(records), 2000)]
     last = series[-1]
     assert max(abs(r.energy_error) for r in series[200:]) < 1e-4
     torque = np.array([r.drive_torque for r in series])

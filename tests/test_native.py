@@ -2,9 +2,9 @@
 
 import math
 
+import lag_unit
 import pytest
 
-import lag_unit
 from fmu_src import native
 from fmu_src.compiler import loading
 from fmu_src.compiler.types import KernelFault, Layout

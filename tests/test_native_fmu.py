@@ -13,16 +13,16 @@ import fmpy
 import fmpy.validation
 import numpy as np
 import pytest
+from conftest import UNITS
 from fmpy.fmi3 import fmi3Float64, fmi3ValueReference
 
-from conftest import UNITS
 from fmu_src import audit
-from fmu_src.link import FMI_HEADERS
 from fmu_src.compiler.loading import LIBM
+from fmu_src.faults import InputFault, RunFault
+from fmu_src.link import FMI_HEADERS
 from fmu_src.package import build_native
 from fmu_src.project import project
 from orchestrator.component import InProcess
-from fmu_src.faults import InputFault, RunFault
 from orchestrator.opening import open_fmu
 from studies.pair import make_pair
 
@@ -30,7 +30,7 @@ VERSIONS = ["fmi2", "fmi3"]
 ROOT = Path(__file__).resolve().parents[1]
 
 
-@pytest.fixture(params=[(v, n) for v in VERSIONS for n in UNITS], ids=lambda p: "-".join(p))
+@pytest.fixture(params=[(v, n) for v in VERSIONS for n in UNITS], ids="-".join)
 def path(request, native_fmus):
     return native_fmus / request.param[0] / f"{request.param[1]}.fmu"
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from stand import gradient, only, records_of
 
 from rv_plant.needle_bearing import cage_rate, roller_contacts
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import gradient, only, records_of
 
 ROLLERS, STIFFNESS, EXPONENT = 16, 1.1e9, 10.0 / 9.0
 

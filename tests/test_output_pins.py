@@ -4,16 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stand import gradient, in_equilibrium, only, records_of
+from twin import Twin, cross, directions
 
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
 from rv_plant import faults, plant
 from rv_plant.assembly import assemble
 from rv_plant.equilibrium import equilibrium
+from rv_plant.faults import FAULTS
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
-from stand import gradient, in_equilibrium, only, records_of
-from twin import Twin, cross, directions
 
 ANGLE, CAGE = 0.0871, 0.4
 
@@ -139,7 +140,7 @@ def test_play_of_the_pins_is_their_clearance_over_their_circle(drive):
 ])  # fmt: skip
 def test_impossible_holes_are_refused(drive, values, fault):
     assert plant.initialise(records_of(drive.plant, **values)) == fault
-    assert plant.FAULTS[fault].format(**{n: only(records_of(drive.plant, **values))[n] for n in (
+    assert FAULTS[fault].format(**{n: only(records_of(drive.plant, **values))[n] for n in (
         "output_pin_radius", "output_circle_radius", "eccentricity", "outer_race_radius")})  # fmt: skip
 
 

@@ -11,8 +11,14 @@ import pytest
 from fmu_src.variables import ValueFault
 from wear_fmu.kinematics import sliding_per_crank_angle
 from wear_fmu.pin_on_disc import (
-    PARAMETERS, PinOnDiscTest, fit, instantaneous_coefficient, secant_coefficient, smallest_visible_coefficient,
-    whitened_differences, worn_mass,
+    PARAMETERS,
+    PinOnDiscTest,
+    fit,
+    instantaneous_coefficient,
+    secant_coefficient,
+    smallest_visible_coefficient,
+    whitened_differences,
+    worn_mass,
 )
 from wear_fmu.wear_laws import RUN_IN_LOAD, run_in_factor, wear_coefficient
 

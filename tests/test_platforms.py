@@ -12,8 +12,8 @@ from pathlib import Path
 
 import fmpy.validation
 import pytest
-
 from conftest import UNITS
+
 from fmu_src import audit
 from fmu_src.link import FMI_HEADERS, zig
 from fmu_src.package import build_native

@@ -3,11 +3,11 @@
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.optimize import minimize_scalar
-
 from properties import examples
-from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, least_distance, lobe_point, shortening
+from scipy.optimize import minimize_scalar
 from twin import centre_curve, outward_normal
+
+from rv_plant.geometry import centre_curve_curvature, closest_distance, flank_curvature, least_distance, lobe_point, shortening
 
 # (lobes, pin circle radius [m], shortening)
 discs = st.tuples(st.integers(3, 80), st.floats(5e-3, 0.5), st.floats(0.1, 0.9))

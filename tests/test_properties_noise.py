@@ -3,9 +3,9 @@
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from properties import assert_near, examples
 
 from discrepancy.inference.noise.whiten import whitener
-from properties import assert_near, examples
 
 
 @st.composite

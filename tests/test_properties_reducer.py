@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from mirror import Measures, backwards, between_backwards, mirrored_contacts, mirrored_parts, turned_parts
 from properties import assert_near
-from rv_plant import plant
 from stand import crank_period, imperfect, only, pair_of, steps_together
+
+from rv_plant import plant
 
 # Some 50 h a step.
 ACCELERATION = 1e8

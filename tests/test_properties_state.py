@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from properties import examples
 
 from fmu_src.state import HEADER_SIZE, State, StateFault, pack, unpack
 from orchestrator.component import InProcess
-from properties import examples
 
 UNITS = ("rv_plant", "wear_fmu", "rv_reducer")
 CRANK_TURN = 2.0 * np.pi / 67.5

@@ -5,12 +5,12 @@ import math
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from properties import examples
 
 from fmu_src.faults import InputFault
 from fmu_src.units import FMI_BASE, BaseUnit, UnitError, conversion, fmi_base_unit, parse
 from fmu_src.variables import Variable
 from orchestrator.settings import parse_setting, parse_value
-from properties import examples
 
 # Units of one kind each.
 KINDS = {

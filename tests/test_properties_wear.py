@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from properties import assert_near, examples
 from stand import only, records_of
+
 from wear_fmu import accumulator
 from wear_fmu.kinematics import flank_arc_per_phase, sliding_per_crank_angle
 from wear_fmu.surfaces import add_flank_pass, add_footprint, add_pass, interpolate_closed, interpolate_open

@@ -55,11 +55,11 @@ def page(result):
 
 
 def content(page):
-    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.S)[1])
+    return json.loads(re.search(r'<script type="application/json" id="content">(.*?)</script>', page, re.DOTALL)[1])
 
 
 def without_scripts(page):
-    return re.sub(r"<script.*?</script>", "", page, flags=re.S)
+    return re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
 
 
 def traces_of(figure, disc, hour):
@@ -101,7 +101,7 @@ def test_every_section_and_figure_is_there(page):
 
 def test_cards_say_what_the_dataset_says(page, dataset):
     pattern = r'data-figure="(\w+)" data-start="([^"]+)" data-end="([^"]+)".*?class="from">(.*?)<.*?class="to">(.*?)<'
-    cards = re.findall(pattern, page, re.S)
+    cards = re.findall(pattern, page, re.DOTALL)
     assert len(cards) == 10
     for name, start, end, start_text, end_text in cards:
         assert float(start) == dataset[name].values[0] and float(end) == dataset[name].values[-1]

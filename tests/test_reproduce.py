@@ -116,11 +116,11 @@ def test_progress_is_told():
 
 def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):
     assert page == page_of(run(QUICK))
-    shown = re.sub(r"<script.*?</script>", "", page, flags=re.S)
+    shown = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"(src|href)=[\"'](?!#)", shown) and "@import" not in shown and "url(" not in shown
     for claim in claims:
         assert f'<article id="{claim.id}"' in page
-    content = json.loads(re.search(r'id="content">(.*?)</script>', page, re.S)[1])["figures"]
+    content = json.loads(re.search(r'id="content">(.*?)</script>', page, re.DOTALL)[1])["figures"]
     assert {f["name"] for f in content} == {f.name for c in claims for f in c.figures}
     assert all(f'id="plot-{f["name"]}"' in shown for f in content)
     path = write_page(claims, tmp_path / "new" / "claims.html")

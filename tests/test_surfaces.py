@@ -1,5 +1,7 @@
 """Bins of worn surfaces: what goes in comes out, and where."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -106,7 +108,7 @@ def lobe_tables(bins):
     """(slide, slide_before, arc) of one lobe of the BX-40E by adaptive integration."""
     edges = np.linspace(0, 2 * np.pi, bins + 1)
     slide, arc = (
-        np.array([quad(f, a, b, args=PROFILE, epsabs=1e-16)[0] for a, b in zip(edges, edges[1:])])
+        np.array([quad(f, a, b, args=PROFILE, epsabs=1e-16)[0] for a, b in itertools.pairwise(edges)])
         for f in (sliding_per_crank_angle, flank_arc_per_phase)
     )
     return slide, np.concatenate([[0.0], np.cumsum(slide)[:-1]]), arc

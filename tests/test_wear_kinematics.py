@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from stand import in_equilibrium, only, records_of
+from twin import Twin, centre_curve, outward_normal
 
 from rv_plant.assembly import assemble
 from rv_plant.geometry import flank_curvature
-from stand import in_equilibrium, only, records_of
-from twin import Twin, centre_curve, outward_normal
 from wear_fmu import accumulator
 from wear_fmu.kinematics import (
     equivalent_curvature,

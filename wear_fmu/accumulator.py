@@ -10,7 +10,6 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
-
 from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (

@@ -12,7 +12,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable
-
 from wear_fmu.dimension import parameter
 
 EXACT, PRINTED = 0, 1

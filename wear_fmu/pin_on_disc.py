@@ -11,11 +11,13 @@ first too, have independent errors of standard uncertainty u: a loss between two
 neighbours share a weighing: covariance u^2 (-1, 2, -1), tridiagonal, whitened by its Cholesky factor.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import linalg, optimize, stats
 
+from fmu_src.arrays import Floats
 from fmu_src.variables import ValueFault
 
 NEAR_BOUND, VAGUE = 0.01, 1.0  # distance to a bound, error that tells nothing: in ln(kss, r, s0) or in m
@@ -41,7 +43,7 @@ LIMITS = {  # name: unit, lowest, highest, remedy; those of the law lie within t
 PARAMETERS = ("wear_coefficient", "run_in_ratio", "run_in_distance", "load_exponent")  # kss, r, s0, m
 
 
-def checked(name: str, value, where: str = "") -> float:
+def checked(name: str, value: object, where: str = "") -> float:
     """``value`` as a float within ``LIMITS``; else a ValueFault with name, value, unit, range and remedy."""
     unit, low, high, remedy = LIMITS[name]
     if not isinstance(value, (int, float, np.number)) or not low <= value <= high:  # NaN too
@@ -64,7 +66,7 @@ class PinOnDiscTest:
     balance_uncertainty: float | None = None  # kg, standard uncertainty of one weighing
     name: str = "test"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for field in filter(LIMITS.get, self.__dataclass_fields__):
             value = getattr(self, field)
             if field in ("times", "mass_losses"):
@@ -78,7 +80,7 @@ class PinOnDiscTest:
                              " give at least one reading, one loss per time, each time once and in order")
 
     @property
-    def distances(self) -> np.ndarray:
+    def distances(self) -> Floats:
         """Distance slid at the readings, 2 pi R n t [m]."""
         return 2.0 * np.pi * self.track_radius * self.rotational_speed * np.array(self.times)
 
@@ -88,7 +90,7 @@ class PinOnDiscTest:
         return self.density * self.normal_force / self.hardness
 
 
-def secant_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
+def secant_coefficient(test: PinOnDiscTest) -> tuple[Floats, Floats]:
     """(distances [m], SECANT kappa [1]) at the readings: Q H/(rho F s) with the cumulative loss Q.
 
     The BX-40E document prints this formula and calls it instantaneous.  It is the mean of the
@@ -97,7 +99,7 @@ def secant_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
     return test.distances, np.array(test.mass_losses) / (test.mass_per_distance * test.distances)
 
 
-def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[np.ndarray, np.ndarray]:
+def instantaneous_coefficient(test: PinOnDiscTest) -> tuple[Floats, Floats]:
     """(middle distances [m], INSTANTANEOUS kappa [1]) of the intervals between readings: H/(rho F) dQ/ds.
 
     The mean over each interval (the first from the start): equals the law at its middle to
@@ -115,7 +117,7 @@ def smallest_visible_coefficient(test: PinOnDiscTest, balance_uncertainty: float
     """
     u = test.balance_uncertainty if balance_uncertainty is None else balance_uncertainty
     loss = VISIBLE * np.sqrt(2.0) * checked("balance_uncertainty", u, f"{test.name}: ")
-    return loss / (test.mass_per_distance * test.distances[-1])
+    return float(loss / (test.mass_per_distance * test.distances[-1]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +130,7 @@ class PinOnDiscFit:
 
     estimates: dict[str, float]  # 1, 1, m, 1; kss at reference_load; NaN where any value fits
     standard_errors: dict[str, float]  # 1, 1, m, 1; 0 if held
-    covariance: np.ndarray  # in the same units
+    covariance: Floats  # in the same units
     reduced_chi_square: float  # NaN without degrees of freedom or balance_uncertainty
     degrees_of_freedom: int
     balance_uncertainty: float  # kg, given (rms of the tests) or estimated from the residuals
@@ -159,14 +161,14 @@ class PinOnDiscFit:
                 "run_in_crank_speed": speed, "load_exponent": m, "reference_line_load": self.reference_load / length}
 
 
-def whitened_differences(test: PinOnDiscTest, uncertainty: float) -> np.ndarray:
+def whitened_differences(test: PinOnDiscTest, uncertainty: float) -> Floats:
     """Matrix that turns losses [kg] into increments with independent unit errors; u [kg]."""
     of_weighings = np.diff(np.eye(len(test.times) + 1), axis=0)
     root = uncertainty * np.linalg.cholesky(of_weighings @ of_weighings.T)
     return np.linalg.solve(root, of_weighings[:, 1:])
 
 
-def worn_mass(x, s, per_distance, log_load):
+def worn_mass(x: Floats, s: Floats, per_distance: Floats | float, log_load: Floats | float) -> tuple[Floats, Floats]:
     """Q [kg] at distances s [m], and its slopes in x = (ln kss, ln r, ln s0, m); rho F/H [kg/m], ln(F/F0)."""
     (r, s0), gone = np.exp(x[1:3]), -np.expm1(-s / np.exp(x[2]))
     scale = per_distance * np.exp(x[0] + x[3] * log_load)
@@ -174,7 +176,9 @@ def worn_mass(x, s, per_distance, log_load):
     return q, np.array([q, scale * r * s0 * gone, scale * (r - 1.0) * (s0 * gone - s * (1.0 - gone)), q * log_load]).T
 
 
-def fit(tests, reference_load: float | None = None, held: dict[str, float] | None = None) -> PinOnDiscFit:
+def fit(
+    tests: Iterable[PinOnDiscTest], reference_load: float | None = None, held: dict[str, float] | None = None
+) -> PinOnDiscFit:
     """Fit the law to a sequence of PinOnDiscTest by least squares on the whitened increments.
 
     ``reference_load`` F0 [N] None: geometric mean of the loads.  ``held``: values of parameters
@@ -203,16 +207,22 @@ def fit(tests, reference_load: float | None = None, held: dict[str, float] | Non
         row[:3] = np.log(row[:3])
     free = np.isnan(x)
 
-    def evaluate(part):  # sets x
+    def evaluate(part: Floats) -> tuple[Floats, Floats]:  # sets x
         x[free] = part
         q, slopes = worn_mass(x, *conditions)
         return whiten @ (q - measured), (whiten @ slopes)[:, free]
 
-    def solve(distance):
+    def residuals(part: Floats) -> Floats:
+        return evaluate(part)[0]
+
+    def slopes_of(part: Floats) -> Floats:
+        return evaluate(part)[1]
+
+    def solve(distance: float) -> optimize.OptimizeResult:
         secant = measured.max() / np.max(s * conditions[1])
         start = np.clip((np.log(secant), 1.0, np.log(distance), 0.3), low, high)[free]
-        return optimize.least_squares(lambda part: evaluate(part)[0], start, lambda part: evaluate(part)[1],
-                                      (low[free], high[free]), ftol=1e-12, xtol=1e-12, gtol=1e-12, max_nfev=300)
+        return optimize.least_squares(residuals, start, slopes_of, (low[free], high[free]), ftol=1e-12, xtol=1e-12, gtol=1e-12,
+                                      max_nfev=300)
 
     found = min(map(solve, np.geomspace(s.min(), s.max(), 3)), key=lambda solution: solution.cost)
     _, singular, v = np.linalg.svd(np.vstack((evaluate(found.x)[1], np.zeros((4, free.sum())))), full_matrices=False)

@@ -5,6 +5,7 @@ A surface is a closed or open row of bins; positions are counted in bins, bin i 
 """
 
 import math
+from typing import Any
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, state
@@ -15,7 +16,7 @@ def variables(sizes: Sizes) -> list[Variable]:
     flank_bins, lobes = sizes["flank bin"], sizes["lobe"]
     race, lobe_bin = sizes.over("disc", "crank", bin=sizes["raceway bin"]), sizes.over(bin=flank_bins)
 
-    def surface(name: str, text: str, over: dict) -> Variable:
+    def surface(name: str, text: str, over: dict[str, Any]) -> Variable:
         return state(name, "m", text, **over, nominal=1e-6, profile=True)
 
     return [
@@ -49,7 +50,7 @@ def interpolate_closed(depth, position):
     """Depth at a position of a closed row, linear between the bins' middles."""
     n = depth.shape[0]
     x = position - 0.5
-    i = int(math.floor(x))
+    i = math.floor(x)
     part = x - i
     return (1.0 - part) * depth[i % n] + part * depth[(i + 1) % n]
 
@@ -99,8 +100,8 @@ def add_footprint(depth, start, end, half_width, amount):
     """
     n = depth.shape[0]
     low, high = min(start, end), max(start, end)
-    first = min(max(int(math.floor(low - half_width)), 0), n - 1)
-    last = min(max(int(math.floor(high + half_width)), 0), n - 1)
+    first = min(max(math.floor(low - half_width), 0), n - 1)
+    last = min(max(math.floor(high + half_width), 0), n - 1)
     deepest, place = 0.0, first
     left = 0.0
     for i in range(first, last + 1):
@@ -121,7 +122,7 @@ def add_pass(depth, start, end, amount):
     n = depth.shape[0]
     low, high = min(start, end), max(start, end)
     deepest, place = 0.0, 0
-    for i in range(int(math.floor(low)), int(math.floor(high)) + 1):
+    for i in range(math.floor(low), math.floor(high) + 1):
         swept = min(high, i + 1.0) - max(low, float(i))
         if swept <= 0.0:
             continue
@@ -144,7 +145,7 @@ def add_flank_pass(depth, start, end, amount, slide, slide_before, arc):
     n, bins = depth.shape[0], arc.shape[0]
     low, high = min(start, end), max(start, end)
     deepest, place = 0.0, 0
-    for i in range(int(math.floor(low)), int(math.floor(high)) + 1):
+    for i in range(math.floor(low), math.floor(high) + 1):
         swept = min(high, i + 1.0) - max(low, float(i))
         if swept <= 0.0:
             continue

@@ -2,13 +2,12 @@
 
 from types import SimpleNamespace
 
-from fmu_src.unit import Unit
-
+from fmu_src.unit import Specification, Unit
 from wear_fmu.accumulator import FAULTS, initialise, step
 from wear_fmu.variables import Resolution, wear_table
 
 
-def make_unit(specification: dict) -> Unit:
+def make_unit(specification: Specification) -> Unit:
     """The wear unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
     table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))

@@ -6,7 +6,6 @@ from typing import Any
 
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Sizes, Table, Variable
-
 from wear_fmu import accumulator, kinematics, surfaces, wear_laws
 from wear_fmu.effects import EFFECTS
 

@@ -18,7 +18,6 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable
-
 from wear_fmu.dimension import parameter
 
 CONSTANT, RUN_IN_LOAD, JANAKIRAMAN, JANAKIRAMAN_PRINTED = 0, 1, 2, 3

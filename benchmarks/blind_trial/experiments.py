@@ -18,7 +18,6 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Run, Series, there_and_back
 from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
@@ -26,6 +25,7 @@ from benchmarks.blind_trial.generator.noise import noise_for, round_to
 from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.results import EXPERIMENTS, finished, resolved
 from benchmarks.blind_trial.score import ONE, SET, Case
+from fmu_src.arrays import Floats
 
 RIG = """[rig]
 input_speed = ["300 rpm", "2500 rpm"]

@@ -4,6 +4,7 @@ All get the residual of the calibrated base model and the same library: the resp
 every shape of its grid, by finite differences.  None of them knows the noise from replicates.
 """
 
+import contextlib
 import tempfile
 import time
 import warnings
@@ -15,7 +16,8 @@ import numpy as np
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 
 MODEL = "RV20E-121"
 MOST_TERMS = 5
@@ -160,10 +162,8 @@ def peers_of(folder: Path) -> dict[str, list[str]]:
             "PEtab Select, forward by AIC": petab(residual, free, columns, owners, "AIC"),
             "PEtab Select, forward by BIC": petab(residual, free, columns, owners, "BIC"),
         }
-        try:
+        with contextlib.suppress(ImportError):
             found["PySINDy STLSQ"] = sparse(residual, free, columns, owners)
-        except ImportError:
-            pass
     found["seconds"] = [f"{time.perf_counter() - started:.1f}"]
     return found
 

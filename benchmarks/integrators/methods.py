@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 BDF2, DIRK, ROSENBROCK = range(3)
 NOT_USED = np.zeros((1, 1))

@@ -12,7 +12,7 @@ from benchmarks.integrators.first_order import jacobian, rate_of_change
 from benchmarks.integrators.methods import Method
 from benchmarks.integrators.steps import advance_by
 from benchmarks.integrators.stretches import Stretch, observe
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from rv_plant import plant
 
 REFERENCE = 1e-5

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.numba_peer import njit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.variables import Table
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion
+from rv_plant.faults import FAULTS
 
 FLYWHEEL = 1e9  # kg m^2
 
@@ -46,7 +47,7 @@ def begin(table: Table, **values: float) -> tuple[np.ndarray, float]:
         records[name] = value
     # Started as a driven sun; from then on the flywheel keeps the speed.
     status = plant.initialise(records)
-    assert status == 0, plant.FAULTS[status]
+    assert status == 0, FAULTS[status]
     return records, 2.0 * math.pi / abs(float(records["crank_speed"][0]))
 
 

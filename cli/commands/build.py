@@ -6,7 +6,7 @@ from pathlib import Path
 from cli.options import add_json, add_reducer
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     fmus = sub.add_parser("build", help="build and validate RvPlant.fmu, RvWear.fmu and RvReducer.fmu")
     add_reducer(fmus)
     fmus.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")

@@ -7,7 +7,7 @@ from discrepancy.campaign.quantities import QUANTITIES, USUAL
 from fmu_src.progress import task
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     campaign = sub.add_parser("campaign", help="measurement campaigns: check one, write an empty one")
     actions = campaign.add_subparsers(dest="action", required=True, metavar="ACTION")
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     for name, run, text in (
         ("compare", run_compare, "hold a model against a campaign: error against noise, per signal and condition"),
         ("localise", run_localise, "where a model fails: signals, orders, loads, speeds, temperatures, hours, places"),

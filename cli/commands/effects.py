@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cli.options import add_json, add_reducer
 from fmu_src.progress import task
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from discrepancy.catalogue.signature import Signature
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
     effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number (default: list all)")
     add_reducer(effects, "reducer on the bench (default RV20E-121)")
@@ -85,7 +85,7 @@ def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, li
     return {e.name: found for e, found, _ in shown}
 
 
-def as_json(found: "Signature") -> dict:
+def as_json(found: "Signature") -> dict[str, Any]:
     """A signature with all its figures, visible or not."""
     rows = [
         {"figure": r.figure, "condition": r.condition, "unit": r.unit, "without": float(r.without), "with": float(r.present)}

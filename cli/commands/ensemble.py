@@ -13,7 +13,7 @@ from fmu_src.progress import task
 NEEDED = ("SALib", "dask", "distributed", "joblib")
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     command = sub.add_parser("ensemble", help="lives of many reducers: scatter of parts, duty and parameters")
     command.add_argument("file", help="what scatters and how, and the limits (.toml, examples/ensemble.toml)")
     command.add_argument("--samples", type=int, help="base samples, a power of two, before the file's")

@@ -29,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 LITTER = "__pycache__"
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     command = sub.add_parser("example", help="copy an example, its data included, into the folder examples")
     completed_by(command.add_argument("name", nargs="?", metavar="NAME", help="example to copy (default: list all)"), completions)
     add_json(command, "print as JSON, nothing else")

@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cli.options import add_coupling_options, add_json, add_reducer_options, folder, result_path, settings_of
 from fmu_src.faults import InputFault
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     hours = sub.add_parser("life", help="wear over thousands of hours, in error-controlled jumps")
     add_reducer_options(hours)
     add_coupling_options(hours)
@@ -82,7 +82,7 @@ def life(options: argparse.Namespace) -> int:
     checkpoint = path.with_suffix(".checkpoint")
     if options.reuse and (known := known_result(path, inputs)) is not None:
         return show_life(options, known, path)
-    resume = options.resume or options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs)
+    resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs))
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
     with task("loading the units"):
@@ -117,7 +117,7 @@ def life(options: argparse.Namespace) -> int:
     return show_life(options, dataset, path)
 
 
-def belongs_to(checkpoint: Path, inputs: dict) -> bool:
+def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
     """Whether a run of these inputs left the checkpoint."""
     from studies.checkpoint import load_checkpoint
 
@@ -128,7 +128,7 @@ def belongs_to(checkpoint: Path, inputs: dict) -> bool:
     return True
 
 
-def known_result(path: Path, inputs: dict) -> "xr.Dataset | None":
+def known_result(path: Path, inputs: dict[str, Any]) -> "xr.Dataset | None":
     """A finished result with the same inputs, or None."""
     from orchestrator import netcdf
 

@@ -7,7 +7,7 @@ from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     turn = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
     add_reducer_options(turn)
     add_json(turn)
@@ -40,7 +40,7 @@ def solve(options: argparse.Namespace) -> int:
     reducer = load_reducer(options.reducer)
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings_of(options, reducer), {"plant": plant})
-    torque = plant.get("load_torque")
+    torque = plant.number("load_torque")
     with task("equilibria of one crank turn"):
         master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)
         pair = Pair(reducer, master, plant, plant, positions)

@@ -7,7 +7,7 @@ from pathlib import Path
 from cli.options import add_json
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     claims = sub.add_parser("reproduce", help="every claim of the sources held against the computation")
     claims.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
     claims.add_argument("--output", default="results/reproduce.html", help="the page")

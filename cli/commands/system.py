@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from orchestrator.system import System
 
 
-def add_commands(sub: argparse._SubParsersAction) -> None:
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     drive = sub.add_parser("run", help="co-simulate a system from a file, or the pair of a reducer for some crank turns")
     drive.add_argument("system", nargs="?", help="scenario (.toml), SSP (.ssp, .ssd, folder) or FMU; without it, the pair of --reducer")
     add_reducer_options(drive)
@@ -73,11 +73,10 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def run_reducer(options: argparse.Namespace) -> tuple[str, dict, dict]:
+def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], dict[str, float]]:
     """The pair of a reducer for some crank turns: (title, summary, values at the end)."""
     import numpy as np
 
-    from cli import screen
     from orchestrator import netcdf
     from reducers.reducer import load_reducer
     from studies import results
@@ -129,7 +128,6 @@ def refuse_system_options(options: argparse.Namespace) -> None:
 
 def open_system(options: argparse.Namespace) -> "System":
     """The system with the command line's options and settings applied."""
-    from cli import screen
     from orchestrator.master import LoopSettings, StepControl
     from orchestrator.system import load, whole_steps
 
@@ -167,7 +165,7 @@ def show_warnings(system: "System") -> None:
         print(f"warning: {warning}", file=sys.stderr)
 
 
-def run_system(options: argparse.Namespace) -> tuple[dict, dict[str, float]]:
+def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str, float]]:
     """Run and write; (summary, values at the end)."""
     import numpy as np
 
@@ -179,7 +177,7 @@ def run_system(options: argparse.Namespace) -> tuple[dict, dict[str, float]]:
     series = simulate(system, record)
     write_series(series, system.units(), {"system": system.text}, path)
     show_warnings(system)
-    summary = {"result": str(path), "steps": len(series["time"]) - 1, "end_time_s": float(series["time"][-1])}
+    summary: dict[str, object] = {"result": str(path), "steps": len(series["time"]) - 1, "end_time_s": float(series["time"][-1])}
     if system.master.controller is not None:
         summary |= {"steps accepted": system.master.controller.accepted, "steps rejected": system.master.controller.rejected}
     for bond in system.master.bonds:

@@ -5,6 +5,7 @@ from rich.table import Table
 
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
+from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import shown
@@ -38,7 +39,7 @@ def show_comparison(comparison: Comparison) -> None:
     show_warnings(out, comparison.warnings)
 
 
-def show_localisation(localisation, out: Console | None = None) -> None:
+def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
     """Where the misfit is; all tests together at the stated level."""
     out = out or console()
     findings = localisation.findings

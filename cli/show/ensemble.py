@@ -1,5 +1,7 @@
 """Tables of an ensemble."""
 
+from typing import Any
+
 from rich.console import Console
 from rich.table import Table
 
@@ -7,7 +9,7 @@ from rich.table import Table
 WIDTH = 130
 
 
-def show(found: dict) -> None:
+def show(found: dict[str, Any]) -> None:
     console = Console(width=max(Console().width, WIDTH))
     console.print(f"{found['reducer']}: {found['lives_done']} of {found['lives_planned']} lives of {found['hours']:g} h, "
                   f"{found['lives_failed']} failed", highlight=False)
@@ -38,8 +40,8 @@ def show(found: dict) -> None:
     console.print(table)
 
 
-def cell(value: dict, most: float | None = None) -> str:
-    def text(number):
+def cell(value: dict[str, float | None], most: float | None = None) -> str:
+    def text(number: float | None) -> str:
         return f"> {most:g}" if number is None else f"{number:.3g}" if most is None else f"{number:.0f}"
 
     return f"{text(value['value'])} ({text(value['low'])} .. {text(value['high'])})"

@@ -9,7 +9,8 @@ from itertools import combinations
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 
 # Two numbers nearer than this are one level: a share of the largest, or for temperatures an absolute difference.
 SAME_SHARE = 0.03

@@ -96,7 +96,7 @@ def condition_of(name: str, entry: ConditionEntry, scales: Scales, place: str) -
 
 def measured(run: Run, scales: Scales, files: Files, place: str) -> tuple[Series, Rows]:
     """The run's numbers, from a file, a table written in the campaign, or one value."""
-    given = [name for name in ("file", "table", "value") if getattr(run, name) or name == "value" and run.value is not None]
+    given = [name for name in ("file", "table", "value") if getattr(run, name) or (name == "value" and run.value is not None)]
     if len(given) != 1:
         raise InputFault(
             f"{place}: has {' and '.join(given) or 'no numbers'}: give exactly one of file (with columns), table, or value"
@@ -127,7 +127,7 @@ def require_roles(given: list[str], quantity: Quantity, place: str) -> None:
     for role in given:
         if role not in roles:
             raise InputFault(f"{place}.{role}: {quantity.name} has no such column; possible: {', '.join(roles)}")
-    if quantity.name == "transmission_error" and ENCODERS <= set(given) and VALUE not in given:
+    if quantity.name == "transmission_error" and set(given) >= ENCODERS and VALUE not in given:
         return
     names = [roles[role].name for role in given]
     if twice := {name for name in names if names.count(name) > 1}:
@@ -176,7 +176,7 @@ def tags_of(run: Run, condition: Condition, quantity: Quantity, scales: Scales, 
             raise InputFault(f"{place}.tags.{name} = {word!r}: choose one of {', '.join(tag.choices)}")
         if tag.counted:
             count = getattr(scales.reducer.topology, tag.counted) if scales.reducer else None
-            if not (word.isascii() and word.isdigit()) or int(word) < 1 or count is not None and int(word) > count:
+            if not (word.isascii() and word.isdigit()) or int(word) < 1 or (count is not None and int(word) > count):
                 last = f" to {count}" if count else " on"
                 raise InputFault(f"{place}.tags.{name} = {word!r}: give the {tag.description.split(',')[0]}, from 1{last}")
     for name in quantity.tags:

@@ -43,7 +43,7 @@ class Scales:
         number, unit = split(given, example_unit, place)
         factor, offset = self.conversion(key, unit, f"{place} = {number:g} {unit}")
         value = factor * number + offset
-        if not abs(value) < float("inf") or key.minimum is not None and value < key.minimum:
+        if not abs(value) < float("inf") or (key.minimum is not None and value < key.minimum):
             lowest = f" from {key.minimum:g} {key.unit} on" if key.minimum is not None else ""
             hint = '; a sense of rotation is stated by direction = "reverse"' if key.name == "speed" else ""
             raise InputFault(f"{place} = {number:g} {unit}: a finite number{lowest} is needed{hint}")

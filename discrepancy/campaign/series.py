@@ -28,7 +28,7 @@ def series_of(run: Run, roles: dict[str, Key], columns: Series, scales: Scales, 
         factor, offset = scales.conversion(roles[role], column.unit, unit_place)
         found[role] = factor * column.scale * raw + offset
         require_possible(found[role], roles[role], f"{place}.columns.{role}")
-    if ENCODERS <= found.keys():
+    if found.keys() >= ENCODERS:
         found[VALUE] = found["angle"] - found.pop("input_angle")
     return complete({roles[role].name: column for role, column in found.items()}, run, int(kept.sum()), place)
 

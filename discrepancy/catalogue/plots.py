@@ -8,14 +8,25 @@ import numpy as np
 
 from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, picture
 from discrepancy.catalogue.signature import (
-    ARCSEC, MICRO, ORDERS, SURFACES, amplitudes, cage_order, changed, conditions, observed, rated, turn, worn,
+    ARCSEC,
+    MICRO,
+    ORDERS,
+    SURFACES,
+    amplitudes,
+    cage_order,
+    changed,
+    conditions,
+    observed,
+    rated,
+    turn,
+    worn,
 )
 from discrepancy.effects import MODULES
 from discrepancy.prediction.bench import Bench, Condition
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
-from pages.look import Figure
 from pages.charts import COLOURS, Curve, chart
+from pages.look import Figure
 
 WITHOUT = "without"
 # Grey is the reducer without the effect.

@@ -15,7 +15,8 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench, Condition
 from discrepancy.prediction.observe import OBSERVED
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 from studies.coupled import COLUMNS
 from studies.life import peak_of_circle

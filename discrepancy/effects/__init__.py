@@ -9,7 +9,8 @@ parameter's present value for the record.  They act in the order of STAGES.
 from collections.abc import Callable
 from typing import Protocol, cast
 
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from fmu_src.effect import Effect, effect_modules
 
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from fmu_src.effect import Effect, amplitude
 
 PER = "campaign"

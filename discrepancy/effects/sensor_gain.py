@@ -5,7 +5,8 @@ Source: data sheets; a percent or so.
 
 from collections.abc import Callable
 
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from fmu_src.effect import Effect, amplitude
 
 PER = "quantity"

@@ -75,7 +75,7 @@ class Diagnostician:
         """Joint refit of the named effects, remembered."""
         key = frozenset(names)
         if key not in self.fitted:
-            found = [s for s in (scores or [self.scores[n] for n in names if n in self.scores])]
+            found = list(scores or [self.scores[n] for n in names if n in self.scores])
             self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
         return self.fitted[key]
 
@@ -196,7 +196,7 @@ class Diagnostician:
                     alternatives[c.name] = stand_ins
         judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
         judged = judge.judge(final)
-        if judged is not None and (judged.p_after < 0.0005 and judged.after > 1.5 or judged.p_after < 0.05 and judged.after > judged.before):
+        if judged is not None and ((judged.p_after < 0.0005 and judged.after > 1.5) or (judged.p_after < 0.05 and judged.after > judged.before)):
             # Runs that were not fitted are not explained, or are further off than before.
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after}

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 ENOUGH = 6.0
 """Separation (chi-square) from which two rivals count as told apart."""

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.problem import Floats
 from discrepancy.scales import USUAL
+from fmu_src.arrays import Floats
 from fmu_src.units import UnitError, conversion, parse, registry
 from pages.words import number
 

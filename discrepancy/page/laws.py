@@ -7,7 +7,7 @@ from discrepancy.inference.law.recover import Recovered
 from discrepancy.inference.law.splines import Curve
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short

@@ -7,7 +7,7 @@ import numpy as np
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, slug
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 

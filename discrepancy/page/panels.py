@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
 
 MEASURED, PREDICTED, HELD, BAND = "#7d8894", look.NOW, "#d55e00", "rgba(11,79,148,0.14)"

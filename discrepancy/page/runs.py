@@ -8,7 +8,8 @@ import numpy as np
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.problem import Floats, Mask, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats, Mask
 
 
 @dataclass(frozen=True)

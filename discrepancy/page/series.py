@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, axis_of, slug
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
 

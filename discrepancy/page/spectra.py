@@ -7,7 +7,7 @@ import numpy as np
 from discrepancy.page import amounts
 from discrepancy.page.runs import Run, slug
 from discrepancy.page.series import by_condition
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
@@ -27,7 +27,7 @@ def turns(run: Run) -> int:
     if np.ptp(steps) > 0.01 * np.median(steps):
         return 0
     whole = (np.ptp(angle) + np.median(steps)) / (2.0 * np.pi)
-    return int(round(whole)) if whole > 0.5 and abs(whole - round(whole)) < 1e-3 else 0
+    return round(whole) if whole > 0.5 and abs(whole - round(whole)) < 1e-3 else 0
 
 
 def bridged(run: Run, values: Floats) -> Floats:

@@ -4,17 +4,18 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 """
 
 import math
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar, cast
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.variables import Table
 from reducers.reducer import Reducer
 from rv_plant import plant
+from rv_plant.faults import FAULTS
 from rv_plant.gear_stage import total_ratio
 from rv_plant.needle_bearing import cage_rate
 from studies import coupled
@@ -135,7 +136,7 @@ class Bench:
             plants[name] = value
         fault = plant.initialise(plants)
         if fault:
-            raise RunFault(plant.FAULTS[fault].format(**scalars(self.tables[0], plants)))
+            raise RunFault(FAULTS[fault].format(**scalars(self.tables[0], plants)))
         return plants
 
     def input_speed(self, condition: Condition) -> float:
@@ -143,7 +144,7 @@ class Bench:
         return condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
 
     def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
-        for code, faults, table, records in zip(status, (plant.FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
+        for code, faults, table, records in zip(status, (FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
             if code:
                 raise RunFault(faults[code].format(**scalars(table, records)))
 

@@ -60,7 +60,7 @@ def candidates(
     for name, effect in every_effect().items():
         part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
         signals = tuple(q for s in effect.signals for q in SHOWN_BY.get(s, (s,)))
-        if signals and not set(signals) & set(quantities) or not there[effect.needs]:
+        if (signals and not set(signals) & set(quantities)) or not there[effect.needs]:
             continue
         if part == "chain":
             found += chain_candidates(name, effect, signals, quantities, mountings, present.keys() | excluded)
@@ -68,7 +68,7 @@ def candidates(
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
             seen = PATTERNS.get(group, signals)
-            if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys() or seen and not set(seen) & set(quantities):
+            if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys() or (seen and not set(seen) & set(quantities)):
                 continue
             estimated = [p for p in shapes if p.grid and p.variable.name not in excluded]
             title = f"{effect.title}: {group}" if group else effect.title

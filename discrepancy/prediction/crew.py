@@ -17,8 +17,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.progress import told_to_nobody
 from orchestrator.interrupts import interrupts_later
 
 if TYPE_CHECKING:
@@ -153,6 +155,7 @@ def shares(records: Sequence[Record], jobs: int) -> list[int]:
 def serve(pipe: "Pipe", predict: Callable[..., Floats], others: "list[Pipe]") -> None:
     """The other process: answers until its pipe is closed.  Ctrl-C is for the first process to hear."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    told_to_nobody()
     for other in others:
         other.close()
     while True:

@@ -26,7 +26,7 @@ from discrepancy.prediction.bench import (
     stretches,
     within_turn,
 )
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master

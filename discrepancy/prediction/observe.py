@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
@@ -118,8 +119,7 @@ def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
     # The loop is entered from little torque; with none the output floats and has no place.
     first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
     lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
-    turning = bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
-    return turning
+    return bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
 
 
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:

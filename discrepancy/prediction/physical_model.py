@@ -17,7 +17,8 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
-from discrepancy.problem import Candidate, Floats, Parameter, Record
+from discrepancy.problem import Candidate, Parameter, Record
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 
 # Free zeros: the mean of the prediction is that of the measurement.
@@ -177,7 +178,7 @@ class PhysicalModel:
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
             return record.values + IMPOSSIBLE * self.sizes[record.quantity] * signs
-        for name, module in MODULES.items():
+        for module in MODULES.values():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
             place = places[module.PER]
 

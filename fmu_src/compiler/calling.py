@@ -1,11 +1,12 @@
 """Calls of kernels from Python: types of the arguments, and what goes to and fro."""
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from fmu_src import arrays
 from fmu_src.compiler import loading
 from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import ELEMENTS, FLOAT, INTEGER, TRUTH, Array, Group, Layout, Number, Record, Records, Type
@@ -62,14 +63,16 @@ def type_of(argument: Any) -> Type:
     return Array(ELEMENTS[argument.dtype.str[1:]], argument.ndim)
 
 
-C_TYPES = {"double": ctypes.c_double, "i64": ctypes.c_int64, "i1": ctypes.c_int8, "ptr": ctypes.c_void_p}
+C_TYPES: dict[str, loading.CType] = {"double": ctypes.c_double, "i64": ctypes.c_int64, "i1": ctypes.c_int8, "ptr": ctypes.c_void_p}
+# What goes to C of one argument.
+Parts = tuple[int | float, ...]
 
 
-def number_of(argument: Any) -> tuple:
+def number_of(argument: float) -> Parts:
     return (argument,)
 
 
-def address_of(record: np.void) -> tuple:
+def address_of(record: np.void) -> tuple[int]:
     """A record's address, by way of a field that is an array: NumPy describes a whole record slowly."""
     name, place = array_field(record.dtype)
     if name is None:
@@ -81,8 +84,8 @@ def array_field(dtype: np.dtype) -> tuple[str | None, int]:
     """(name, place) of a field that is an array."""
     known = _array_fields.get(id(dtype))
     if known is None:
-        arrays = [(name, dtype.fields[name][1]) for name in dtype.names if dtype.fields[name][0].shape]
-        known = _array_fields[id(dtype)] = arrays[0] if arrays else (None, 0)
+        fields = [(name, *arrays.field_of(dtype, name)) for name in dtype.names or ()]
+        known = _array_fields[id(dtype)] = next(((name, place) for name, kind, place in fields if kind.shape), (None, 0))
         # Kept, so that its identity stays its own.
         layout_of(dtype)
     return known
@@ -91,17 +94,19 @@ def array_field(dtype: np.dtype) -> tuple[str | None, int]:
 _array_fields: dict[int, tuple[str | None, int]] = {}
 
 
-def row_of(argument: np.ndarray) -> tuple:
+def row_of(argument: np.ndarray) -> tuple[int, ...]:
     """Address and extents of an array."""
     if not argument.flags.c_contiguous:
         raise TypeError("an array with gaps; give numpy.ascontiguousarray(...) of it")
     return (argument.ctypes.data, *argument.shape)
 
 
-def make_caller(kernel: Source, arguments: tuple) -> Callable:
+def make_caller(kernel: Source, arguments: tuple[Any, ...]) -> Callable[..., Any]:
     """A function of the same arguments that calls the compiled kernel."""
     types = tuple(type_of(argument) for argument in arguments)
-    given = [number_of if isinstance(kind, Number) else address_of if isinstance(kind, Record) else row_of for kind in types]
+    given: list[Callable[[Any], Parts]] = [
+        number_of if isinstance(kind, Number) else address_of if isinstance(kind, Record) else row_of for kind in types
+    ]
     if kernel.is_entry and types and isinstance(types[0], Records):
         return unit_caller(kernel, types[0].layout)
     address, code = loading.call_address(kernel, types)
@@ -119,11 +124,13 @@ def make_caller(kernel: Source, arguments: tuple) -> Callable:
     return call_for_number
 
 
-def tuple_caller(address: int, c_arguments: list, given: list, result: Group) -> Callable:
+def tuple_caller(
+    address: int, c_arguments: Sequence[loading.CType], given: Sequence[Callable[[Any], Parts]], result: Group
+) -> Callable[..., tuple[float | bool | int, ...] | None]:
     function = loading.c_function(address, [*c_arguments, ctypes.c_void_p], None)
     kinds = [item.parts[0] for item in result.items]
 
-    def call_for_several(*arguments: Any) -> tuple | None:
+    def call_for_several(*arguments: Any) -> tuple[float | bool | int, ...] | None:
         cells = np.empty(max(1, len(kinds)))
         function(*[part for take, argument in zip(given, arguments) for part in take(argument)], cells.__array_interface__["data"][0])
         whole = cells.view("i8")
@@ -133,18 +140,18 @@ def tuple_caller(address: int, c_arguments: list, given: list, result: Group) ->
     return call_for_several
 
 
-def unit_caller(kernel: Source, layout: Layout) -> Callable:
+def unit_caller(kernel: Source, layout: Layout) -> Callable[..., int]:
     """An entry point's caller: ``f(records, ...)``."""
     function = entry_function(loading.module_addresses(kernel, layout), kernel.name)
     return lambda records, *more: function(row_of(records)[0], *more)
 
 
-def entry_function(addresses: dict[str, int], name: str) -> Callable:
+def entry_function(addresses: dict[str, int], name: str) -> Callable[..., int]:
     numbers = [ctypes.c_double] * len(loading.ENTRY_POINTS[name])
     return loading.c_function(addresses[name], [ctypes.c_void_p, *numbers], ctypes.c_int64)
 
 
-def bound_unit(initialise: Source, step: Source, records: np.ndarray) -> tuple[Callable, Callable]:
+def bound_unit(initialise: Source, step: Source, records: arrays.Records) -> tuple[Callable[[], int], Callable[[float, float], int]]:
     """Both entry points for one record, without a look at the arguments of each call."""
     addresses, cells = loading.unit_addresses(initialise, step, layout_of(records.dtype)), ctypes.c_void_p(row_of(records)[0])
     first, following = entry_function(addresses, "initialise"), entry_function(addresses, "step")

@@ -7,7 +7,6 @@ done again; two walks do.  Variables stand in memory and LLVM makes registers of
 
 import ast
 import builtins
-import math
 import difflib
 import types as python_types
 from collections.abc import Callable
@@ -16,10 +15,25 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from fmu_src.arrays import field_of
 from fmu_src.compiler import arithmetic
 from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import (
-    ELEMENTS, FLOAT, INTEGER, NOTHING, TRUTH, Array, Group, KernelFault, Layout, Number, Record, Records, Type, Value, joined,
+    ELEMENTS,
+    FLOAT,
+    INTEGER,
+    NOTHING,
+    TRUTH,
+    Array,
+    Group,
+    KernelFault,
+    Layout,
+    Number,
+    Record,
+    Records,
+    Type,
+    Value,
+    joined,
 )  # fmt: skip
 
 BUILTINS = ("abs", "min", "max", "int", "float", "bool", "len")
@@ -520,7 +534,7 @@ class Emitter:
         # A name of the module stands before a builtin one.
         if name in BUILTINS and function is getattr(builtins, name):
             return self.builtin(name, [self.expression(argument) for argument in node.args])
-        if isinstance(function, python_types.BuiltinFunctionType) and function is getattr(math, function.__name__, None):
+        if isinstance(function, python_types.BuiltinFunctionType) and function.__module__ == "math":
             return arithmetic.of_math(self, function.__name__, [self.number(self.expression(a)) for a in node.args])
         if not isinstance(function, Source):
             raise self.fault(f"{ast.unparse(node.func)} is no kernel; kernels call kernels, math, {', '.join(BUILTINS)}")
@@ -596,10 +610,10 @@ class Emitter:
         if not isinstance(value.type, (Record, Records)):
             raise self.fault(f"{value.type} has no .{name}")
         layout = value.type.layout
-        fields = layout.dtype.fields or {}
-        if name not in fields:
-            raise self.fault(f"the record has no {name}{nearest(name, list(fields))}")
-        dtype, offset = fields[name][:2]
+        names = layout.dtype.names or ()
+        if name not in names:
+            raise self.fault(f"the record has no {name}{nearest(name, list(names))}")
+        dtype, offset = field_of(layout.dtype, name)
         base, shape = dtype.subdtype or (dtype, ())
         place = value.parts[0] if offset == 0 else self.give(f"getelementptr inbounds i8, ptr {value.parts[0]}, i64 {offset}")
         if base.names:

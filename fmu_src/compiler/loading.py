@@ -4,7 +4,7 @@ import ctypes
 import hashlib
 import linecache
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -12,10 +12,11 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
+from fmu_src.arrays import field_of
 from fmu_src.compiler import store
 from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
 from fmu_src.compiler.source import Source
-from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Record, Records, Type
+from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Number, Record, Records, Type
 from fmu_src.progress import task
 
 # What object code may ask of the C library.
@@ -29,7 +30,9 @@ LIBM = {
 USUAL_TIME = 3.0
 
 # Arguments of a unit's entry points after its records, all numbers.
-ENTRY_POINTS = {"initialise": (), "step": (FLOAT, FLOAT)}
+ENTRY_POINTS: dict[str, tuple[Number, ...]] = {"initialise": (), "step": (FLOAT, FLOAT)}
+
+CType = type[ctypes.c_double | ctypes.c_int64 | ctypes.c_int8 | ctypes.c_void_p]
 
 
 @dataclass
@@ -71,7 +74,7 @@ def call_code(kernel: Source, arguments: tuple[Type, ...]) -> Code:
     return compiled(f"{kernel.module}.{kernel.name}", ("call", kernel.origin, signature), Module(separate), fill, triples)
 
 
-def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dict[str, Type]], triples: tuple[str, ...]) -> Code:
+def compiled(what: str, key: tuple[str, ...], module: Module, fill: Callable[[Module], dict[str, Type]], triples: tuple[str, ...]) -> Code:
     """From the store, or made now and stored."""
     versions = (*sys.version_info[:2], llvmlite.__version__)
     names = {triple: store.key(*key, *versions, triple) for triple in triples}
@@ -84,9 +87,12 @@ def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dic
         foreign = external_symbols(optimised_module) - LIBM - set(module.needs)
         if foreign:
             raise KernelFault(f"{what}: the kernels need {', '.join(sorted(foreign))}, which the C library does not have")
-        header = {
+        header: dict[str, Any] = {
             "what": what, "results": {symbol: kind.code for symbol, kind in results.items()},
-            "needs": [[symbol, kernel.module, kernel.name, kinds[0].layout.digest] for symbol, (kernel, kinds) in sorted(module.needs.items())],
+            "needs": [
+                [symbol, kernel.module, kernel.name, records.layout.digest]
+                for symbol, (kernel, (records, *_)) in sorted(module.needs.items()) if isinstance(records, Records)
+            ],
             "sources": {name: source_digest(name) for name in sorted(module.modules())},
             "constants": [[owner, name, repr(value)] for (owner, name), value in sorted(module.constants.items())],
         }  # fmt: skip
@@ -97,7 +103,7 @@ def compiled(what: str, key: tuple, module: Module, fill: Callable[[Module], dic
     return Code({triple: code for triple, (_, code) in found.items()}, header["results"], header["needs"])
 
 
-def is_current(header: dict) -> bool:
+def is_current(header: dict[str, Any]) -> bool:
     """Whether what the code was made from is what this process would make it from."""
     return all(source_digest(name) == digest for name, digest in header["sources"].items()) and all(
         repr(outer_value(owner, name)) == value for owner, name, value in header["constants"]
@@ -171,7 +177,7 @@ def layouts_in(kind: Type) -> list[Layout]:
         return []
     found = [kind.layout]
     for name in kind.layout.dtype.names or ():
-        base = kind.layout.dtype.fields[name][0].base
+        base = field_of(kind.layout.dtype, name)[0].base
         if base.names:
             found += layouts_in(Record(Layout(base)))
     return found
@@ -187,5 +193,5 @@ def result_type(code: str) -> Type:
     return Group(tuple(NUMBERS[letter] for letter in code[1:-1]))
 
 
-def c_function(address: int, arguments: list, result: Any) -> Callable:
+def c_function(address: int, arguments: Sequence[CType], result: CType | None) -> Callable[..., Any]:
     return ctypes.CFUNCTYPE(result, *arguments)(address)

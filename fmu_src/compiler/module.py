@@ -128,7 +128,7 @@ def target_machine(triple: str) -> llvm.TargetMachine:
 
 
 def host_triple() -> str:
-    return llvm.get_process_triple()
+    return str(llvm.get_process_triple())
 
 
 def optimised(text: str, entries: list[str]) -> llvm.ModuleRef:
@@ -151,7 +151,7 @@ def emit_object(module: llvm.ModuleRef, triple: str) -> bytes:
     retargeted = module.clone()
     retargeted.triple = triple
     retargeted.data_layout = str(machine.target_data)
-    return machine.emit_object(retargeted)
+    return bytes(machine.emit_object(retargeted))
 
 
 def external_symbols(module: llvm.ModuleRef) -> set[str]:

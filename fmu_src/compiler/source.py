@@ -11,8 +11,6 @@ from typing import Any
 class Source:
     """``is_entry`` gives the kernel object code of its own, see ``fmu_src.kernel.entry_point``."""
 
-    is_kernel = True
-
     def __init__(self, function: Callable[..., Any], is_entry: bool = False):
         self.function = function
         self.is_entry = is_entry

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from fmu_src.arrays import field_of
 from fmu_src.faults import InputFault
 
 
@@ -147,7 +148,7 @@ def layout_digest(dtype: np.dtype) -> str:
 def layout_lines(dtype: np.dtype) -> list[str]:
     lines = [f"size {dtype.itemsize}"]
     for name in dtype.names or ():
-        field, place = dtype.fields[name][:2]
+        field, place = field_of(dtype, name)
         base, shape = field.subdtype or (field, ())
         inner = layout_digest(base) if base.names else base.str
         lines.append(f"{name} {place} {shape} {inner}")
@@ -161,6 +162,6 @@ def joined(a: Type, b: Type) -> Type | None:
     if isinstance(a, Number) and isinstance(b, Number):
         return FLOAT if FLOAT in (a, b) else INTEGER
     if isinstance(a, Group) and isinstance(b, Group) and len(a.items) == len(b.items):
-        items = tuple(joined(x, y) for x, y in zip(a.items, b.items))
-        return None if None in items else Group(items)
+        items = [item for x, y in zip(a.items, b.items) if (item := joined(x, y)) is not None]
+        return Group(tuple(items)) if len(items) == len(a.items) else None
     return None

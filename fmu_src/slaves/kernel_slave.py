@@ -10,18 +10,24 @@ import _ctypes
 import ctypes
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 import fmu_src
+from fmu_src.arrays import Floats, Integers
 from fmu_src.native import host_triple, load_object
 from fmu_src.source_hash import LOADED_HASH, STAMP, source_hash
 from fmu_src.state import INSTANTIATED, STEPPING, State, StateFault, pack, unpack
 from fmu_src.unit import LOG_CATEGORIES, LONGEST_STEP, UnitFault, make_unit
 from fmu_src.variables import ValueFault
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 OBJECT_CODE = "unit.o"
 
@@ -47,12 +53,12 @@ def let_go_of_wrapper_state(folder: Path, name: str) -> None:
     _ctypes.dlclose(loaded._handle)
 
 
-class KernelSlave(Fmi2Slave):
+class KernelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
     """Base of the leaf classes; reads what it is from ``unit.json`` in the resources."""
 
     log_categories = LOG_CATEGORIES
 
-    def __init__(self, **kwargs):
+    def __init__(self, **kwargs: Any):
         super().__init__(**kwargs)
         folder = Path(self.resources)
         self.stamp = json.loads((folder / STAMP).read_text(encoding="utf-8"))
@@ -63,26 +69,26 @@ class KernelSlave(Fmi2Slave):
         let_go_of_wrapper_state(folder, self.modelName)
         self.records = self.table.new_records()
         self.cells = self.table.cells(self.records)
-        self.integers = self.cells.view("i8")
+        self.integers: Integers = self.cells.view("i8")
         self.lowest, self.highest = self.table.bounds
         self.initialised = False
         # Whether outputs asked for in initialisation mode have to be computed anew.
         self.initialising = self.stale = False
         self.first_output = self.table.offset[self.table.of_role("output")[0].name]
         self.time = 0.0
-        self.lists: dict[tuple[bool, int, int], tuple[list[int], np.ndarray]] = {}
+        self.lists: dict[tuple[bool, int, int], tuple[list[int], Integers]] = {}
         self.initialise, self.step = self.entry_points(folder)
 
     def check_sources(self, folder: Path) -> None:
         """Two FMUs in one process share imported modules: they must be of one source."""
         imported = Path(fmu_src.__file__).resolve().parents[1]
-        if imported != folder.resolve() and LOADED_HASH != self.stamp["source_hash"]:
+        if imported != folder.resolve() and self.stamp["source_hash"] != LOADED_HASH:
             raise UnitFault(
                 f"this process already runs another version of fmu_src, from {imported}."
                 " Use FMUs of one build in one process, or start a fresh process"
             )
 
-    def entry_points(self, folder: Path):
+    def entry_points(self, folder: Path) -> tuple[Callable[[], int], Callable[[float, float], int]]:
         """Carried object code if it fits machine and sources, else compiled in this process."""
         code = folder / OBJECT_CODE
         fits = code.exists() and self.stamp["triple"] == host_triple()
@@ -95,7 +101,7 @@ class KernelSlave(Fmi2Slave):
             lambda time, duration: functions["step"](pointer, time, duration),
         )
 
-    def to_xml(self, model_options=None):
+    def to_xml(self, model_options: dict[str, str] | None = None) -> "Element":
         # Only a build describes the unit; an importer needs no unit library.
         from fmu_src.description import model_description
         from fmu_src.project import Project
@@ -104,7 +110,7 @@ class KernelSlave(Fmi2Slave):
         made_by = Project(**stamp["made_by"])
         return model_description(self.table, stamp["guid"], stamp["source_hash"], stamp["step_size"], stamp["tool"], made_by)
 
-    def fail(self, text: str) -> None:
+    def fail(self, text: str) -> NoReturn:
         """Log and raise: pythonfmu turns an exception into an FMI error status.
 
         It also drops its references to instance, class and log on every exception, and
@@ -117,7 +123,7 @@ class KernelSlave(Fmi2Slave):
 
     # FMI life cycle
 
-    def enter_initialization_mode(self):
+    def enter_initialization_mode(self) -> None:
         self.initialising = self.stale = True
 
     def compute_initial_outputs(self) -> None:
@@ -125,11 +131,11 @@ class KernelSlave(Fmi2Slave):
         self.stale = False
         self.attempt(self.initialise, 0.0, self.table.state_cells)
 
-    def exit_initialization_mode(self):
+    def exit_initialization_mode(self) -> None:
         self.compute_initial_outputs()
         self.initialising, self.initialised = False, True
 
-    def do_step(self, current_time, step_size):
+    def do_step(self, current_time: float, step_size: float) -> bool:
         if not self.initialised:
             self.fail(f"{self.table.name}: a step before initialisation; enter and exit initialisation mode first")
         if not 0.0 < step_size <= LONGEST_STEP:
@@ -141,7 +147,7 @@ class KernelSlave(Fmi2Slave):
         self.time = current_time + step_size
         return True
 
-    def attempt(self, entry_point, time: float, guarded: int) -> None:
+    def attempt(self, entry_point: Callable[[], int], time: float, guarded: int) -> None:
         """Run an entry point; on a fault, which may change the ``guarded`` leading cells, the state is what it was."""
         before = self.cells[:guarded].copy()
         code = entry_point()
@@ -152,7 +158,7 @@ class KernelSlave(Fmi2Slave):
 
     # values
 
-    def index(self, vrs: list[int], integer: bool) -> np.ndarray:
+    def index(self, vrs: list[int], integer: bool) -> Integers:
         """The cells of value references; an importer asks for the same few lists all the time."""
         known = self.lists.get((integer, vrs[0], len(vrs)))
         if known is None or known[0] != vrs:
@@ -166,23 +172,25 @@ class KernelSlave(Fmi2Slave):
             known = self.lists[integer, vrs[0], len(vrs)] = (vrs, cells)
         return known[1]
 
-    def get_real(self, vrs):
+    def get_real(self, vrs: list[int]) -> list[float]:
         if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
             self.compute_initial_outputs()
-        return self.cells[self.index(vrs, False)].tolist() if vrs else []
+        values: list[float] = self.cells[self.index(vrs, False)].tolist() if vrs else []
+        return values
 
-    def get_integer(self, vrs):
+    def get_integer(self, vrs: list[int]) -> list[int]:
         if self.stale and self.initialising and any(vr >= self.first_output for vr in vrs):
             self.compute_initial_outputs()
-        return self.integers[self.index(vrs, True)].tolist() if vrs else []
+        values: list[int] = self.integers[self.index(vrs, True)].tolist() if vrs else []
+        return values
 
-    def set_real(self, vrs, values):
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
         self.set_cells(self.cells, vrs, values)
 
-    def set_integer(self, vrs, values):
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
         self.set_cells(self.integers, vrs, values)
 
-    def set_cells(self, cells, vrs, values):
+    def set_cells(self, cells: Floats | Integers, vrs: list[int], values: list[float] | list[int]) -> None:
         if not vrs:
             return
         index, given = self.index(vrs, cells is self.integers), np.array(values, cells.dtype)
@@ -200,11 +208,11 @@ class KernelSlave(Fmi2Slave):
 
     # state: the block of fmu_src.state, the same in memory and serialised
 
-    def _get_fmu_state(self):
+    def _get_fmu_state(self) -> bytes:
         phase = STEPPING if self.initialised else INSTANTIATED
         return pack(self.stamp["guid"], State(self.cells[: self.table.state_cells], phase, self.time))
 
-    def _set_fmu_state(self, state):
+    def _set_fmu_state(self, state: bytes) -> None:
         try:
             saved = unpack(self.stamp["guid"], state, self.table.state_cells)
         except StateFault as fault:
@@ -214,10 +222,10 @@ class KernelSlave(Fmi2Slave):
         self.time = saved.time
 
     @staticmethod
-    def _fmu_state_to_bytes(state):
+    def _fmu_state_to_bytes(state: bytes) -> bytes:
         return state
 
     @staticmethod
-    def _fmu_state_from_bytes(data):
+    def _fmu_state_from_bytes(data: bytes) -> bytes:
         # Checked when it is set: an exception here, without the instance, would crash the importer.
         return data

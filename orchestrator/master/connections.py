@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import Component, Element, Signal
@@ -60,11 +61,11 @@ class Transfer:
     source: str
     target: str
     links: list[Link]
-    values: np.ndarray
-    held: np.ndarray
+    values: Floats
+    held: Floats
     reads: list[Callable[[], None]]
     writes: list[Callable[[], None]]
-    factors: list[tuple[np.ndarray, float, float]]
+    factors: list[tuple[Floats, float, float]]
 
     holds_apart: ClassVar[bool] = False
 
@@ -107,7 +108,7 @@ def resolve(components: dict[str, Component], path: str) -> tuple[str, Signal]:
     raise InputFault(f"{path}: no component {path.partition('.')[0]!r}; there are {', '.join(components)}")
 
 
-def check_connections(components: dict[str, Component], connections: Iterable) -> list[Link]:
+def check_connections(components: dict[str, Component], connections: Iterable[Connection | tuple[str, str]]) -> list[Link]:
     """Links of connections, given as ``Connection`` or (source, target); InputFault for a bad one."""
     driven: dict[tuple[str, Element], str] = {}
     links = []
@@ -168,7 +169,9 @@ def group_links(links: Sequence[Link]) -> dict[tuple[str, str], list[Link]]:
     return grouped
 
 
-def make_transfer(components: dict[str, Component], links: list[Link], make=Transfer, **options) -> Transfer:
+def make_transfer(
+    components: dict[str, Component], links: list[Link], make: type[Transfer] = Transfer, **options: Any
+) -> Transfer:
     """One buffer for each type of value of the links, which join the same two components.
 
     Where ``make`` has ``holds_apart``, what the target gets has an array of its own.

@@ -7,14 +7,20 @@ above the polynomial's.  With Gauss-Seidel the newest sample is already the one 
 step's end, and the same formula interpolates.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any, ClassVar
 
 import numpy as np
 
-from orchestrator.master.connections import Transfer
+from fmu_src.arrays import Floats
+from orchestrator.component import Component
+from orchestrator.master.connections import Link, Transfer
 
 HIGHEST_ORDER = 2
+# Times, newest first, and the values then.
+Samples = tuple[list[float], Floats]
 
 
 class History:
@@ -24,7 +30,7 @@ class History:
         self.rows = np.zeros((order + 1, size))
         self.times: list[float] = []
 
-    def add(self, time: float, values: np.ndarray) -> None:
+    def add(self, time: float, values: Floats) -> None:
         """Keep a sample; one of the same time replaces the last."""
         if not self.times or time != self.times[0]:
             self.times = [time, *self.times[: len(self.rows) - 1]]
@@ -42,40 +48,40 @@ class History:
     def points(self) -> tuple[float, ...]:
         return tuple(self.scaled(time) for time in self.times)
 
-    def combine(self, weights: np.ndarray, out: np.ndarray) -> None:
+    def combine(self, weights: Floats, out: Floats) -> None:
         np.dot(weights, self.rows[: len(weights)], out=out)
 
-    def mean(self, start: float, end: float, out: np.ndarray) -> None:
+    def mean(self, start: float, end: float, out: Floats) -> None:
         """Mean of the polynomial between two times."""
         self.combine(mean_weights(self.points(), self.scaled(start), self.scaled(end)), out)
 
-    def derivative(self, time: float, order: int, out: np.ndarray) -> None:
+    def derivative(self, time: float, order: int, out: Floats) -> None:
         """Derivative of the polynomial, its value with order 0."""
         weights = derivative_weights(self.points(), self.scaled(time), order)
         self.combine(weights / self.interval**order, out)
 
-    def save(self) -> tuple:
+    def save(self) -> Samples:
         return list(self.times), self.rows.copy()
 
-    def restore(self, saved: tuple) -> None:
+    def restore(self, saved: Samples) -> None:
         self.times, self.rows[:] = list(saved[0]), saved[1]
 
 
 @lru_cache(maxsize=4096)
-def mean_weights(points: tuple[float, ...], start: float, end: float) -> np.ndarray:
+def mean_weights(points: tuple[float, ...], start: float, end: float) -> Floats:
     """Weights of the samples in the mean of their polynomial over [start, end]."""
     powers = np.arange(1, len(points) + 1)
     return solve(points, (end**powers - start**powers) / (powers * (end - start)))
 
 
 @lru_cache(maxsize=4096)
-def derivative_weights(points: tuple[float, ...], at: float, order: int) -> np.ndarray:
+def derivative_weights(points: tuple[float, ...], at: float, order: int) -> Floats:
     """Weights of the samples in a derivative of their polynomial."""
     basis = [np.polynomial.Polynomial.basis(k).deriv(order)(at) for k in range(len(points))]
     return solve(points, np.array(basis))
 
 
-def solve(points: tuple[float, ...], moments: np.ndarray) -> np.ndarray:
+def solve(points: tuple[float, ...], moments: Floats) -> Floats:
     return np.linalg.solve(np.vander(points, increasing=True).T, moments)
 
 
@@ -83,16 +89,17 @@ def solve(points: tuple[float, ...], moments: np.ndarray) -> np.ndarray:
 class ExtrapolatedTransfer(Transfer):
     """A transfer whose target gets the polynomial through the last samples."""
 
-    holds_apart = True
-    history: History | None = None
+    history: History
     # (order, buffer, function that sets it) of each input derivative that the target takes.
-    derivatives: tuple = ()
+    derivatives: tuple[tuple[int, Floats, Callable[[], None]], ...]
 
-    def fetch(self, time):
+    holds_apart: ClassVar[bool] = True
+
+    def fetch(self, time: float) -> None:
         super().fetch(time)
         self.history.add(time, self.values)
 
-    def deliver(self, start, end):
+    def deliver(self, start: float, end: float) -> None:
         if self.derivatives:
             self.history.derivative(start, 0, self.held)
         else:
@@ -102,12 +109,12 @@ class ExtrapolatedTransfer(Transfer):
             self.history.derivative(start, order, buffer)
             write()
 
-    def deliver_present(self):
+    def deliver_present(self) -> None:
         self.held[:] = self.values
         super().deliver_present()
 
 
-def extrapolation_options(component, links: list, order: int) -> dict:
+def extrapolation_options(component: Component, links: list[Link], order: int) -> dict[str, Any]:
     """What an ``ExtrapolatedTransfer`` to a component needs beyond a plain one."""
     references = tuple(r for k in links if k.source.dtype == "f8" for r in k.target.references)
     derivatives = []

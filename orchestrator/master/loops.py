@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component
 from orchestrator.master.connections import Link, Transfer, group_links, make_transfer
@@ -28,7 +29,7 @@ class LoopSettings:
     tolerance: float = 1e-10
     iterations: int = 50
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.method not in METHODS:
             raise InputFault(f"loop method {self.method!r}: choose one of {', '.join(METHODS)}")
 
@@ -43,25 +44,25 @@ class Loop:
             raise InputFault(f"the algebraic loop {self} holds integers or Booleans; put a delay into it")
         self.values = np.zeros(sum(t.values.size for t in self.transfers))
         self.evaluations = 0
-        self.jacobian: np.ndarray | None = None
+        self.jacobian: Floats | None = None
 
     def __str__(self) -> str:
         return ", ".join(dict.fromkeys(f"{k.connection.source} -> {k.connection.target}" for k in self.links))
 
-    def gather(self, time: float) -> np.ndarray:
+    def gather(self, time: float) -> Floats:
         """What the outputs are with the inputs as they stand."""
         for transfer in self.transfers:
             transfer.fetch(time)
         return np.concatenate([t.values for t in self.transfers])
 
-    def spread(self, values: np.ndarray) -> None:
+    def spread(self, values: Floats) -> None:
         first = 0
         for transfer in self.transfers:
             transfer.values[:] = values[first : first + transfer.values.size]
             transfer.deliver_present()
             first += transfer.values.size
 
-    def residual(self, values: np.ndarray, time: float) -> np.ndarray:
+    def residual(self, values: Floats, time: float) -> Floats:
         self.evaluations += 1
         self.spread(values)
         return self.gather(time) - values
@@ -73,13 +74,13 @@ class Loop:
         solver = self.newton if self.settings.method == "newton" else self.fixed_point
         self.values = solver(values.copy(), time)
 
-    def is_solved(self, values: np.ndarray, residual: np.ndarray) -> bool:
+    def is_solved(self, values: Floats, residual: Floats) -> bool:
         return bool(np.abs(residual).max() <= self.settings.tolerance * max(1e-12, np.abs(values).max()))
 
-    def fixed_point(self, values: np.ndarray, time: float) -> np.ndarray:
+    def fixed_point(self, values: Floats, time: float) -> Floats:
         """Iteration relaxed by what the last ones showed (Anderson's mixing), so that a diverging one turns round."""
-        tried: list[np.ndarray] = []
-        residuals: list[np.ndarray] = []
+        tried: list[Floats] = []
+        residuals: list[Floats] = []
         for _ in range(self.settings.iterations):
             residual = self.residual(values, time)
             if self.is_solved(values, residual):
@@ -92,7 +93,7 @@ class Loop:
                 values = values - (np.diff(tried, axis=0).T + differences) @ share
         raise self.fault(time, residual)
 
-    def newton(self, values: np.ndarray, time: float) -> np.ndarray:
+    def newton(self, values: Floats, time: float) -> Floats:
         """Newton with differences; the matrix is kept and mended (Broyden) while that converges."""
         residual = self.residual(values, time)
         for _ in range(self.settings.iterations):
@@ -113,7 +114,7 @@ class Loop:
         self.jacobian = None
         raise self.fault(time, residual)
 
-    def differences(self, values: np.ndarray, residual: np.ndarray, time: float) -> np.ndarray:
+    def differences(self, values: Floats, residual: Floats, time: float) -> Floats:
         matrix = np.empty((values.size, values.size))
         for i in range(values.size):
             step = 1e-6 * max(1.0, abs(values[i]))
@@ -122,7 +123,7 @@ class Loop:
             matrix[:, i] = (self.residual(shifted, time) - residual) / step
         return matrix
 
-    def fault(self, time: float, residual: np.ndarray) -> RunFault:
+    def fault(self, time: float, residual: Floats) -> RunFault:
         return RunFault(
             f"the algebraic loop {self} found no solution at time {time:.9g} s: after {self.evaluations} evaluations"
             f" it is {np.abs(residual).max():.3g} off. Try the other method ({' or '.join(METHODS)}), more"
@@ -180,7 +181,8 @@ def order_of_dependence(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    graph = coo_matrix((np.ones(len(edges)), tuple(zip(*edges))), shape=(len(links),) * 2)
+    causes, effects = np.array(edges).T
+    graph = coo_matrix((np.ones(len(edges)), (causes, effects)), shape=(len(links), len(links)))
     count, label = connected_components(graph, directed=True, connection="strong")
     members: list[list[int]] = [[] for _ in range(count)]
     for i, group in enumerate(label.tolist()):

@@ -10,12 +10,13 @@ step's start.  A component with ratio k steps every k-th base step, over k base 
 once, after the others have reached the end of that interval.  Time is start + n h.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Any, Protocol
 
 import numpy as np
 
 from fmu_src.faults import InputFault
-from orchestrator.component import Component
+from orchestrator.component import Component, Snapshot
 from orchestrator.master.connections import (
     Connection,
     Link,
@@ -24,11 +25,23 @@ from orchestrator.master.connections import (
     group_links,
     make_transfer,
 )
-from orchestrator.master.extrapolation import HIGHEST_ORDER, ExtrapolatedTransfer, extrapolation_options
-from orchestrator.master.loops import LoopSettings, Settling, has_feedthrough
+from orchestrator.master.extrapolation import HIGHEST_ORDER, ExtrapolatedTransfer, History, extrapolation_options
+from orchestrator.master.loops import Loop, LoopSettings, Settling, has_feedthrough
 from orchestrator.master.power import THRESHOLD, PowerBond, find_pairs, make_bond, pair_of
 from orchestrator.master.step_control import Controller, StepControl
 from orchestrator.schemes import SCHEMES
+
+
+class Remembering(Protocol):
+    """A part of the master that carries something from step to step."""
+
+    def save(self) -> Any: ...
+
+    def restore(self, saved: Any) -> None: ...
+
+
+# Snapshots of the components, and of what the master remembers.
+Kept = tuple[dict[str, Snapshot], list[tuple[Remembering, Any]]]
 
 
 class Master:
@@ -62,7 +75,7 @@ class Master:
         if extrapolation not in range(HIGHEST_ORDER + 1):
             raise InputFault(f"extrapolation of order {extrapolation}: choose 0 (hold), 1 (linear) or 2 (quadratic)")
         self.components = components
-        self.ratios = {name: 1 for name in components} | (ratios or {})
+        self.ratios = dict.fromkeys(components, 1) | (ratios or {})
         for name, ratio in self.ratios.items():
             if name not in components:
                 raise InputFault(f"ratio for {name!r}, which is no component; there are {', '.join(components)}")
@@ -96,7 +109,7 @@ class Master:
         return 1 + min(self.extrapolation, max(taken, 1))
 
     @property
-    def loops(self) -> list:
+    def loops(self) -> list[Loop]:
         """Algebraic loops among the connections."""
         return self.settle.loops if self.settle is not None else []
 
@@ -162,7 +175,7 @@ class Master:
     def advance(self, start: float, duration: float) -> None:
         """Step all components that are due from ``start``."""
         incoming, ratios, components = self.incoming, self.ratios, self.components
-        due = components
+        due: Collection[str] = components
         if not self.single_rate:
             due = [name for name in components if (self.steps_done + 1) % ratios[name] == 0]
         end = start + duration
@@ -202,45 +215,48 @@ class Master:
         """Go on from the present time with another base step."""
         self.start_time, self.steps_done, self.step_size = self.time, 0, step
 
-    def save(self) -> dict:
+    def save(self) -> dict[str, Any]:
         """Complete state of all components and of the clock, and what the master remembers."""
         clock = {"start_time": self.start_time, "steps_done": self.steps_done, "step_size": self.step_size}
         saved = {"clock": clock, "states": {name: c.save() for name, c in self.components.items()}}
         memory = self.memory()
         return saved | {"memory": memory} if memory else saved
 
-    def restore(self, saved: dict) -> None:
+    def restore(self, saved: dict[str, Any]) -> None:
         for key, value in saved["clock"].items():
             setattr(self, key, value)
         for name, state in saved["states"].items():
             self.components[name].restore(state)
         self.recall(saved.get("memory", []))
 
-    def remembering(self) -> list:
-        """The parts of the master that carry something from step to step."""
-        histories = [t.history for t in self.transfers] if self.extrapolation else []
-        controller = [self.controller] if self.controller is not None else []
-        return [*histories, *self.bonds, *controller]
+    @property
+    def histories(self) -> list[History]:
+        return [t.history for t in self.transfers if isinstance(t, ExtrapolatedTransfer)]
 
-    def memory(self) -> list:
+    def remembering(self) -> list[Remembering]:
+        """The parts of the master that carry something from step to step."""
+        controller = [self.controller] if self.controller is not None else []
+        return [*self.histories, *self.bonds, *controller]
+
+    def memory(self) -> list[Any]:
         return [part.save() for part in self.remembering()]
 
-    def recall(self, memory: list) -> None:
+    def recall(self, memory: list[Any]) -> None:
         for part, saved in zip(self.remembering(), memory):
             part.restore(saved)
 
-    def snapshot(self) -> tuple:
+    def snapshot(self) -> Kept:
         """State for ``revert`` within a base step."""
-        kept = [*([t.history for t in self.transfers] if self.extrapolation else []), *self.bonds]
+        kept: list[Remembering] = [*self.histories, *self.bonds]
         return {name: c.snapshot() for name, c in self.components.items()}, [(part, part.save()) for part in kept]
 
-    def revert(self, snapshot: tuple) -> None:
+    def revert(self, snapshot: Kept) -> None:
         for name, state in snapshot[0].items():
             self.components[name].revert(state)
         for part, saved in snapshot[1]:
             part.restore(saved)
 
-    def forget(self, snapshot: tuple) -> None:
+    def forget(self, snapshot: Kept) -> None:
         for name, state in snapshot[0].items():
             self.components[name].forget(state)
 

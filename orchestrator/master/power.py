@@ -7,18 +7,21 @@ for it.  The two differ by the residual: power that no model accounts for and th
 coupling alone adds or removes.  Sadjina et al., Engineering with Computers 33 (2017).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, parse, registry
 from orchestrator.component import Component
 from orchestrator.master.connections import Link, Transfer
 
 THRESHOLD = 0.01
+# Residual, its energy, energy exchanged, steps, outputs at the last communication point.
+Account = tuple[float, float, float, int, list[Floats]]
 
 
 @dataclass
@@ -30,19 +33,19 @@ class PowerBond:
     transfers: tuple[Transfer, Transfer]
     places: tuple[slice, slice]
     scale: tuple[float, float]
-    sides: tuple
+    sides: tuple[tuple[Callable[[], None], Floats], ...]
     threshold: float = THRESHOLD
     residual: float = 0.0
     residual_energy: float = 0.0
     exchanged_energy: float = 0.0
     steps: int = 0
-    before: list[np.ndarray] = field(default_factory=list)
+    before: list[Floats] = field(default_factory=list)
 
     def __str__(self) -> str:
         links = (self.there.connection, self.back.connection)
         return ", ".join(f"{c.source} -> {c.target}" for c in links)
 
-    def outputs(self) -> list[np.ndarray]:
+    def outputs(self) -> list[Floats]:
         for read, _ in self.sides:
             read()
         return [buffer.copy() for _, buffer in self.sides]
@@ -80,10 +83,10 @@ class PowerBond:
             " extrapolation = 1 or step control; if it stays, the connection itself is lossy (factor, units, sign)"
         )
 
-    def save(self) -> tuple:
+    def save(self) -> Account:
         return self.residual, self.residual_energy, self.exchanged_energy, self.steps, [b.copy() for b in self.before]
 
-    def restore(self, saved: tuple) -> None:
+    def restore(self, saved: Account) -> None:
         self.residual, self.residual_energy, self.exchanged_energy, self.steps, self.before = saved
 
 
@@ -131,9 +134,12 @@ def pair_of(links: Sequence[Link], names: tuple[str, str]) -> tuple[Link, Link]:
 def make_bond(
     components: dict[str, Component], transfers: Sequence[Transfer], pair: tuple[Link, Link], threshold: float
 ) -> PowerBond:
+    def carried(link: Link) -> tuple[Transfer, slice]:
+        """What moves a link's values, and where they stand in it."""
+        return next((t, place) for t in transfers if (place := t.place(link)) is not None)
+
     there, back = pair
-    carried = tuple(next(t for t in transfers if t.place(link) is not None) for link in pair)
-    places = tuple(t.place(link) for t, link in zip(carried, pair))
+    (onward, there_place), (homeward, back_place) = carried(there), carried(back)
     sides = []
     for link in pair:
         buffer = link.source.new_buffer()
@@ -141,4 +147,4 @@ def make_bond(
     # A reaction torque changes its sign on the way: that is no loss.
     sign = np.sign(there.factor * back.factor)
     scale = (watts(there.source.unit, back.target.unit) or 1.0, sign * (watts(there.target.unit, back.source.unit) or 1.0))
-    return PowerBond(there, back, carried, places, scale, tuple(sides), threshold)
+    return PowerBond(there, back, (onward, homeward), (there_place, back_place), scale, tuple(sides), threshold)

@@ -25,14 +25,17 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.component import Component, Signal
 from orchestrator.master.connections import Link, resolve
-from orchestrator.master.extrapolation import History
+from orchestrator.master.extrapolation import History, Samples
 
 METHODS = ("auto", "doubling", "extrapolation")
 # A step doubles only if the error foreseen for it is this part of the allowed one.
 SAFETY = 0.8
+# Level of division, samples, sizes of the signals.
+Progress = tuple[int, Samples, Floats]
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ class StepControl:
     halvings: int = 12
     watch: tuple[str, ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.method not in METHODS:
             raise InputFault(f"step control by {self.method!r}: choose one of {', '.join(METHODS)}")
         if not 0.0 < self.tolerance < 1.0:
@@ -72,14 +75,14 @@ class Probe:
             self.reads.append(components[name].reader(signal.references, part))
         self.lengths = [part.size for part in self.parts]
 
-    def read(self) -> np.ndarray:
+    def read(self) -> Floats:
         for read in self.reads:
             read()
         for i, part in enumerate(self.parts):
             self.size[i] = max(self.size[i], np.abs(part).max(initial=0.0))
         return self.values.copy()
 
-    def error(self, one: np.ndarray, other: np.ndarray) -> float:
+    def error(self, one: Floats, other: Floats) -> float:
         """Largest difference relative to the signal's size."""
         size = np.repeat(self.size, self.lengths)
         difference = np.abs(one - other)
@@ -131,7 +134,7 @@ class Controller:
                 " sets the length of the next one"
             )
         method = settings.method
-        self.doubles = method == "doubling" or method == "auto" and self.can_reject
+        self.doubles = method == "doubling" or (method == "auto" and self.can_reject)
         # Power of the step by which estimate over allowance changes.
         self.order = master.coupling_order if self.doubles else master.extrapolation + 1
         watched = [resolve(master.components, path) for path in settings.watch]
@@ -210,10 +213,10 @@ class Controller:
                 f" smallest step ({self.master.step_size / 2**self.level:.3g} s): allow more halvings or a larger tolerance"
             )
 
-    def save(self) -> tuple:
+    def save(self) -> Progress:
         return self.level, self.history.save(), self.probe.size.copy()
 
-    def restore(self, saved: tuple) -> None:
+    def restore(self, saved: Progress) -> None:
         self.level, size = saved[0], saved[2]
         self.history.restore(saved[1])
         self.probe.size[:] = size

@@ -26,6 +26,8 @@ TYPES = {"f8": "Real", "i8": "Integer", "?": "Boolean"}
 # Annotations in which masters look for the communication step.
 OSP = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 WIDTH, HEIGHT, GAP = 60.0, 40.0, 40.0
+# From where to where one value goes, each as (unit, element).
+Pair = tuple[tuple[str, str], tuple[str, str]]
 
 
 @dataclass(frozen=True)
@@ -79,8 +81,8 @@ def export_ssp(
         for path, element in files.items():
             ElementTree.indent(element)
             add(archive, path, ElementTree.tostring(element, "utf-8", xml_declaration=True))
-        for path in sorted({unit.path for unit in units.values()}):
-            add(archive, f"resources/{path.name}", path.read_bytes())
+        for fmu in sorted({unit.path for unit in units.values()}):
+            add(archive, f"resources/{fmu.name}", fmu.read_bytes())
     partial.replace(target)
     return target
 
@@ -91,7 +93,7 @@ def add(archive: ZipFile, name: str, content: bytes) -> None:
     archive.writestr(info, content)
 
 
-def element_pairs(units: dict[str, Unit], source: str, target: str) -> list[tuple[tuple[str, str], tuple[str, str]]]:
+def element_pairs(units: dict[str, Unit], source: str, target: str) -> list[Pair]:
     (start, output), (end, taken) = source.split(".", 1), target.split(".", 1)
     outputs, inputs = units[start].names(output), units[end].names(taken)
     if len(outputs) != len(inputs):
@@ -99,7 +101,9 @@ def element_pairs(units: dict[str, Unit], source: str, target: str) -> list[tupl
     return [((start, a), (end, b)) for a, b in zip(outputs, inputs)]
 
 
-def structure(name: str, description: str, tool: str, units: dict[str, Unit], pairs: list, experiment: Experiment) -> Element:
+def structure(
+    name: str, description: str, tool: str, units: dict[str, Unit], pairs: list[Pair], experiment: Experiment
+) -> Element:
     """SystemStructure.ssd."""
     root = Element("ssd:SystemStructureDescription", {
         # libcosim takes an attribute of osp:Algorithm for another algorithm: its namespace is declared here.
@@ -180,7 +184,9 @@ def values(unit: Unit, settings: dict[str, float], driven: set[str]) -> Element:
 
 def add_units(root: Element, units: Iterable[Unit], tag: str) -> None:
     bases = {name: base for unit in units for name, base in unit.described.base_units.items()}
-    element = SubElement(root, tag) if bases else None
+    if not bases:
+        return
+    element = SubElement(root, tag)
     for name, base in sorted(bases.items()):
         attributes = {key: str(value) for key, value in zip(EXPONENTS, base.exponents) if value}
         attributes |= {key: repr(v) for key, v, usual in (("factor", base.factor, 1.0), ("offset", base.offset, 0.0)) if v != usual}

@@ -11,6 +11,8 @@ from pathlib import Path
 from urllib.parse import unquote
 from zipfile import BadZipFile, ZipFile
 
+from lxml import etree
+
 from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit
 from orchestrator.master import Connection
@@ -56,7 +58,7 @@ class Structure:
 class Importer:
     """Walks the systems and collects what the structure is made of."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.structure = Structure()
         self.units: dict[tuple[str, ...], Path] = {}
         self.systems: list[tuple[str, ...]] = []
@@ -82,7 +84,7 @@ class Importer:
             raise InputFault(f"{path} is not an SSP package: it is no zip archive") from None
         return folder.path / MAIN_FILE
 
-    def read(self, path: Path, place: tuple[str, ...]):
+    def read(self, path: Path, place: tuple[str, ...]) -> etree._Element:
         """One description, its system at ``place``; returns its root."""
         file = self.open(path)
         root = parse(file)
@@ -94,7 +96,7 @@ class Importer:
         self.walk(system, place, file.parent, units_of(root))
         return root
 
-    def walk(self, system, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+    def walk(self, system: etree._Element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
         self.systems.append(place)
         self.connectors(system, place, units)
         self.bound += [(place, p) for p in read_bindings(system, folder)]
@@ -109,15 +111,15 @@ class Importer:
         for connection in children(system, "Connections", "Connection"):
             self.connection(connection, place)
 
-    def connectors(self, element, place: tuple[str, ...], units: dict[str, BaseUnit]) -> None:
+    def connectors(self, element: etree._Element, place: tuple[str, ...], units: dict[str, BaseUnit]) -> None:
         for connector in children(element, "Connectors", "Connector"):
-            self.kinds[place, connector.get("name")] = connector.get("kind", "")
-            kind = next((e for e in connector if e.get("unit")), None)
-            unit = units.get(kind.get("unit")) if kind is not None else None
-            if unit is not None:
-                self.connector_units[place, connector.get("name")] = unit
+            node = place, connector.get("name", "")
+            self.kinds[node] = connector.get("kind", "")
+            named = next((unit for e in connector if (unit := e.get("unit"))), None)
+            if named in units:
+                self.connector_units[node] = units[named]
 
-    def component(self, element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+    def component(self, element: etree._Element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
         source = unquote(element.get("source", ""))
         if not source or re.match(r"[a-z]+://", source):
             raise InputFault(f"{'.'.join(place)}: source {source!r} is not a file of the package")
@@ -129,7 +131,7 @@ class Importer:
             self.connectors(element, place, units)
         self.bound += [(place, p) for p in read_bindings(element, folder)]
 
-    def connection(self, element, place: tuple[str, ...]) -> None:
+    def connection(self, element: etree._Element, place: tuple[str, ...]) -> None:
         ends = []
         for side in ("start", "end"):
             name = element.get(f"{side}Element")
@@ -163,9 +165,9 @@ class Importer:
             factor *= edge.factor
             convert = convert and edge.convert_unit
             node = edge.start
-        declared = self.connector_units.get(node), self.connector_units.get(end)
-        if convert and None not in declared:
-            found = declared[0].conversion(declared[1])
+        given, taken = self.connector_units.get(node), self.connector_units.get(end)
+        if convert and given is not None and taken is not None:
+            found = given.conversion(taken)
             if found is None:
                 raise InputFault(f"connection {text_of(node)} -> {text_of(end)}: the units of the connectors do not fit")
             offset += factor * found[1]
@@ -192,7 +194,7 @@ class Importer:
                 return
         self.structure.notes.append(text_of((place, parameter.name)))
 
-    def finish(self, root) -> Structure:
+    def finish(self, root: etree._Element) -> Structure:
         structure = self.structure
         structure.name = root.get("name") or "system"
         structure.fmus = {".".join(place): path for place, path in self.units.items()}

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from lxml import etree
+
 from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit, UnitError, conversion
 from orchestrator.component import Component, Signal
@@ -22,12 +24,12 @@ class Parameter:
     offset: float = 0.0
 
 
-def read_bindings(element, folder: Path) -> list[Parameter]:
+def read_bindings(element: etree._Element, folder: Path) -> list[Parameter]:
     """All values bound at a component or system, with prefix and mapping applied."""
     return [p for binding in children(element, "ParameterBindings", "ParameterBinding") for p in read_binding(binding, folder)]
 
 
-def read_binding(binding, folder: Path) -> list[Parameter]:
+def read_binding(binding: etree._Element, folder: Path) -> list[Parameter]:
     source = binding.get("source")
     root = parse(folder / source) if source else child(binding, "ParameterValues", "ParameterSet")
     if root is None:
@@ -35,35 +37,40 @@ def read_binding(binding, folder: Path) -> list[Parameter]:
     units = units_of(root)
     found = []
     for element in children(root, "Parameters", "Parameter"):
-        value = next((e for e in element if local(e)), None)
-        if value is None or value.get("value") is None and local(value) != "Enumeration":
-            raise InputFault(f"parameter {element.get('name')}: no value")
+        value, name = next((e for e in element if local(e)), None), element.get("name", "")
+        if not name:
+            raise InputFault("a parameter without a name")
+        text = None if value is None else value.get("value")
+        if value is not None and not text and local(value) == "Enumeration":
+            text = value.get("name")
+        if value is None or text is None:
+            raise InputFault(f"parameter {name}: no value")
         # Some tools write units in brackets.
         unit = value.get("unit", "").strip("[]") or None
         found.append(Parameter(
-            binding.get("prefix", "") + element.get("name"), local(value), value.get("value") or value.get("name"),
-            unit, units.get(value.get("unit")),
+            binding.get("prefix", "") + name, local(value), text, unit, units.get(value.get("unit", "")),
         ))  # fmt: skip
     mapping = child(binding, "ParameterMapping")
     return found if mapping is None else mapped(found, mapping, folder)
 
 
-def mapped(parameters: list[Parameter], mapping, folder: Path) -> list[Parameter]:
+def mapped(parameters: list[Parameter], mapping: etree._Element, folder: Path) -> list[Parameter]:
     """Those that the mapping names, under their new names."""
     source = mapping.get("source")
     root = parse(folder / source) if source else child(mapping, "ParameterMapping")
     by_name = {p.name: p for p in parameters}
     result = []
     for entry in children(root, "MappingEntry"):
-        if entry.get("source") not in by_name:
+        parameter, target = by_name.get(entry.get("source", "")), entry.get("target")
+        if parameter is None:
             # Tools write mappings of all that could be set, whether there is a value or not.
             continue
-        if not entry.get("target"):
-            raise InputFault(f"parameter mapping: {entry.get('source')!r} has no target")
+        if not target:
+            raise InputFault(f"parameter mapping: {parameter.name!r} has no target")
         linear = child(entry, "LinearTransformation")
-        scale = {} if linear is None else {
-            "factor": number(linear, "factor", 1.0), "offset": number(linear, "offset", 0.0)}  # fmt: skip
-        result.append(replace(by_name[entry.get("source")], name=entry.get("target"), **scale))
+        if linear is not None:
+            parameter = replace(parameter, factor=number(linear, "factor", 1.0), offset=number(linear, "offset", 0.0))
+        result.append(replace(parameter, name=target))
     return result
 
 

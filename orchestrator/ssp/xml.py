@@ -23,8 +23,9 @@ def parse(path: Path) -> etree._Element:
 
 def local(element: etree._Element) -> str:
     """Name of an element without namespace or prefix."""
-    tag = element.tag if isinstance(element.tag, str) else ""
-    return tag.rpartition("}")[2].rpartition(":")[2]
+    # Comments have a function there, which lxml's types do not tell.
+    tag: object = element.tag
+    return tag.rpartition("}")[2].rpartition(":")[2] if isinstance(tag, str) else ""
 
 
 def children(element: etree._Element | None, *path: str) -> list[etree._Element]:
@@ -54,5 +55,5 @@ def units_of(root: etree._Element) -> dict[str, BaseUnit]:
         base = child(unit, "BaseUnit")
         if base is not None:
             exponents = tuple(int(base.get(key, "0")) for key in EXPONENTS)
-            found[unit.get("name")] = BaseUnit(exponents, number(base, "factor", 1.0), number(base, "offset", 0.0))
+            found[unit.get("name", "")] = BaseUnit(exponents, number(base, "factor", 1.0), number(base, "offset", 0.0))
     return found

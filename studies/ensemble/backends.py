@@ -1,6 +1,6 @@
 """Where lives run: processes of this machine (joblib), or a cluster (Dask)."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from typing import Protocol, TypeVar
 
 from fmu_src.faults import InputFault, RunFault
@@ -18,7 +18,7 @@ Task = TypeVar("Task", bound=Numbered)
 Found = TypeVar("Found")
 
 
-def through_joblib(function: Callable[[Task], Found], tasks: Sequence[Task], jobs: int) -> Iterator[Found]:
+def through_joblib(function: Callable[[Task], Found], tasks: Sequence[Task], jobs: int) -> Generator[Found, None, None]:
     """Results as they come."""
     if jobs == 1:
         yield from map(function, tasks)
@@ -28,7 +28,7 @@ def through_joblib(function: Callable[[Task], Found], tasks: Sequence[Task], job
     yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(delayed(function)(task) for task in tasks)
 
 
-def through_dask(function: Callable[[Task], Found], tasks: Sequence[Task], scheduler: str) -> Iterator[Found]:
+def through_dask(function: Callable[[Task], Found], tasks: Sequence[Task], scheduler: str) -> Generator[Found, None, None]:
     """Results as they come; a life whose worker dies runs again on another, so nothing is lost."""
     from distributed import Client, KilledWorker, as_completed
 

@@ -20,7 +20,7 @@ Further keys: ``seed``, ``tolerance``, ``settings`` (a list of "name=value"), ``
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, ValidationError
 
@@ -86,7 +86,7 @@ class Ensemble:
     settings: tuple[Setting, ...]
     duty: tuple[Segment, ...]
 
-    def identity(self) -> dict:
+    def identity(self) -> dict[str, Any]:
         """What a stored life depends on; another ensemble's lives are not mixed in."""
         return {
             "reducer": self.reducer.name, "starts": self.reducer.starts, "scatters": [vars(s) for s in self.scatters],
@@ -126,7 +126,7 @@ def scatter_of(reducer: Reducer, has_duty: bool, name: str, entry: Entry, place:
     given = [key for key in Entry.model_fields if key not in ("distribution", "unit") and getattr(entry, key) is not None]
     if set(given) != set(wanted):
         raise InputFault(f"{place}: the distribution {entry.distribution} takes {', '.join(wanted)}, given are {', '.join(given) or 'none'}")
-    unit, shape = "1", ()
+    unit, shape = "1", tuple[int, ...]()
     if name in DUTY_FACTORS:
         if not has_duty:
             raise InputFault(f"{place}: there is no duty; scatter load_torque or input_speed, or give duty = FILE")
@@ -145,10 +145,13 @@ def scatter_of(reducer: Reducer, has_duty: bool, name: str, entry: Entry, place:
         factor, offset = conversion(entry.unit, unit)
     except UnitError as problem:
         raise InputFault(f"{place}: {problem}") from None
-    numbers = tuple(
-        factor * getattr(entry, key) + (offset if key not in ("deviation", "factor") else 0.0) if key != "factor" else entry.factor
-        for key in wanted
-    )
+
+    def in_own_unit(key: str) -> float:
+        value: float = getattr(entry, key)
+        # A deviation is a difference, a factor has no unit.
+        return value if key == "factor" else factor * value + (offset if key != "deviation" else 0.0)
+
+    numbers = tuple(in_own_unit(key) for key in wanted)
     if entry.distribution in ("uniform", "triangular") and list(numbers) != sorted(set(numbers)):
         raise InputFault(f"{place}: {' < '.join(wanted)} is needed")
     return Scatter(name, entry.distribution, numbers, shape)

@@ -1,5 +1,17 @@
 """What is judged of each life."""
 
+from typing import NotRequired, TypedDict
+
+
+class Outcome(TypedDict):
+    """What came of one life: its recorded hours and figures, or the fault that stopped it."""
+
+    number: int
+    hours: NotRequired[list[float]]
+    figures: NotRequired[dict[str, list[float]]]
+    fault: NotRequired[str]
+
+
 # Name -> what it is.
 FIGURES = {
     "inner_raceway_um": "deepest wear of the cranks' lobes",

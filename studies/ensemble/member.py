@@ -5,12 +5,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_src.faults import InputFault, RunFault
-from orchestrator.settings import Setting
+from orchestrator.component import InProcess
+from orchestrator.settings import ArraySetting, Setting
 from reducers.reducer import Reducer
 from studies.coupled import torque_sweep
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import DUTY_FACTORS
+from studies.ensemble.figures import Outcome
 from studies.hysteresis import LOST_MOTION_SHARE
 from studies.life import HOUR, Life, LifeSettings, live, wear_figures
 from studies.pair import Pair, make_pair
@@ -19,6 +21,8 @@ from studies.solve import ARCMIN, ARCSEC
 # Places of a turn at which lost motion is taken.
 PLACES = 4
 WEAR = ("inner_raceway_um", "outer_raceway_um", "disc_flank_um", "pin_um")
+# A parameter's value, of an array that of each element.
+Cells = float | list["Cells"]
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,7 @@ class Task:
     duty: tuple[Segment, ...]
     hours: float
     tolerance: float
-    values: dict[str, float | list]
+    values: dict[str, Cells]
 
 
 class LeanLife(Life):
@@ -48,29 +52,31 @@ def stiffness_figures(pair: Pair) -> dict[str, float]:
     """Lag over a turn and lost motion at the present wear; the pair's state is put back."""
     saved = pair.master.save()
     pair.wear.set("acceleration", 0.0)
-    torque = abs(pair.plant.get("load_torque"))
+    unit = pair.plant
+    assert isinstance(unit, InProcess)
+    torque = abs(unit.number("load_torque"))
     way = np.array([torque, LOST_MOTION_SHARE * torque, -LOST_MOTION_SHARE * torque])
     lags, lost = [], []
     for _ in range(PLACES):
         pair.master.run(max(1, pair.positions // PLACES))
-        lags.append(pair.plant.get("lag"))
-        plant, turning = pair.plant.records.copy(), np.zeros(3)
+        lags.append(unit.number("lag"))
+        plant, turning = unit.records.copy(), np.zeros(3)
         places = np.zeros((len(way), plant["z"].shape[1]))
         plant["input_speed"], plant["fidelity"] = 0.0, 0
         status = torque_sweep(plant, way, turning, places, places, False)
         if status != 0:
-            raise RunFault(pair.plant.unit.fault_text(status, plant, 0.0))
+            raise RunFault(unit.unit.fault_text(status, plant, 0.0))
         lost.append(abs(turning[1] - turning[2]))
     pair.master.restore(saved)
     return {"lost_motion_arcmin": float(np.mean(lost)) * ARCMIN, "lag_arcsec": abs(float(np.mean(lags))) * ARCSEC}
 
 
-def run(task: Task) -> dict:
+def run(task: Task) -> Outcome:
     """The life's hours and figures, or the fault that stopped it: part errors can make a reducer impossible."""
     values = dict(task.values)
-    torque, speed = (values.pop(name, 1.0) for name in DUTY_FACTORS)
+    torque, speed = (scalar(values.pop(name, 1.0)) for name in DUTY_FACTORS)
     duty = tuple(replace(s, torque=s.torque * torque, speed=s.speed * speed) for s in task.duty)
-    settings = [*task.settings, *(Setting(name, np.array(value) if isinstance(value, list) else value) for name, value in values.items())]
+    settings = [*task.settings, *(setting_of(name, value) for name, value in values.items())]
     life = LeanLife(LifeSettings(task.hours, task.tolerance))
     try:
         pair = make_pair(task.reducer, settings, duty=duty, master_kind=CoupledMaster)
@@ -79,3 +85,12 @@ def run(task: Task) -> dict:
         return {"number": task.number, "fault": str(fault)}
     found = {name: [figures[name] for figures in life.figures] for name in life.figures[0]}
     return {"number": task.number, "hours": life.hours, "figures": found}
+
+
+def setting_of(name: str, value: Cells) -> Setting | ArraySetting:
+    return ArraySetting(name, np.array(value)) if isinstance(value, list) else Setting(name, value)
+
+
+def scalar(value: Cells) -> float:
+    assert not isinstance(value, list)
+    return value

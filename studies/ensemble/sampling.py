@@ -6,18 +6,21 @@ Rows A and B are independent, and distributions are taken from them; all rows gi
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from SALib.sample import sobol
 from scipy import stats
 
+from fmu_src.arrays import Floats, Integers
 from studies.ensemble.ensemble_file import Ensemble, Scatter
-from studies.ensemble.member import Task
+from studies.ensemble.member import Cells, Task
 
 
-def problem(ensemble: Ensemble) -> dict:
+def problem(ensemble: Ensemble) -> dict[str, Any]:
     """The design in SALib's words, on the unit cube."""
-    names, groups = [], []
+    names: list[str] = []
+    groups: list[str] = []
     for scatter in ensemble.scatters:
         size = math.prod(scatter.shape)
         names += [f"{scatter.name}[{i}]" for i in range(size)]
@@ -25,14 +28,16 @@ def problem(ensemble: Ensemble) -> dict:
     return {"num_vars": len(names), "names": names, "groups": groups, "bounds": [[0.0, 1.0]] * len(names)}
 
 
-def points(ensemble: Ensemble) -> np.ndarray:
+def points(ensemble: Ensemble) -> Floats:
     """Rows of the unit cube, the same for the same seed."""
-    return sobol.sample(problem(ensemble), ensemble.samples, calc_second_order=False, seed=ensemble.seed)
+    rows: Floats = sobol.sample(problem(ensemble), ensemble.samples, calc_second_order=False, seed=ensemble.seed)
+    return rows
 
 
-def values_of(ensemble: Ensemble, row: np.ndarray) -> dict[str, float | list]:
+def values_of(ensemble: Ensemble, row: Floats) -> dict[str, Cells]:
     """The parameters of one life, arrays as nested lists."""
-    found, place = {}, 0
+    found: dict[str, Cells] = {}
+    place = 0
     for scatter in ensemble.scatters:
         size = math.prod(scatter.shape)
         # Sobol' points may lie on the cube's edge, where a normal has no value.
@@ -50,20 +55,20 @@ def tasks_of(ensemble: Ensemble) -> list[Task]:
     ]
 
 
-def quantile(scatter: Scatter, share: np.ndarray) -> np.ndarray:
+def quantile(scatter: Scatter, share: Floats) -> Floats:
     numbers = scatter.numbers
     if scatter.distribution == "normal":
-        return stats.norm.ppf(share, *numbers)
+        return np.asarray(stats.norm.ppf(share, *numbers))
     if scatter.distribution == "uniform":
         return numbers[0] + share * (numbers[1] - numbers[0])
     if scatter.distribution == "triangular":
         low, mode, high = numbers
-        return stats.triang.ppf(share, (mode - low) / (high - low), low, high - low)
+        return np.asarray(stats.triang.ppf(share, (mode - low) / (high - low), low, high - low))
     median, factor = numbers
-    return median * factor ** stats.norm.ppf(share)
+    return np.asarray(median * factor ** stats.norm.ppf(share))
 
 
-def independent_rows(ensemble: Ensemble) -> np.ndarray:
+def independent_rows(ensemble: Ensemble) -> Integers:
     """Indices of the rows A and B."""
     block = len(ensemble.scatters) + 2
     starts = block * np.arange(ensemble.samples)

@@ -2,15 +2,18 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 from fmu_src.faults import InputFault
+from studies.ensemble.figures import Outcome
 
 
 class Store:
     """Append-only file of lives; a life counts once however often it arrives."""
 
-    def __init__(self, path: Path, identity: dict, restart: bool = False):
-        self.path, self.lives = path, {}
+    def __init__(self, path: Path, identity: dict[str, Any], restart: bool = False):
+        self.path = path
+        self.lives: dict[int, Outcome] = {}
         # As JSON has it, to compare with what was read.
         identity = json.loads(json.dumps(identity))
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -19,7 +22,7 @@ class Store:
             return
         path.write_text(json.dumps({"ensemble": identity}) + "\n", encoding="utf-8")
 
-    def read(self, identity: dict) -> None:
+    def read(self, identity: dict[str, Any]) -> None:
         text = self.path.read_bytes()
         lines = text.decode("utf-8", "replace").split("\n")
         try:
@@ -40,7 +43,7 @@ class Store:
             with self.path.open("ab") as file:
                 file.write(b"\n")
 
-    def add(self, life: dict) -> bool:
+    def add(self, life: Outcome) -> bool:
         """Keep a life; False if it is there already."""
         if life["number"] in self.lives:
             return False

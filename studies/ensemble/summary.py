@@ -2,26 +2,32 @@
 
 import math
 import warnings
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from SALib.analyze import sobol
 from scipy import stats
 
+from fmu_src.arrays import Floats
 from studies.ensemble.ensemble_file import Ensemble
-from studies.ensemble.figures import FIGURES
+from studies.ensemble.figures import FIGURES, Outcome
 from studies.ensemble.sampling import independent_rows, problem
+
+# "value" with "low" and "high" of its interval.
+Estimate = dict[str, float]
 
 QUANTILES = (0.05, 0.5, 0.95)
 CONFIDENCE = 0.95
 RESAMPLES = 999
 
 
-def summarise(ensemble: Ensemble, lives: dict[int, dict], planned: int) -> dict:
+def summarise(ensemble: Ensemble, lives: dict[int, Outcome], planned: int) -> dict[str, Any]:
     """All figures of an ensemble; ``lives`` by number, finished ones alone."""
     good = {number: life for number, life in lives.items() if "fault" not in life}
     rows = [number for number in independent_rows(ensemble).tolist() if number in good]
     ends = {name: {number: life["figures"][name][-1] for number, life in good.items()} for name in FIGURES}
-    found: dict = {
+    found: dict[str, Any] = {
         "reducer": ensemble.reducer.name, "hours": ensemble.hours, "lives_planned": planned, "lives_done": len(lives),
         "lives_failed": len(lives) - len(good), "faults": sorted({life["fault"] for life in lives.values() if "fault" in life})[:5],
         "lives_in_distributions": len(rows),
@@ -40,7 +46,7 @@ def summarise(ensemble: Ensemble, lives: dict[int, dict], planned: int) -> dict:
     return found
 
 
-def distribution(values: list[float], seed: int) -> dict:
+def distribution(values: list[float], seed: int) -> dict[str, Estimate]:
     """Mean and quantiles with bootstrap intervals."""
     data = np.array(values)
     found = {"mean": interval(data, np.mean, seed)}
@@ -49,7 +55,7 @@ def distribution(values: list[float], seed: int) -> dict:
     return found
 
 
-def interval(data: np.ndarray, statistic, seed: int) -> dict:
+def interval(data: Floats, statistic: Callable[..., Any], seed: int) -> Estimate:
     """Value and percentile bootstrap interval."""
     value = float(statistic(data))
     if np.ptp(data) == 0.0:
@@ -59,7 +65,7 @@ def interval(data: np.ndarray, statistic, seed: int) -> dict:
     return {"value": value, "low": float(made.low), "high": float(made.high)}
 
 
-def life_hours(life: dict, limits: dict[str, float]) -> float:
+def life_hours(life: Outcome, limits: dict[str, float]) -> float:
     """Hours at which the first limit is passed, along a straight line between recorded hours; inf if none is."""
     first = math.inf
     for name, limit in limits.items():
@@ -74,7 +80,7 @@ def life_hours(life: dict, limits: dict[str, float]) -> float:
     return first
 
 
-def censored(spans: list[float], hours: float, seed: int) -> dict:
+def censored(spans: list[float], hours: float, seed: int) -> dict[str, dict[str, float | None]]:
     """Quantiles of the life; None where it is longer than what was run."""
     data = np.minimum(spans, 10.0 * hours)
     found = {}
@@ -84,13 +90,13 @@ def censored(spans: list[float], hours: float, seed: int) -> dict:
     return found
 
 
-def share_beyond(beyond: list[bool]) -> dict:
+def share_beyond(beyond: list[bool]) -> Estimate:
     """Share with its Wilson interval, which also says something where none or all are beyond."""
     made = stats.binomtest(int(sum(beyond)), len(beyond)).proportion_ci(CONFIDENCE, "wilson")
     return {"value": sum(beyond) / len(beyond), "low": float(made.low), "high": float(made.high)}
 
 
-def sensitivity(ensemble: Ensemble, values: list[float]) -> dict:
+def sensitivity(ensemble: Ensemble, values: list[float]) -> dict[str, dict[str, float]]:
     """Sobol' indices by parameter, most important first: share of the variance alone, and with all its interactions."""
     data = np.array(values)
     spread = float(np.std(data))

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from pages import look
-from pages.look import Figure, path, short
+from pages.look import Figure, Trace, path, short
 from pages.words import hour_text, number
 from studies.report import shapes
 from studies.report.parts import pin_depths
-from studies.report.result import MICRON, Result
+from studies.report.result import MICRON, Result, deepest
 
 ROOM = 0.25  # largest drawn depth over the circle's radius
 
@@ -72,8 +72,8 @@ def pin(result: Result) -> Figure:
 
 def deepest_bearing(result: Result, side: Side) -> tuple[int, int]:
     """(disc, crank) of the deepest worn raceway of a side."""
-    worn = result[f"{side.name}_race_wear"][-1].max(axis=2)
-    return tuple(int(i) for i in np.unravel_index(worn.argmax(), worn.shape))
+    disc, crank = deepest(result[f"{side.name}_race_wear"][-1])
+    return disc, crank
 
 
 def raceway(result: Result, side: Side, times: float) -> Figure:
@@ -107,7 +107,7 @@ def raceway(result: Result, side: Side, times: float) -> Figure:
     return Figure(f"{side.name}_raceway", side.title, caption, traces + bars, picture, 4, aspect="1 / 1.02")
 
 
-def peak_mark(result: Result, side: Side, radius: float, times: float) -> tuple[list[dict], str]:
+def peak_mark(result: Result, side: Side, radius: float, times: float) -> tuple[list[Trace], str]:
     """A ray to the deepest place with a dot on the worn contour, and what to say about it."""
     peak, depth = result.peak_place(f"{side.name}_peak_deg"), float(result[f"{side.name}_raceway_um"][-1])
     way = 1j * complex(shapes.directions(np.array(result.sense * peak)))
@@ -143,7 +143,7 @@ def unrolled(result: Result, side: Side, depth_range: list[float]) -> Figure:
     return Figure(f"{side.name}_unrolled", f"{side.title} unrolled", caption, traces, picture, 6, 270)
 
 
-def arrow(start: complex, end: complex, colour: str) -> dict:
+def arrow(start: complex, end: complex, colour: str) -> Trace:
     """A straight arrow."""
     start, end = complex(start), complex(end)
     back = 0.22 * (end - start)
@@ -151,7 +151,7 @@ def arrow(start: complex, end: complex, colour: str) -> dict:
     return path(np.array([start, end, *barbs]), colour, 1.6)
 
 
-def turning_arrow(sense: float, radius: float) -> list[dict]:
+def turning_arrow(sense: float, radius: float) -> list[Trace]:
     """An arc with an arrow head, below the centre, that turns the way of ``sense``."""
     arc = radius * shapes.directions(np.linspace(-90.0 - 70.0 * sense, -90.0 + 70.0 * sense, 40))
     along = 1j * sense * arc[-1]

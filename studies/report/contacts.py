@@ -4,8 +4,11 @@ These figures follow the page's selectors of hour and disc; the first recorded h
 stays beside or behind for comparison.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
 from pages.words import hour_text, number
@@ -35,7 +38,7 @@ def turned(result: Result, share: float = 1.0) -> np.ndarray:
     return (360.0 * (np.arange(count) + share) / count)[every(result)]
 
 
-def crank_axis(step: float = 60.0) -> dict:
+def crank_axis(step: float = 60.0) -> look.Layout:
     return look.angle_axis("crank angle [°]", 0.0, 360.0, step)
 
 
@@ -49,13 +52,15 @@ def compared(at_start: bool) -> tuple[str, str]:
     return ("_start", "start") if at_start else ("", "now")
 
 
-def states_of(result: Result, at_start: bool, update) -> list:
+def states_of(
+    result: Result, at_start: bool, update: Callable[[int, int], list[look.Trace | int | None]]
+) -> list[list[list[look.Trace | int | None]]]:
     """``update(disc, entry)`` for every disc and shown hour; the first hour only ``at_start``."""
     shown = result.shown[:1] if at_start else result.shown
     return [[update(d, i) for i in shown] for d in range(result.topology.discs)]
 
 
-def heat_map(rows, z_max: float, result: Result, hover: str) -> dict:
+def heat_map(rows: list[int] | list[str], z_max: float, result: Result, hover: str) -> look.Trace:
     """A heat map over the crank angle that waits for its ``z``."""
     return {
         "type": "heatmap", "x": short(turned(result, 0.5)), "y": rows, "zmin": 0, "zmax": round(z_max, 3),
@@ -75,7 +80,7 @@ def pin_map(result: Result, at_start: bool) -> Figure:
     trace = heat_map(pins, float(result["mesh_force"][result.shown].max()), result,
                      "pin %{y}, crank %{x:.0f}°: %{z:.0f} N")
 
-    def update(d, i):
+    def update(d: int, i: int) -> list[look.Trace | int | None]:
         return [{"z": short(result["mesh_force"][i][every(result), d, :].T, 3)}]
 
     picture = look.layout(
@@ -98,9 +103,9 @@ def pin_lines(result: Result) -> Figure:
     traces = [*thin, look.line(x, [], look.START, 2.4, hover="largest, start: %{y:.0f} N"),
               look.line(x, [], look.NOW, 2.4, hover="largest: %{y:.0f} N")]
 
-    def update(d, i):
+    def update(d: int, i: int) -> list[look.Trace | int | None]:
         largest = result["mesh_force"][i][every(result), d, :].max(axis=1)
-        return [None] * t.pins + [t.pins + 1, {"y": short(largest)}]
+        return [*[None] * t.pins, t.pins + 1, {"y": short(largest)}]
 
     top = float(result["mesh_force"][result.shown].max())
     vertical = look.axis("force on a pin [N]", range=[0.0, round(1.06 * top, 2)], automargin=False)
@@ -126,11 +131,11 @@ def roller_map(result: Result, at_start: bool) -> Figure:
     trace = heat_map(row_names, float(result["roller_force"][result.shown].max()), result,
                      "%{y}, crank %{x:.0f}°: %{z:.0f} N")
 
-    def update(d, i):
+    def update(d: int, i: int) -> list[look.Trace | int | None]:
         force = result["roller_force"][i][every(result), d]
         rows = []
         for c in range(t.cranks):
-            rows += short(force[:, c, :].T, 3) + [[None] * force.shape[0]]
+            rows += [*short(force[:, c, :].T, 3), [None] * force.shape[0]]
         return [{"z": rows[:-1]}]
 
     middle = [c * (t.rollers + 1) + (t.rollers - 1) / 2 for c in range(t.cranks)]
@@ -170,7 +175,9 @@ def turn_curves(result: Result) -> list[Figure]:
     ]  # fmt: skip
 
 
-def curve(result, name, title, unit, series, caption, step=False) -> Figure:
+def curve(
+    result: Result, name: str, title: str, unit: str, series: Floats, caption: str, step: bool = False
+) -> Figure:
     """One series over the turn; a third dimension is the disc's."""
     x = short(turned(result))
     unit_text = unit.partition("[")[2].rstrip("]")
@@ -179,7 +186,7 @@ def curve(result, name, title, unit, series, caption, step=False) -> Figure:
     for trace in traces if step else ():
         trace["line"] = trace["line"] | {"shape": "hv"}
 
-    def update(d, i):
+    def update(d: int, i: int) -> list[look.Trace | int | None]:
         row = series[i][every(result)]
         return [1, {"y": short(row if row.ndim == 1 else row[:, d], 6)}]
 

@@ -105,11 +105,11 @@ def conditions(result: Result) -> str:
 def sentences(result: Result) -> list[str]:
     """The main finding, in words."""
     if len(result.hours) < 2:
-        return ["Only one hour was recorded: there is no change to show."] + accuracy(result)
+        return ["Only one hour was recorded: there is no change to show.", *accuracy(result)]
     worn = sorted(((float(result[n][-1]), n) for n in look.SURFACES), reverse=True)
     if worn[0][0] == 0.0:
-        return [f"After {hour_text(result.hours[-1])} nothing is worn."] + accuracy(result)
-    return [deepest(result, worn), slowing(result, worn[0][1])] + accuracy(result) + [loads(result)]
+        return [f"After {hour_text(result.hours[-1])} nothing is worn.", *accuracy(result)]
+    return [deepest(result, worn), slowing(result, worn[0][1]), *accuracy(result), loads(result)]
 
 
 WHERE = {

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
 from studies.report.result import Result
@@ -40,14 +41,14 @@ def figures(result: Result) -> list[Figure]:
     ]  # fmt: skip
 
 
-def marked(x, y, colour: str, dash: str, hover: str) -> dict:
+def marked(x: Floats, y: Floats, colour: str, dash: str, hover: str) -> look.Trace:
     """A line with a marker at every recorded hour."""
     return look.line(short(x, 5), short(y), colour, 1.8, dash, hover) | {
         "mode": "lines+markers", "marker": {"size": 5, "color": colour},
     }
 
 
-def small(result: Result, name: str, title: str, unit: str, curves: list, caption: str) -> Figure:
+def small(result: Result, name: str, title: str, unit: str, curves: list[tuple[str, str, str, str]], caption: str) -> Figure:
     """Figures of the dataset over the hours."""
     symbol = unit.partition("[")[2].rstrip("]")
     traces = [

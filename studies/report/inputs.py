@@ -2,8 +2,11 @@
 
 import json
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fmu_src.variables import Table, Variable
 from pages.words import number
@@ -21,7 +24,7 @@ SHOWN = {
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def groups(result: Result) -> list[dict]:
+def groups(result: Result) -> list[dict[str, Any]]:
     """Tables of parameters: heading and rows (name, value, unit, meaning, source, assumed, set for the run)."""
     sizes = result.dataset.sizes
     bins = Resolution(sizes["flank_bin"], sizes["pin_bin"], sizes["race_bin"])
@@ -41,7 +44,9 @@ def is_own(variable: Variable, plant: Table) -> bool:
     return variable.role == "parameter" and variable.name not in plant.by_name and variable.name != "acceleration"
 
 
-def rows(result: Result, values: dict, table: Table, belongs) -> list[dict]:
+def rows(
+    result: Result, values: dict[str, Any], table: Table, belongs: Callable[[Variable], bool]
+) -> list[dict[str, str | bool]]:
     """Rows of the recorded values that belong to a group; unknown names go with the parameters."""
     made = []
     settings = {name.partition("[")[0] for name in named_settings(result)}
@@ -66,12 +71,12 @@ def own_source(variable: Variable) -> str:
     return "default" if variable.source == "reducer file" else variable.source
 
 
-def named_settings(result: Result) -> dict:
+def named_settings(result: Result) -> dict[str, Any]:
     settings = result.inputs.get("settings", {})
     return settings if isinstance(settings, dict) else {}
 
 
-def shown(value, unit: str) -> tuple[str, str]:
+def shown(value: npt.ArrayLike, unit: str) -> tuple[str, str]:
     """Value and unit as text; an array as its range."""
     if isinstance(value, str):
         return value, ""
@@ -112,7 +117,7 @@ def run_rows(result: Result) -> list[tuple[str, str]]:
         made.append(("full meshing cycles simulated", str(int(attributes["cycles_simulated"]))))
     versions = json.loads(attributes.get("software", "{}"))
     made += [(name, text) for name, text in versions.items()]
-    return made + [("hash of the source", attributes.get("source_hash", "not recorded"))]
+    return [*made, ("hash of the source", attributes.get("source_hash", "not recorded"))]
 
 
 def counts(result: Result) -> list[tuple[str, str]]:

@@ -20,7 +20,7 @@ def page_of(result: Result) -> str:
     hours = [hour_text(result.hours[i]) for i in result.shown]
     figures = {
         "parts": [parts.disc(result), tooth.shape(result), tooth.depth(result), *circles.figures(result)],
-        "turn": contacts.figures(result) + [phase.figure(result)],
+        "turn": [*contacts.figures(result), phase.figure(result)],
         "growth": growth.figures(result),
         "orders": spectrum.figures(result),
     }
@@ -36,7 +36,7 @@ def page_of(result: Result) -> str:
 
 def with_hours(figure: Figure, hours: list[str]) -> Figure:
     """The figure with the compared hours in its words."""
-    keys = [(heading(text, hours[0], hours[-1]), colour, dash) for text, colour, dash in figure.keys]
+    keys: list[tuple[str, str, str]] = [(heading(text, hours[0], hours[-1]), colour, dash) for text, colour, dash in figure.keys]
     title, caption = (heading(text, hours[0], hours[-1]) for text in (figure.title, figure.caption))
     return replace(figure, title=title, caption=caption, keys=keys)
 

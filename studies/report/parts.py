@@ -1,9 +1,12 @@
 """Worn parts on their true shape: one disc with its pins and cranks."""
 
+from typing import Any
+
 import numpy as np
 
+from fmu_src.arrays import Floats, Points
 from pages import look
-from pages.look import Figure, path, short
+from pages.look import Figure, Trace, path, short
 from pages.words import hour_text, number
 from studies.report import shapes
 from studies.report.result import MICRON, Result
@@ -15,17 +18,17 @@ class Colours:
     def __init__(self, result: Result):
         self.times = shapes.enlargement(result, 0.75)
         self.edges = shapes.levels(max(float(result[name][-1]) for name in look.SURFACES))
-        self.strips: list[list[np.ndarray]] = [[] for _ in self.edges[1:]]
+        self.strips: list[list[Points]] = [[] for _ in self.edges[1:]]
         count = len(self.strips)
         self.colours = [look.blend(look.DEPTH, i / max(count - 1, 1)) for i in range(count)]
 
-    def take_off(self, contour: np.ndarray, into: np.ndarray, depth: np.ndarray) -> None:
+    def take_off(self, contour: Points, into: Points, depth: Floats) -> None:
         """Add what ``depth`` [m] takes off a contour [mm] in the direction ``into`` the part."""
         worn = contour + self.times * shapes.MM * depth * into
         for strip, found in zip(self.strips, shapes.bands(contour, worn, MICRON * depth, self.edges)):
             strip.extend(found)
 
-    def traces(self) -> list[dict]:
+    def traces(self) -> list[Trace]:
         """The coloured strips and their colour bar; none if nothing is worn."""
         if not self.times:
             return []
@@ -34,7 +37,7 @@ class Colours:
         return [*areas, depth_bar(self.edges, self.colours)]
 
 
-def filled(points: np.ndarray, fill: str, border: str = look.QUIET, width: float = 1.0, **more) -> dict:
+def filled(points: Points, fill: str, border: str = look.QUIET, width: float = 1.0, **more: Any) -> Trace:
     """An area."""
     return path(points, border, width, fill="toself", fillcolor=fill, **more)
 
@@ -73,7 +76,7 @@ def disc(result: Result) -> Figure:
     return Figure("disc", "The whole disc", caption, traces + bars, picture, 7, aspect=aspect, rows=2)
 
 
-def bearings(result: Result, d: int, centre: complex, up: complex, colours: Colours) -> tuple[list[dict], list[dict]]:
+def bearings(result: Result, d: int, centre: complex, up: complex, colours: Colours) -> tuple[list[Trace], list[look.Layout]]:
     """Holes of a disc with cranks and rollers: (traces, names of the cranks)."""
     t, plant, mm = result.topology, result.plant, shapes.MM
     inner, outer, roller = (mm * plant[f"{name}_radius"] for name in ("inner_race", "outer_race", "roller"))
@@ -98,7 +101,7 @@ def bearings(result: Result, d: int, centre: complex, up: complex, colours: Colo
     return [*traces, path(shapes.joined(rollers), "#aab4be", 0.8)], names
 
 
-def pins(result: Result, d: int, up: complex, colours: Colours) -> dict:
+def pins(result: Result, d: int, up: complex, colours: Colours) -> Trace:
     """The ring of pins."""
     count, radius = result.topology.pins, shapes.MM * result.plant["pin_radius"]
     ways = shapes.directions(360.0 * np.arange(count) / count) * up
@@ -110,16 +113,17 @@ def pins(result: Result, d: int, up: complex, colours: Colours) -> dict:
     return filled(shapes.joined([shapes.ring(radius, place, 32) for place in places]), "#f7f9fa", "#aab4be", 0.8)
 
 
-def pin_depths(result: Result, d: int, entry: int = -1, count: int = 60) -> np.ndarray:
+def pin_depths(result: Result, d: int, entry: int = -1, count: int = 60) -> Floats:
     """Depth [pin, angle] over a pin's whole circumference, from -180 degrees of its inward radial, at disc ``d``."""
-    even = result["pin_even_wear"][entry, d][:, None] * np.ones(2 * count)
+    even: Floats = result["pin_even_wear"][entry, d][:, None] * np.ones(2 * count)
     contact_side = shapes.thin(result["pin_wear"][entry, d], count)
     angles = np.linspace(-180.0, 180.0, 2 * count, endpoint=False)
     phases = shapes.thin(result["pin_phase"], count)
-    return even + np.array([np.interp(angles, phases, row, left=0.0, right=0.0) for row in contact_side])
+    worn: Floats = np.array([np.interp(angles, phases, row, left=0.0, right=0.0) for row in contact_side])
+    return even + worn
 
 
-def lobe_names(result: Result, d: int, contour: np.ndarray, depth: np.ndarray) -> dict:
+def lobe_names(result: Result, d: int, contour: Points, depth: Floats) -> Trace:
     """Invisible markers that name each lobe and its deepest wear under the pointer."""
     bins = depth.size // result.topology.lobes
     rows = depth.reshape(-1, bins)
@@ -132,7 +136,7 @@ def lobe_names(result: Result, d: int, contour: np.ndarray, depth: np.ndarray) -
     }  # fmt: skip
 
 
-def depth_bar(edges: np.ndarray, colours: list[str]) -> dict:
+def depth_bar(edges: Floats, colours: list[str]) -> Trace:
     """A trace that only carries the colour bar of the depth steps."""
     count = len(colours)
     steps = [[place / count, colour] for i, colour in enumerate(colours) for place in (i, i + 1)]

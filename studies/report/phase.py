@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
 from rv_plant.contact import hertz_peak_pressure
@@ -16,18 +17,18 @@ BIN = 2.0  # width of a bin of phase [deg]
 GAP = 0.05  # between the four panels, of the height
 
 
-def contact_phases(result: Result, entry: int, disc: int) -> np.ndarray:
+def contact_phases(result: Result, entry: int, disc: int) -> Floats:
     """Phase of every contact in the middle of its step [position, pin], in degrees from the root."""
     t = result.topology
     angle = np.degrees(result["crank_angle"][entry])
     step = 360.0 / angle.size
     # Ideal positions: the lag, hundredths of a degree, would only spread the bins.
     angle = (np.round(angle / step) - 0.5 * result.sense) * step
-    eccentric = angle + 360.0 * disc / t.discs
+    eccentric: Floats = angle + 360.0 * disc / t.discs
     return (eccentric[:, None] + 360.0 * t.lobes / t.pins * np.arange(t.pins)) % 360.0
 
 
-def force_along(result: Result, entry: int, disc: int) -> tuple[np.ndarray, ...]:
+def force_along(result: Result, entry: int, disc: int) -> tuple[Floats, Floats, Floats, Floats]:
     """(phase, mean, smallest, largest force) in bins of phase, all pins and positions together."""
     phases = contact_phases(result, entry, disc).ravel()
     forces = result["mesh_force"][entry][:, disc, :].ravel()
@@ -40,7 +41,7 @@ def force_along(result: Result, entry: int, disc: int) -> tuple[np.ndarray, ...]
     )  # fmt: skip
 
 
-def pressure_at(result: Result, phases: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def pressure_at(result: Result, phases: Floats, forces: Floats) -> Floats:
     """Hertz pressure [MPa] of pin on flank at phases [deg] under forces [N]."""
     circle, radius, k1 = result.generating
     plant = result.plant
@@ -53,7 +54,7 @@ def pressure_at(result: Result, phases: np.ndarray, forces: np.ndarray) -> np.nd
     return np.array([1e-6 * hertz_peak_pressure(f / plant["mesh_width"], c, modulus) for f, c in pairs])
 
 
-def sliding_at(result: Result, phases: np.ndarray) -> np.ndarray:
+def sliding_at(result: Result, phases: Floats) -> Floats:
     """Sliding speed of flank on standing pin [mm/s] at phases [deg], closed form."""
     plant, lobes = result.plant, result.topology.lobes
     k1 = plant["eccentricity"] * result.topology.pins / plant["pin_circle_radius"]
@@ -82,10 +83,11 @@ def figure(result: Result) -> Figure:
     phase_of_bins = result["flank_phase"]
     inside = (phase_of_bins > low) & (phase_of_bins < high)
 
-    def deepest(d, i):
-        return teeth[i, d][teeth[i, d].max(axis=1).argmax()][inside]
+    def deepest(d: int, i: int) -> Floats:
+        tooth: Floats = teeth[i, d][teeth[i, d].max(axis=1).argmax()]
+        return tooth[inside]
 
-    def update(d, i):
+    def update(d: int, i: int) -> list[look.Trace | int | None]:
         phases, mean, smallest, largest = along[d, i]
         kept = (phases > low - BIN) & (phases < high + BIN)
         phases, mean = phases[kept], mean[kept]
@@ -95,7 +97,7 @@ def figure(result: Result) -> Figure:
             3, {"x": x, "y": short(mean)}, 5, {"x": x, "y": short(pressure)}, None, {"y": short(deepest(d, i))},
         ]  # fmt: skip
 
-    def panel(trace, k):
+    def panel(trace: look.Trace, k: int) -> look.Trace:
         return trace | {"xaxis": "x", "yaxis": "y" if k == 1 else f"y{k}"}
 
     flank_x = short(phase_of_bins[inside])

@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -24,7 +25,7 @@ class Result:
     """One life; lengths in m and angles in rad as in the dataset, unless a name says otherwise."""
 
     dataset: xr.Dataset
-    inputs: dict
+    inputs: dict[str, Any]
     topology: Topology
 
     @classmethod
@@ -40,15 +41,17 @@ class Result:
 
     @property
     def name(self) -> str:
-        return self.inputs["parameters"]["reducer"]
+        return str(self.inputs["parameters"]["reducer"])
 
     @property
-    def plant(self) -> dict:
-        return self.inputs["parameters"]["plant"]
+    def plant(self) -> dict[str, Any]:
+        parameters: dict[str, Any] = self.inputs["parameters"]["plant"]
+        return parameters
 
     @property
-    def wear(self) -> dict:
-        return self.inputs["parameters"]["wear"]
+    def wear(self) -> dict[str, Any]:
+        parameters: dict[str, Any] = self.inputs["parameters"]["wear"]
+        return parameters
 
     @property
     def hours(self) -> np.ndarray:
@@ -64,7 +67,7 @@ class Result:
     def output_speed(self) -> float:
         """Speed of the output [rad/s]."""
         t = self.topology
-        return self.plant["input_speed"] / total_ratio(self.plant["first_stage_ratio"], t.pins, t.lobes)
+        return float(self.plant["input_speed"] / total_ratio(self.plant["first_stage_ratio"], t.pins, t.lobes))
 
     @property
     def crank_speed(self) -> float:
@@ -77,7 +80,7 @@ class Result:
 
     @property
     def pins_turn(self) -> bool:
-        return self.wear["pins"] == "turn"
+        return bool(self.wear["pins"] == "turn")
 
     @property
     def generating(self) -> tuple[float, float, float]:
@@ -89,9 +92,15 @@ class Result:
     @cached_property
     def deepest_tooth(self) -> tuple[int, int]:
         """(disc, lobe) with the deepest wear at the end."""
-        worn = self["disc_wear"][-1].max(axis=2)
-        return tuple(int(i) for i in np.unravel_index(worn.argmax(), worn.shape))
+        disc, lobe = deepest(self["disc_wear"][-1])
+        return disc, lobe
 
     def peak_place(self, name: str, entry: int = -1) -> float:
         """Place of a surface's deepest wear [deg], e.g. ``inner_peak_deg``."""
         return float(self[name][entry])
+
+
+def deepest(wear: np.ndarray) -> tuple[int, ...]:
+    """Indices of the row with the deepest wear, of an array whose last axis are the bins."""
+    worn = wear.max(axis=-1)
+    return tuple(int(i) for i in np.unravel_index(worn.argmax(), worn.shape))

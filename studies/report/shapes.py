@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from fmu_src.arrays import Floats, Points
 from pages import look
 from rv_plant.geometry import flank_curvature, lobe_point
 from studies.report.result import Result
@@ -11,7 +12,7 @@ from studies.report.result import Result
 MM = 1e3
 
 
-def flank(result: Result, phases: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def flank(result: Result, phases: Floats) -> tuple[Points, Points]:
     """(points [mm], outward normals) of one lobe at local phases [deg], in the lobe's frame."""
     circle, radius, k1 = result.generating
     eccentricity, lobes = result.plant["eccentricity"], result.topology.lobes
@@ -26,12 +27,12 @@ def sharpest_radius(result: Result) -> float:
     return MM / max(bends) if max(bends) > 0.0 else math.inf
 
 
-def directions(angles: np.ndarray) -> np.ndarray:
+def directions(angles: Floats) -> Points:
     """Unit vectors at angles [deg]."""
-    return np.exp(1j * np.radians(angles))
+    return np.asarray(np.exp(1j * np.radians(angles)))
 
 
-def ring(radius: float, centre: complex = 0.0, count: int = 120) -> np.ndarray:
+def ring(radius: float, centre: complex = 0.0, count: int = 120) -> Points:
     """A closed circle."""
     return centre + radius * directions(np.linspace(0.0, 360.0, count + 1))
 
@@ -41,16 +42,16 @@ def magnification(depth: float, room: float) -> float:
     return look.round_down(room / depth, (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)) if depth > 0.0 else 0.0
 
 
-def levels(depth: float, most: int = 8) -> np.ndarray:
+def levels(depth: float, most: int = 8) -> Floats:
     """Edges of round colour steps from 0 to at least ``depth``."""
     if depth <= 0.0:
         return np.array([0.0, 1.0])
     power = 10.0 ** math.floor(math.log10(depth / most))
     step = next(s * power for s in (1.0, 2.0, 2.5, 5.0, 10.0) if depth <= s * power * most)
-    return step * np.arange(math.ceil(depth / step - 1e-9) + 1)
+    return step * np.arange(math.ceil(depth / step - 1e-9) + 1, dtype=float)
 
 
-def bands(nominal: np.ndarray, worn: np.ndarray, depth: np.ndarray, edges: np.ndarray) -> list[list[np.ndarray]]:
+def bands(nominal: Points, worn: Points, depth: Floats, edges: Floats) -> list[list[Points]]:
     """Strips between nominal and worn contour (closed rows), sorted by their depth's colour step.
 
     Entry i holds the polygons of step i; what is less than a hundredth of a step deep is left out.
@@ -59,7 +60,7 @@ def bands(nominal: np.ndarray, worn: np.ndarray, depth: np.ndarray, edges: np.nd
     middle = 0.5 * (depth + depth[following])
     step = np.clip(np.searchsorted(edges, middle, side="right") - 1, 0, edges.size - 2)
     step[middle < 0.01 * (edges[1] - edges[0])] = -1
-    strips: list[list[np.ndarray]] = [[] for _ in range(edges.size - 1)]
+    strips: list[list[Points]] = [[] for _ in range(edges.size - 1)]
     borders = np.flatnonzero(np.diff(step)) + 1
     for run in np.split(np.arange(nominal.size), borders):
         if step[run[0]] >= 0:
@@ -68,7 +69,7 @@ def bands(nominal: np.ndarray, worn: np.ndarray, depth: np.ndarray, edges: np.nd
     return strips
 
 
-def joined(polygons: list[np.ndarray]) -> np.ndarray:
+def joined(polygons: list[Points]) -> Points:
     """Polygons in one row, NaN between them."""
     gap = np.array([complex(math.nan, math.nan)])
     return np.concatenate([part for polygon in polygons for part in (polygon, gap)]) if polygons else gap

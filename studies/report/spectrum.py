@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -175,7 +176,7 @@ def turn(result: Result, whole: bool) -> Figure:
                   keys=keys(result))
 
 
-def tables(result: Result) -> list[dict]:
+def tables(result: Result) -> list[dict[str, Any]]:
     """Known orders, and the largest ones found: heading, column names, rows of text."""
     if not ends(result):
         return []

@@ -18,7 +18,7 @@ def shape(result: Result) -> Figure:
     d, lobe = result.deepest_tooth
     times = shapes.enlargement(result, 0.5)
     # The tip, half a lobe from the root, goes upwards; x = 0 at the tip.
-    turn = 1j * shapes.directions(np.array(-180.0 / t.lobes))
+    turn = complex(1j * shapes.directions(np.array(-180.0 / t.lobes)))
     phases = np.arange(-BEYOND, 360.0 + BEYOND + 1.0, 2.0)
     points, normals = shapes.flank(result, phases)
     points, normals = turn * points, turn * normals
@@ -61,7 +61,7 @@ def shape(result: Result) -> Figure:
     return Figure("tooth", "One tooth, enlarged", caption, traces + bars, picture, 5, aspect=aspect)
 
 
-def contact_pin(result: Result, turn: complex) -> dict:
+def contact_pin(result: Result, turn: complex) -> look.Trace:
     """A pin where it touches the tooth at the deepest wear."""
     phase = np.array([result.peak_place("disc_peak_deg")])
     d, lobe = result.deepest_tooth

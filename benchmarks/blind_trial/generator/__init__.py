@@ -3,8 +3,3 @@
 Shares no effect code with the catalogue: the plain kernels give the ideal reducer, everything
 hidden is implemented here, from textbooks and in other functional forms.
 """
-
-import numpy as np
-import numpy.typing as npt
-
-Floats = npt.NDArray[np.float64]

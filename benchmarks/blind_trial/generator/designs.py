@@ -6,9 +6,9 @@ from typing import TypedDict
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.noise import Noise, noise_for
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
+from fmu_src.arrays import Floats
 
 RPM = math.pi / 30.0
 TURN = 2.0 * math.pi

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Design, Run
 from benchmarks.blind_trial.generator.reducer import HOUR
+from fmu_src.arrays import Floats
 
 RPM = math.pi / 30.0
 # Unit in the files, and what one of it is in SI.

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Design, Run, make_design
 from benchmarks.blind_trial.generator.faults import faulty
 from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
@@ -17,6 +16,7 @@ from benchmarks.blind_trial.generator.outside import OUTSIDE
 from benchmarks.blind_trial.generator.reducer import WHOLE
 from benchmarks.blind_trial.generator.strength import Ruler
 from benchmarks.blind_trial.generator.truth import Bench, Truth
+from fmu_src.arrays import Floats
 
 LAWS: dict[str, type[Truth]] = {law.name: law for law in CATALOGUE + OUTSIDE}
 TRUE_PARAMETERS = {"mesh_wear_coefficient": 5e-9, "roughness": 0.4e-6, "mesh_stiffness": 3.2e5}

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.signal import lfilter
 
-from benchmarks.blind_trial.generator import Floats
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)

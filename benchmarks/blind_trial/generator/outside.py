@@ -5,12 +5,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.laws.shared import ARCSEC, BOTH, PINS, UM
 from benchmarks.blind_trial.generator.laws.wearing import Wearing
 from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
+from fmu_src.arrays import Floats
 
 
 class Angular(Truth):

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats, stepping
+from benchmarks.blind_trial.generator import stepping
 from benchmarks.blind_trial.generator.stepping import COLUMNS
+from fmu_src.arrays import Floats
 from reducers.reducer import Reducer, load_reducer
 from rv_plant import plant
 from rv_plant.gear_stage import total_ratio

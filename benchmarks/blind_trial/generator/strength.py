@@ -3,10 +3,10 @@
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Design
 from benchmarks.blind_trial.generator.noise import Noise
 from benchmarks.blind_trial.generator.truth import Bench, Truth
+from fmu_src.arrays import Floats
 
 FREE_LEVEL = ("transmission_error", "hysteresis")
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, Change, Plain, Setting
 from benchmarks.blind_trial.generator.stepping import COLUMNS
+from fmu_src.arrays import Floats
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
 SPECTRUM = 4096

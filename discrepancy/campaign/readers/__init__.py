@@ -59,7 +59,7 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     except InputFault:
         raise
     # The libraries' own exceptions on broken files are of every kind (struct, key, value, runtime errors).
-    except Exception as problem:
+    except Exception as problem:  # noqa: BLE001
         raise InputFault(
             f"{place}: {path}: not readable as {kind}: {type(problem).__name__}: {problem}; check the file, or state its"
             " format"

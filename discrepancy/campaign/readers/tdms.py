@@ -29,7 +29,7 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
         signals = {}
         for name in sorted(names):
             group, slash, own = name.rpartition("/")
-            found = [c for key, c in channels.items() if key[1] == name or slash and key == (group, own)]
+            found = [c for key, c in channels.items() if key[1] == name or (slash and key == (group, own))]
             if len(found) > 1:
                 raise ReadFault(f"column {name!r} is in several groups; write group/{name}, or state group = ...")
             if found:

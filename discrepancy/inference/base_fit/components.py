@@ -10,7 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 # A part of the noise: the signal, and "main" or the pattern by which its runs differ.
 Component = tuple[str, str]

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares, lsq_linear
 
-from discrepancy.problem import Floats, Parameter
+from discrepancy.problem import Parameter
+from fmu_src.arrays import Floats
 
 
 class Box:
@@ -94,7 +95,7 @@ def fit_of(parameters: Sequence[Parameter], values: Mapping[str, float], residua
     """The fit at ``values``, with its chi-square, its normal matrix and what lies at a bound."""
     box = Box(parameters)
     normal = jacobian.T @ jacobian + np.diag(box.precision)
-    at_bounds = tuple(p.name for p in parameters if p.lower != p.off and values[p.name] - p.lower < 1e-3 * p.scale
+    at_bounds = tuple(p.name for p in parameters if (p.lower != p.off and values[p.name] - p.lower < 1e-3 * p.scale)
                       or p.upper - values[p.name] < 1e-3 * p.scale)  # fmt: skip
     chi2 = float(residual @ residual) + box.prior_cost(box.array(values))
     return Fit(tuple(parameters), dict(values), residual, jacobian, chi2, normal, candidates, at_bounds, converged)

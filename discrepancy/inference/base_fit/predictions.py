@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.problem import FirstOrder, Floats, Model
+from discrepancy.problem import FirstOrder, Model
+from fmu_src.arrays import Floats
 
 Key = tuple[tuple[str, float], ...]
 

@@ -7,7 +7,8 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.predictions import Predictions
 from discrepancy.inference.noise.noise import Noise, estimate
-from discrepancy.problem import Candidate, Floats, Model, Parameter
+from discrepancy.problem import Candidate, Model, Parameter
+from fmu_src.arrays import Floats
 
 STEP = 0.01
 """Step of a finite difference in units of ``Parameter.scale``."""

@@ -13,7 +13,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import modulations
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, float]]:

@@ -18,7 +18,7 @@ from discrepancy.inference.misfit.features import ORDERS, features
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ class HeldOutJudge:
         if not blocks:
             return []
         width = min(b.shape[1] for b in blocks.values())
-        weights = {i: 1.0 for i in blocks}
+        weights = dict.fromkeys(blocks, 1.0)
         if finding.dependence != "everywhere":
             reference = [self.space.records[i].factors[finding.dependence] for i in finding.indices]
             middle, spread = float(np.mean(reference)), float(np.std(reference)) or 1.0

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats import t as student
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 # y of x and the constants; and, for each law, its text, its constants, the function and where fits begin.
 Law = Callable[..., Floats]
@@ -49,7 +49,7 @@ def closed_forms(x: Floats) -> Laws:
                  [[0.0, 1.0, low + k * span] for k in (0.3, 0.5, 0.7)]),
         "bump": ("y = a + b exp(-((x - c)/d)^2)", ("a", "b", "c", "d"), lambda x, a, b, c, d: a + b * np.exp(-(((x - c) / (np.abs(d) + 1e-3 * span)) ** 2)),
                  [[0.0, 1.0, low + k * span, 0.12 * span] for k in (0.2, 0.5, 0.8)]),
-        "periodic": ("y = a + b cos(k x) + c sin(k x)", ("a", "b", "c", "k"), lambda x, a, b, c, k: a + b * np.cos(k * (x - middle)) + c * np.sin(k * (x - middle)),
+        "periodic": ("y = a + b cos(k x) + c sin(k x)", ("a", "b", "c", "k"), lambda x, a, b, c, k: a + b * np.cos(k * (x - middle)) + c * np.sin(k * (x - middle)),  # noqa: E501
                      []),
     }
     if low > 0:
@@ -127,7 +127,7 @@ def _fit(function: Law, start: Sequence[float] | Floats, x: Floats, y: Floats, d
         return np.nan_to_num((y - function(x, *p)) / deviation, nan=1e6, posinf=1e6, neginf=-1e6)
     # constants that enter linearly start at their best values
     start = np.array(start, dtype=float)
-    if 2 <= start.size and start[0] == 0.0:
+    if start.size >= 2 and start[0] == 0.0:
         zero = function(x, *np.concatenate([[0.0], start[1:]]))
         a = np.column_stack([np.ones_like(x), zero]) / deviation[:, None]
         solution = np.linalg.lstsq(a, y / deviation, rcond=None)[0]

@@ -12,7 +12,7 @@ from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis, stream_of
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 BINS = 24
 

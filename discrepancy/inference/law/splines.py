@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import BSpline
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)

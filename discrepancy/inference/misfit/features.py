@@ -11,7 +11,8 @@ import numpy as np
 
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 
 ORDERS: dict[str, tuple[float, ...]] = {
     "output shaft": (1, 2),

@@ -17,7 +17,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import ORDERS, features, modulations
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 LEVEL = 0.004
 """Significance of a finding over all groups together."""
@@ -169,7 +169,7 @@ class Localiser:
         for stream, indices in self.streams.items():
             sums: dict[str, list[float]] = defaultdict(lambda: [0.0, 0.0])
             for i in indices:
-                block, slices, _, gram = self.cells[i]
+                _block, slices, _, gram = self.cells[i]
                 named = [s for f, s in slices.items() if not f.startswith("order ")]
                 pick = np.concatenate([np.arange(s.start, s.stop) for s in named])
                 g = gram[np.ix_(pick, pick)]

@@ -6,7 +6,7 @@ import numpy as np
 
 from discrepancy.inference.noise.replicates import Deviation
 from discrepancy.inference.noise.whiten import correlations, gains, innovations
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 def detrended_values(position: Floats, values: Floats) -> Floats:

@@ -18,7 +18,8 @@ from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_va
 from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
-from discrepancy.problem import Floats, Mask, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats, Mask
 
 SHORT = 8
 """Records with fewer samples are single numbers: no correlation is looked for."""
@@ -178,7 +179,7 @@ def _signals(
         else:
             level = UNREPLICATED_INFLATION * scale
             note, source = "no replicates: noise guessed from the fast part of the residual", "fast residual"
-        scales = {c: level for c in scales}
+        scales = dict.fromkeys(scales, level)
         scale, known = level, UNREPLICATED_DOF
     every = np.concatenate([e / scales[d.condition] for e, d in zip(inside, deviations)])
     tail = float(np.mean(np.abs(every) > CUT))

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.ndimage import median_filter
 
-from discrepancy.problem import Floats, Mask
+from fmu_src.arrays import Floats, Mask
 
 CUT = 2.5
 

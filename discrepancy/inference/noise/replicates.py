@@ -1,5 +1,6 @@
 """Runs that repeat each other: how they deviate, whatever the model says."""
 
+import itertools
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.inference.noise.series import position_of, stream_of
-from discrepancy.problem import Floats, Mask, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats, Mask
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ def deviations_of(records: Sequence[Record], residuals: Sequence[Floats], masks:
             for i, position, values in zip(group, positions, spread):
                 result.append(Deviation(i, position[rows], values, rows, (count - 1) / count, condition, count == 2))
             continue
-        for a, b in zip(group[:-1], group[1:]):
+        for a, b in itertools.pairwise(group):
             pa, pb = position_of(records[a]), position_of(records[b])
             ra, rb = np.flatnonzero(masks[a]), np.flatnonzero(masks[b])
             if ra.size < 2 or rb.size < 2 or np.any(np.diff(pb[rb]) <= 0):

@@ -9,7 +9,7 @@ from discrepancy.inference.noise.outliers import CUT, huber_weights
 from discrepancy.inference.noise.replicates import Deviation
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import autoregress, correlations, gains, innovations
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 def pattern_columns(record_position: Floats, prediction: Floats, names: Sequence[str]) -> Floats:

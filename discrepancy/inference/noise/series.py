@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from discrepancy.problem import Floats, Record
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
 
 
 def stream_of(record: Record) -> str:

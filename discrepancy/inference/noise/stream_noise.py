@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.problem import Floats, Mask
+from fmu_src.arrays import Floats, Mask
 from fmu_src.kernel import kernel
 
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate, Floats, Parameter
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.arrays import Floats
 
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
@@ -165,7 +166,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
             x, r, cost = trial, new_r, new
         if gain < 0.05:
             # done, unless frozen sensitivities left it above what the partly linear fit promised
-            if fresh or cost < expected + 0.5 and cost < space.base.chi2:
+            if fresh or (cost < expected + 0.5 and cost < space.base.chi2):
                 break
             columns = space.columns(parameters, box.named(x))
             fresh = True

@@ -13,7 +13,8 @@ from discrepancy.inference.base_fit.fit import Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import fit_effects
 from discrepancy.inference.screening.screen import Score
-from discrepancy.problem import Candidate, Floats, Parameter
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.arrays import Floats
 
 UNDETERMINED = 1e-6
 """Information (in units of the parameter's scale) below which a parameter is not estimated."""

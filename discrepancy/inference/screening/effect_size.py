@@ -6,7 +6,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Floats
+from fmu_src.arrays import Floats
 
 
 def effect_size(space: Workspace, difference: Mapping[int, Floats]) -> float:

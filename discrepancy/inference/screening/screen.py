@@ -16,7 +16,8 @@ from scipy.stats import f as fisher
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate, Floats, Parameter
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.arrays import Floats
 
 SMALL, TYPICAL = 0.05, 1.0
 DRAWS = 2000

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.laws.shared import ARCSEC
 from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
+from fmu_src.arrays import Floats
 
 
 class Encoder(Truth):

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from benchmarks.blind_trial.generator import Floats
 from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.reducer import Setting
 from benchmarks.blind_trial.generator.truth import Truth
+from fmu_src.arrays import Floats
 
 
 def dahl(torque: Floats, y: Floats, share: float, least: float, way: float) -> Floats:

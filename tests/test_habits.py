@@ -1,0 +1,32 @@
+"""Rules that hold over the tree: style and likely faults (ruff), types (mypy, strict), the review of scientific Python projects."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+pytestmark = pytest.mark.skipif(not (ROOT / "docs").is_dir(), reason="a checkout is looked at")
+
+
+def run(*command: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True)
+
+
+def test_ruff_finds_nothing():
+    done = run("ruff", "check", "--no-cache", "--output-format", "concise", ".")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_types_fit_everywhere():
+    done = run("mypy", "--no-error-summary")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_review_rules_hold_or_are_excepted_with_a_reason():
+    done = run("repo_review", ".", "--format", "json")
+    failed = {name: check["description"] for name, check in json.loads(done.stdout)["checks"].items() if check["result"] is False}
+    assert not failed
