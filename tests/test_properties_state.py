@@ -12,8 +12,9 @@ from orchestrator.component import InProcess
 UNITS = ("rv_plant", "wear_fmu", "rv_reducer")
 CRANK_TURN = 2.0 * np.pi / 67.5
 # A communication step as a share of a crank turn, and what a master sets before it.
+loads = st.floats(10.0, 200.0) | st.floats(-200.0, -10.0)
 steps = st.lists(
-    st.tuples(st.floats(0.001, 0.2), st.floats(-200.0, 200.0), st.floats(280.0, 340.0), st.floats(0.0, 300.0)), min_size=1, max_size=3
+    st.tuples(st.floats(0.001, 0.2), loads, st.floats(280.0, 340.0), st.floats(0.0, 300.0)), min_size=1, max_size=3
 )  # fmt: skip
 
 
