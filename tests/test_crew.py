@@ -1,5 +1,6 @@
 """Predictions shared between processes: the same numbers, faults that arrive, nothing left behind."""
 
+import contextlib
 import multiprocessing
 import os
 import signal
@@ -171,11 +172,19 @@ def test_ctrl_c_ends_all_processes_with_one_traceback(way, tmp_path, heard_by, b
     process = subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                env=environment, start_new_session=True)  # fmt: skip
     assert [process.stdout.readline() for _ in range(begun)] == begun * ["waiting\n"]
-    if heard_by == "all":
-        # As a terminal does.
-        os.killpg(process.pid, signal.SIGINT)
+    errors = ""
+    # Python drops an interrupt that arrives within a callback of its own, once in a few hundred times; one presses again.
+    for patience in (10, 20):
+        if heard_by == "all":
+            # As a terminal does.
+            os.killpg(process.pid, signal.SIGINT)
+        else:
+            process.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            errors = process.communicate(timeout=patience)[1]
+            break
     else:
-        process.send_signal(signal.SIGINT)
-    errors = process.communicate(timeout=30)[1]
+        process.kill()
+        process.communicate()
     assert errors.count("Traceback") == 1 and "KeyboardInterrupt" in errors
     assert gone(process.pid)
