@@ -80,6 +80,19 @@ def test_numbers_arrays_and_tuples_go_in_and_come_out():
     assert swapped(1.0, 2.0) == (2.0, 1.0, True) and swapped(3.0, 1.0) == (1.0, 3.0, False)
 
 
+def test_a_tuple_of_one_is_a_tuple():
+    @kernel
+    def alone(x):
+        return (2.0 * x,)
+
+    @kernel
+    def first(x):
+        return alone(x)[0] + 1.0
+
+    assert alone(1.5) == (3.0,)
+    assert first(1.5) == 4.0
+
+
 def test_records_are_read_and_written():
     points = np.zeros(2, POINT)
     points["x"] = 2.0, 5.0

@@ -29,6 +29,7 @@ KINDS = {
 
 kinds = st.sampled_from(sorted(KINDS))
 of_one_kind = kinds.flatmap(lambda kind: st.tuples(*[st.sampled_from(KINDS[kind])] * 3))
+# Numbers too small for all their digits lose some on the way.
 numbers = st.just(0.0) | st.floats(1e-12, 1e6) | st.floats(-1e6, -1e-12)
 
 

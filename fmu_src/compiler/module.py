@@ -9,7 +9,7 @@ import numpy as np
 
 from fmu_src.compiler.emitter import Emitter, Instance, returned
 from fmu_src.compiler.source import Source
-from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Type
+from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Number, Type
 
 # As LLVM itself: 3 would only inline more.
 OPTIMISATION = 2
@@ -79,7 +79,7 @@ class Module:
         taken = ", ".join(f"{'i8' if kind == 'i1' else kind} {name}{'.byte' if kind == 'i1' else ''}" for kind, name in zip(kinds, names))
         body = [f"  {name} = trunc i8 {name}.byte to i1" for kind, name in zip(kinds, names) if kind == "i1"]
         call = f"call {returned(result)} {instance.symbol}({passed})"
-        if len(result.parts) == 1 and result.parts[0] != "ptr":
+        if isinstance(result, Number):
             (kind,) = result.parts
             body.append(f"  %whole = {call}")
             if kind == "i1":
@@ -91,8 +91,11 @@ class Module:
             returns, taken = "void", ", ".join(filter(None, [taken, "ptr %results"]))
             body.append(f"  {'%whole = ' if result.parts else ''}{call}")
             for i, kind in enumerate(result.parts):
-                body.append(f"  %p{i} = extractvalue {returned(result)} %whole, {i}")
-                body.append(f"  %w{i} = {'zext i1' if kind == 'i1' else f'bitcast {kind}'} %p{i} to {'i64' if kind != 'double' else 'double'}")
+                part = "%whole"
+                if len(result.parts) > 1:
+                    part = f"%p{i}"
+                    body.append(f"  {part} = extractvalue {returned(result)} %whole, {i}")
+                body.append(f"  %w{i} = {'zext i1' if kind == 'i1' else f'bitcast {kind}'} {part} to {'i64' if kind != 'double' else 'double'}")
                 body.append(f"  %r{i} = getelementptr inbounds i64, ptr %results, i64 {i}")
                 body.append(f"  store {'i64' if kind != 'double' else kind} %w{i}, ptr %r{i}, align 8")
             body.append("  ret void")
