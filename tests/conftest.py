@@ -92,3 +92,21 @@ def native_fmus(rv20e, codes, tmp_path_factory):
 def spring(tmp_path_factory):
     """Path of a small FMU."""
     return build_spring(tmp_path_factory.mktemp("spring"))
+
+
+@pytest.fixture(scope="module")
+def shared_runs():
+    """Benches of equal models have their runs in common, as in the blind trial: it changes no number, only the time."""
+    from discrepancy.prediction.bench import Bench
+
+    made, kept = Bench.__init__, {}
+
+    def make(bench, *arguments, **named):
+        made(bench, *arguments, **named)
+        if type(bench) is Bench:
+            model = b"".join(template.tobytes() for template in bench.templates)
+            bench.runs, bench.most_runs = kept.setdefault(model, {}), 20_000
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Bench, "__init__", make)
+        yield

@@ -91,10 +91,10 @@ def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
         FmuBench(model, {}, fmus)
 
 
-def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, fmus):
+def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, native_fmus):
     campaign = campaign_of(model, {CLEARANCE: 0.6e-6}, 1)
     answers = []
-    for folder in (None, fmus):
+    for folder in (None, native_fmus / "fmi2"):
         # Angles are counted from the model's own 0, and few candidates: it is the predictions that are compared.
         by = PhysicalModel(model, campaign, zeros={}, fmus=folder)
         by.candidates = tuple(c for c in by.candidates if c.name in CANDIDATES)

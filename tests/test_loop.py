@@ -15,6 +15,7 @@ from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
 
+pytestmark = pytest.mark.usefixtures("shared_runs")
 NOISE = {"transmission_error": 2e-6, "input_torque": 0.01, "lost_motion": 5e-6}
 CLEARANCE = "needle_clearance_added"
 SAMPLES = 150

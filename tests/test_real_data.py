@@ -15,6 +15,7 @@ from discrepancy.model_file import load_model
 from discrepancy.verdict import diagnose
 from fmu_src.source_hash import ROOT
 
+pytestmark = pytest.mark.usefixtures("shared_runs")
 DATA = Path(os.environ.get("RVWEAR_DATA", ROOT.parent / "shared" / "data"))
 ACTUATOR, MILLING = DATA / "cycloidal_actuator", DATA / "milling_tool_wear"
 EXAMPLES = ROOT / "examples"

@@ -100,6 +100,7 @@ class Fmpy:
         description = read_model_description(str(path))
         self.three = description.fmiVersion == "3.0"
         self.described = Described(description)
+        self.signals = self.described.signals()
         kind = FMU3Slave if self.three else FMU2Slave
         self.slave = kind(
             instanceName=path.stem, guid=description.instantiationToken if self.three else description.guid,
@@ -115,7 +116,7 @@ class Fmpy:
     def references(self, name):
         if self.three:
             return [v.valueReference for v in self.described.variables if v.name == name]
-        return list(self.described.signals()[name].references)
+        return list(self.signals[name].references)
 
     def get(self, name):
         if self.three:
