@@ -128,6 +128,25 @@ def sweep_beside(plants, durations, errors, similar):
 
 
 @kernel
+def torque_sweep_beside(plants, torques, turning, similar):
+    """``torque_sweep`` to first order beside a similar run, see ``sweep_beside``; not for friction, whose springs remember."""
+    p = plants[0]
+    output_speed = turn_input(p, 1.0)
+    for i in range(torques.shape[0]):
+        p.load_torque = torques[i]
+        for k in range(similar.shape[1]):
+            p.z[k] = similar[i, k]
+        assemble_at_input(p)
+        if not newton_direction(p):
+            return NO_EQUILIBRIUM
+        for a in range(p.free_count):
+            p.z[p.free[a]] += p.direction[a]
+        publish(p, output_speed)
+        turning[i] = -p.transmission_error
+    return 0
+
+
+@kernel
 def torque_sweep(plants, torques, turning, places, similar, guessed):
     """Output torque through ``torques`` [N m] with the input held; ``turning`` [rad] of the output in its sense.
 

@@ -10,6 +10,7 @@ from typing import TypeVar, cast
 
 import numpy as np
 
+from discrepancy.prediction.fineness import Fineness
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.variables import Table
@@ -74,6 +75,8 @@ class Bench:
             self.templates.append(records)
         self.runs: dict[Hashable, object] = {}
         self.most_runs = KEPT_RUNS
+        # How finely runs are computed for a campaign's samples; None: at every sample.
+        self.fineness: Fineness | None = None
         topology = reducer.topology
         self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
         self.rated_speed = float(self.templates[0]["input_speed"][0])
@@ -95,6 +98,16 @@ class Bench:
             (name, value) for name, value in values.items()
             if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
         ))  # fmt: skip
+
+    def away(self, values: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+        """By name the plant's value in the base model, and how far off ``values`` are from it."""
+        start = self.templates[0]
+        return {name: (float(start[name].flat[0]), value - float(start[name].flat[0])) for name, value in self.relevant(values, False)}
+
+    def remembers(self, values: Mapping[str, float]) -> bool:
+        """Whether a held output's place depends on the way to it: friction's springs."""
+        friction = (values.get(name, float(self.templates[0][name][0])) for name in ("friction_coefficient", "friction_excess"))
+        return sum(friction) != 0.0
 
     def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
              **plant_values: float) -> tuple[np.ndarray, np.ndarray]:
@@ -264,11 +277,27 @@ class Bench:
                     self.put_wear(condition, values, plants)
                 turning = np.zeros(len(torques))
                 # What sticks remembers where it was: friction's springs must not see a start elsewhere.
-                guessed = bool(relevant) and not float(plants["friction_coefficient"][0] + plants["friction_excess"][0])
+                guessed = bool(relevant) and not self.remembers(values)
                 status = coupled.torque_sweep(plants, torques, turning, places[k], similar[k], guessed)
                 self.check((status, 0), plants, self.templates[1])
                 total += turning / HELD_ANGLES
             return total, places
+
+        return self.kept(key, run)
+
+    def held_beside(self, condition: Condition, values: Mapping[str, float], torques: Floats, base: Mapping[str, float]) -> Floats:
+        """``held`` of a new reducer with ``values`` to first order beside the run with ``base``; neither may remember its way."""
+        key = ("held beside", condition, self.relevant(values, False), self.relevant(base, False), torques.tobytes())
+
+        def run() -> Floats:
+            similar = self.held_places(condition, base, torques)[1]
+            total, turning = np.zeros(len(torques)), np.zeros(len(torques))
+            for k in range(HELD_ANGLES):
+                angle = 2.0 * math.pi * k / (HELD_ANGLES * self.reducer.topology.lobes)
+                plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
+                self.check((coupled.torque_sweep_beside(plants, torques, turning, similar[k]), 0), plants, self.templates[1])
+                total += turning / HELD_ANGLES
+            return total
 
         return self.kept(key, run)
 

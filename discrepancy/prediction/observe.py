@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
+from discrepancy.prediction.support import AngleNodes, TorqueNodes, angle_nodes, torque_nodes
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
@@ -24,6 +25,8 @@ TORQUE_STEPS = 12
 ELASTIC_STEPS = 20
 WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
+# Share of the rated torque below which a loop has no nodes: the output floats.
+NEAR_NOTHING = 0.009
 # Of the deepest place: what is worn less is not compared in proportion.
 LEAST_WORN = 0.1
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
@@ -77,9 +80,46 @@ def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt
 
 def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> Floats:
     """A column of the running bench at the record's angles (or times)."""
+    condition, column = condition_of(bench, record), COLUMNS.index(name)
+    nodes = nodes_over_angle(bench, record, values, name)
+    if nodes is not None:
+        angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+        return nodes.samples(bench.running(condition, values, nodes.angles, cage)[:, column], angles)
     angles, place = as_turned(bench, record, values)
-    series = bench.running(condition_of(bench, record), values, angles, cage)
-    return series[:, COLUMNS.index(name)][place]
+    return bench.running(condition, values, angles, cage)[:, column][place]
+
+
+def nodes_over_angle(bench: Bench, record: Record, values: Values, name: str) -> AngleNodes | None:
+    """Where a run is computed for the record's samples; None: at each of them."""
+    if bench.fineness is None:
+        return None
+    condition, column = condition_of(bench, record), COLUMNS.index(name)
+    angles = angles_of(bench, record, 0.0)
+
+    def nodes(level: int) -> AngleNodes | None:
+        return angle_nodes(angles, condition.direction, level)
+
+    def error(level: int, more: Values) -> float | None:
+        at = nodes(level)
+        return None if at is None else at.error(bench.running(condition, more, at.angles)[:, column])
+
+    return nodes(bench.fineness.level(record, bench.away(values), error))
+
+
+def nodes_over_torque(bench: Bench, record: Record, values: Values) -> TorqueNodes | None:
+    """Where a loop of torque is computed for the record's samples; None: at each of them."""
+    if bench.fineness is None:
+        return None
+    torques, condition = np.asarray(record.axes["torque"], np.float64), held_condition(bench, record)
+
+    def nodes(level: int) -> TorqueNodes | None:
+        return torque_nodes(torques, NEAR_NOTHING * bench.rated_load, level)
+
+    def error(level: int, more: Values) -> float | None:
+        at = nodes(level)
+        return None if at is None else at.error(entered(bench, condition, more, at.torques))
+
+    return nodes(bench.fineness.level(record, bench.away(values), error))
 
 
 def angle_zero(record: Record) -> str:
@@ -96,14 +136,23 @@ def transmission_error(bench: Bench, record: Record, values: Values) -> Floats:
     return centred(error)
 
 
-def transmission_error_beside(bench: Bench, record: Record, values: Values, base: Values) -> Floats:
-    """To first order beside the one with the values ``base``."""
+def transmission_error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
+    """What ``values`` change next to ``base``, to first order; None where that is not cheaper."""
     condition = condition_of(bench, record)
     if condition.hours > 0.0:
-        return transmission_error(bench, record, values)
-    angles, place = as_turned(bench, record, values)
-    error = bench.error_beside(condition, values, angles, base, as_turned(bench, record, base)[0])[place]
-    return centred(error)
+        return None
+    nodes = nodes_over_angle(bench, record, {**base, **values}, "transmission_error")
+    if nodes is None:
+        angles, place = as_turned(bench, record, values)
+        before, place_before = as_turned(bench, record, base)
+        high = bench.error_beside(condition, values, angles, base, before)[place]
+        return centred(high - bench.error_beside(condition, base, before, base, before)[place_before])
+    high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
+    ahead, behind = (angles_of(bench, record, v.get(angle_zero(record), 0.0)) for v in (values, base))
+    change = nodes.samples(high - low, ahead)
+    if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
+        change += nodes.samples(low, ahead) - nodes.samples(low, behind)
+    return centred(change)
 
 
 def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
@@ -116,10 +165,36 @@ def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
         return locked_output(bench, record, values)
     torques = np.asarray(record.axes["torque"], np.float64)
     condition = held_condition(bench, record)
-    # The loop is entered from little torque; with none the output floats and has no place.
+    nodes = nodes_over_torque(bench, record, values)
+    if nodes is not None:
+        return nodes.samples(entered(bench, condition, values, nodes.torques), torques)
+    return entered(bench, condition, values, torques)
+
+
+def hysteresis_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
+    """What ``values`` change in a loop next to ``base``, to first order; None where that is not cheaper or the loop remembers."""
+    if record.tags.get("locked") == "output" or bench.remembers(values) or bench.remembers(base):
+        return None
+    torques, condition = np.asarray(record.axes["torque"], np.float64), held_condition(bench, record)
+    if condition.hours > 0.0:
+        return None
+    nodes = nodes_over_torque(bench, record, {**base, **values})
+    path, lead = with_lead(bench, torques if nodes is None else nodes.torques)
+    high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
+    return high - low if nodes is None else nodes.samples(high - low, torques)
+
+
+def entered(bench: Bench, condition: Condition, values: Values, torques: Floats) -> Floats:
+    """Turning [rad] of the held output along ``torques`` [N m]."""
+    path, lead = with_lead(bench, torques)
+    return bench.held(condition, values, path)[lead:]
+
+
+def with_lead(bench: Bench, torques: Floats) -> tuple[Floats, int]:
+    """The loop is entered from little torque (with none the output floats and has no place): its way, and the length of its entry."""
     first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
     lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
-    return bench.held(condition, values, np.concatenate([lead, torques]))[len(lead):]
+    return np.concatenate([lead, torques]), len(lead)
 
 
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
@@ -352,4 +427,9 @@ OBSERVED: dict[str, Callable[[Bench, Record, Values], Floats]] = {
         transmission_error, hysteresis, lost_motion, torsional_stiffness, input_torque, no_load_torque, efficiency,
         vibration, vibration_order, temperature, wear_profile, wear_depth, mass_loss, debris_iron, cage_speed,
     )
+}  # fmt: skip
+
+# What values change next to others, to first order and cheaper, where there is such a thing.
+CHANGES: dict[str, Callable[[Bench, Record, Values, Values], Floats | None]] = {
+    "transmission_error": transmission_error_change, "hysteresis": hysteresis_change,
 }  # fmt: skip

@@ -15,8 +15,9 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
+from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
+from discrepancy.prediction.observe import CHANGES, OBSERVED, Values, angle_zero, error_with_cages, identity
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
@@ -55,6 +56,7 @@ class PhysicalModel:
         present = model.values()
         settings = {n: v for n, v in present.items() if "[" not in n}
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
+        self.bench.fineness = Fineness(self.records)
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
@@ -169,9 +171,8 @@ class PhysicalModel:
 
     def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> Floats:
         own = self.for_record(record, values)
-        first_order = beside if record.quantity == "transmission_error" else None
         try:
-            predicted = self.observed(record, own, None if first_order is None else self.for_record(record, first_order))
+            predicted = self.observed(record, own, None if beside is None else self.for_record(record, beside))
         except RunFault:
             if not self.bench.relevant(values, True):
                 raise
@@ -194,15 +195,16 @@ class PhysicalModel:
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())
         return predicted
 
-    def observed(self, record: Record, own: Values, beside: Values | None) -> Floats:
+    def observed(self, record: Record, own: Values, beside: Values | None = None) -> Floats:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
         key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), None if beside is None else tuple(beside.items()))
         if key not in self.shown:
             if len(self.shown) > MOST_SHOWN:
                 self.shown.clear()
-            self.shown[key] = np.asarray(
-                OBSERVED[record.quantity](self.bench, record, own) if beside is None else
-                transmission_error_beside(self.bench, record, own, beside), float
+            change = None if beside is None or record.quantity not in CHANGES else CHANGES[record.quantity](self.bench, record, own, beside)
+            self.shown[key] = (
+                np.asarray(OBSERVED[record.quantity](self.bench, record, own), float) if beside is None or change is None else
+                self.observed(record, beside) + change
             )  # fmt: skip
         return self.shown[key]
 

@@ -1,0 +1,151 @@
+"""Where a run is computed, and how its samples follow from there.
+
+A bench writes thousands of samples of what a reducer does smoothly.  Runs are computed at nodes, over the angle at equal
+distances, along a torque's way on each branch between two reversals, and the samples are interpolated.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline, PchipInterpolator
+
+from fmu_src.arrays import Floats
+
+# Nodes of one turn of the output by level.  Prime, so that no order of the reducer looks constant on every second node.
+PER_TURN = (727, 1021, 1447, 2039, 2887, 4099, 5779, 8191, 11587, 16381)
+# Nodes of a branch on either side of no torque.
+PER_SIDE = (12, 16, 24, 32, 48, 64, 96, 128)
+# How far beyond a record's angles nodes go [rad]: where its angle 0 lies is estimated within a pitch of the pins.
+BEYOND = 2.0 * np.pi / 64
+# Runs of one condition that begin a little apart share their nodes: the ends are rounded to this [rad].
+ROUNDED = 2.0 * np.pi / 16
+# A way back shorter than this share of the whole range of torque is the sensor's noise and no reversal.
+REVERSAL = 0.02
+# Nodes must be fewer than this share of the samples, or each sample is computed itself.
+WORTHWHILE = 0.7
+# By how much half the distance makes the error less: between kinks (1.5 powers) and smooth.
+HALVING = 2.8
+
+
+@dataclass(frozen=True)
+class AngleNodes:
+    """Nodes over the output's angle [rad]: ``angles`` (m,) in the order in which they are passed."""
+
+    angles: Floats
+
+    def samples(self, values: Floats, angles: Floats) -> Floats:
+        """``values`` (m,) at the nodes, at ``angles`` [rad]."""
+        rising = slice(None) if self.angles[-1] > self.angles[0] else slice(None, None, -1)
+        found: Floats = CubicSpline(self.angles[rising], values[rising])(angles)
+        return found
+
+    def error(self, values: Floats) -> float:
+        """Error of interpolated ``values``, root mean square, from every second node by the others."""
+        between = CubicSpline(np.arange(0, len(values), 2), values[::2])(np.arange(1, len(values), 2))
+        inside = slice(2, -2)
+        return float(np.sqrt(np.mean((between - values[1::2])[inside] ** 2))) / HALVING
+
+
+def angle_nodes(angles: Floats, direction: int, level: int) -> AngleNodes | None:
+    """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more."""
+    if level >= len(PER_TURN):
+        return None
+    distance = 2.0 * np.pi / PER_TURN[level]
+    low = ROUNDED * np.floor((float(angles.min()) - BEYOND) / ROUNDED)
+    high = ROUNDED * np.ceil((float(angles.max()) + BEYOND) / ROUNDED)
+    nodes = distance * np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
+    if len(nodes) > WORTHWHILE * len(angles):
+        return None
+    return AngleNodes(nodes[::direction])
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Samples between two reversals: their places in the record, and the places of the branch's nodes on the way."""
+
+    samples: slice
+    nodes: slice
+
+
+@dataclass(frozen=True)
+class TorqueNodes:
+    """Nodes along the way of a torque [N m]: ``torques`` (m,) in the order in which they are applied."""
+
+    torques: Floats
+    branches: tuple[Branch, ...]
+
+    def samples(self, values: Floats, applied: Floats) -> Floats:
+        """``values`` (m,) at the nodes, at the torques ``applied`` (n,)."""
+        found = np.empty(len(applied))
+        for branch in self.branches:
+            torques, at = self.torques[branch.nodes], values[branch.nodes]
+            inside = np.clip(applied[branch.samples], torques.min(), torques.max())
+            if len(torques) < 2:
+                found[branch.samples] = at[0]
+                continue
+            rising = slice(None) if torques[-1] > torques[0] else slice(None, None, -1)
+            found[branch.samples] = PchipInterpolator(torques[rising], at[rising])(inside)
+        return found
+
+    def error(self, values: Floats) -> float:
+        """Error of interpolated ``values``, root mean square, from every second node by the others on one side of no torque."""
+        squares: list[Floats] = []
+        for branch in self.branches:
+            torques, at = self.torques[branch.nodes], values[branch.nodes]
+            for side in (torques > 0.0, torques < 0.0):
+                t, y = torques[side], at[side]
+                if len(t) < 5:
+                    continue
+                rising = slice(None) if t[-1] > t[0] else slice(None, None, -1)
+                t, y = t[rising], y[rising]
+                last = len(t) - 1 - (len(t) + 1) % 2
+                squares.append((PchipInterpolator(t[: last + 1 : 2], y[: last + 1 : 2])(t[1:last:2]) - y[1:last:2]) ** 2)
+        return float(np.sqrt(np.mean(np.concatenate(squares)))) / HALVING if squares else 0.0
+
+
+def torque_nodes(applied: Floats, least: float, level: int) -> TorqueNodes | None:
+    """Nodes for samples of the torques ``applied`` [N m] in their order; None where the samples are hardly more.
+
+    Nodes lie closer near no torque, none of them below ``least`` [N m]: the output floats there.
+    """
+    if level >= len(PER_SIDE):
+        return None
+    most = float(np.abs(applied).max())
+    side = least + (most - least) * np.linspace(0.0, 1.0, PER_SIDE[level]) ** 2
+    grid = np.concatenate([-side[::-1], side])
+    turns = reversals(applied)
+    way = [np.array([applied[0]])]
+    branches = []
+    count = 1
+    for begin, end in zip(turns[:-1], turns[1:]):
+        a, b = float(applied[begin]), float(applied[end])
+        passed = grid[(grid > min(a, b)) & (grid < max(a, b))]
+        new = np.append(passed if b > a else passed[::-1], b)
+        way.append(new)
+        branches.append(Branch(slice(begin if begin == 0 else begin + 1, end + 1), slice(count - 1, count + len(new))))
+        count += len(new)
+    if count > WORTHWHILE * len(applied):
+        return None
+    return TorqueNodes(np.concatenate(way), tuple(branches))
+
+
+def reversals(applied: Floats) -> npt.NDArray[np.intp]:
+    """Places where the torque turns back for good, with the first and the last sample."""
+    least = REVERSAL * float(np.ptp(applied))
+    found = [0]
+    highest = lowest = 0
+    sense = 0
+    for i, torque in enumerate(applied):
+        if torque > applied[highest]:
+            highest = i
+        if torque < applied[lowest]:
+            lowest = i
+        if sense >= 0 and applied[highest] - torque > least:
+            found.append(highest)
+            sense, lowest, highest = -1, i, i
+        elif sense <= 0 and torque - applied[lowest] > least:
+            found.append(lowest)
+            sense, lowest, highest = 1, i, i
+    found.append(len(applied) - 1)
+    return np.unique(np.array(found, dtype=np.intp))
