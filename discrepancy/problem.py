@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 from fmu_src.arrays import Floats
+from fmu_src.threads import Threads
 
 
 @dataclass(frozen=True)
@@ -101,9 +102,20 @@ class Model(Protocol):
 
 
 @runtime_checkable
-class FirstOrder(Protocol):
-    """What a model may have besides: predictions next to others, to first order and cheaper."""
+class OnThreads(Protocol):
+    """What a model may be besides: one whose predictions several threads can ask for at once."""
+
+    threads: Threads
+
+
+@runtime_checkable
+class Cheaper(Protocol):
+    """What a model may have besides: predictions next to others to first order, and rough ones."""
 
     def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``Model.predict`` for values next to ``base``."""
+        ...
+
+    def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """``Model.predict`` with errors of a few parts in a hundred of what ``values`` change."""
         ...

@@ -7,11 +7,14 @@ functions run as plain Python.
 """
 
 import os
+import threading
 from collections.abc import Callable
 from typing import Any
 
 from fmu_src.compiler.source import Source
 
+# Kernels that several threads call for the first time are compiled by one.
+compiling = threading.RLock()
 PLAIN = bool(os.environ.get("RVWEAR_PLAIN_PYTHON"))
 
 
@@ -38,7 +41,9 @@ class Kernel(Source):
         if caller is None:
             from fmu_src.compiler.calling import make_caller
 
-            caller = self.callers[sorts] = make_caller(self, arguments)
+            with compiling:
+                caller = self.callers.get(sorts) or make_caller(self, arguments)
+                self.callers[sorts] = caller
         return caller(*arguments)
 
 

@@ -98,6 +98,7 @@ def spring(tmp_path_factory):
 def shared_runs():
     """Benches of equal models have their runs in common, as in the blind trial: it changes no number, only the time."""
     from discrepancy.prediction.bench import Bench
+    from fmu_src.threads import Once
 
     made, kept = Bench.__init__, {}
 
@@ -105,7 +106,7 @@ def shared_runs():
         made(bench, *arguments, **named)
         if type(bench) is Bench:
             model = b"".join(template.tobytes() for template in bench.templates)
-            bench.runs, bench.most_runs = kept.setdefault(model, {}), 20_000
+            bench.runs = kept.setdefault(model, Once(20_000))
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Bench, "__init__", make)

@@ -60,9 +60,8 @@ def results(kind, tmp_path_factory) -> dict[int, dict]:
     """In this one process: campaigns of equal conditions share the bench's runs, and other tests use the other cores."""
     folder = tmp_path_factory.mktemp("blind_trial")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tool, "SHARED", {})
         # Tiny designs are alike: what one has run, many others ask for.
-        patch.setattr(tool, "MOST_SHARED", 60_000)
+        patch.setattr(tool, "SHARED", Once(60_000))
         return {task.number: trial_run.one(task, folder, False, False) for task in PLANS[kind]()}
 
 

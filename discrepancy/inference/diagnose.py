@@ -23,6 +23,8 @@ HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 # Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
 FAR_SHORT = 0.2
+# What rough predictions may add to a chi-square, of what is gained.
+ROUGH = 0.02
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 
@@ -66,17 +68,19 @@ class Diagnostician:
     def screened(self, candidates: Sequence[Candidate] | None = None) -> Screen:
         """Score tests of all candidates, or of some, against the base fit."""
         chosen = self.candidates if candidates is None else candidates
-        self.columns = candidate_columns(self.space, chosen, self.space.base.values)
+        with self.space.predictions.roughly():
+            self.columns = candidate_columns(self.space, chosen, self.space.base.values)
         self.screening = screen(self.space, chosen, self.columns, self.space.base, self.settings.seed, self.settings.draws)
         self.scores = {s.name: s for s in self.screening.scores}
         return self.screening
 
     def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None) -> Refit:
-        """Joint refit of the named effects, remembered."""
+        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``."""
         key = frozenset(names)
         if key not in self.fitted:
             found = list(scores or [self.scores[n] for n in names if n in self.scores])
-            self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
+            with self.space.predictions.roughly():
+                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
         return self.fitted[key]
 
     def singles(self) -> list[Refit]:
@@ -89,9 +93,9 @@ class Diagnostician:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted((self.fit([s.name]) for s in chosen), key=penalised)
-        least = fits[0].fit.chi2
-        fits = [self.renewed(f) if f.fit.chi2 - least < 4 * self.settings.margin else f for f in fits]
+        fits = sorted(self.space.threads.map(lambda s: self.fit([s.name]), chosen), key=penalised)
+        near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
+        fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
         return sorted(fits, key=penalised)
 
     def renewed(self, result: Refit) -> Refit:
@@ -113,7 +117,7 @@ class Diagnostician:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = [self.fit([*names, s.name], own, [s]) for s in promising]
+            trials = self.space.threads.map(lambda s: self.fit([*names, s.name], own, [s]), promising)
             # exchange of an earlier member: the first choice was made without the second
             challenger = min(trials, key=penalised)
             newest = challenger.candidates[-1].name

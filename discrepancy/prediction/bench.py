@@ -6,13 +6,14 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 import math
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
+from fmu_src.threads import Once
 from fmu_src.variables import Table
 from reducers.reducer import Reducer
 from rv_plant import plant
@@ -73,8 +74,7 @@ class Bench:
             if "tolerance" in table.by_name:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
-        self.runs: dict[Hashable, object] = {}
-        self.most_runs = KEPT_RUNS
+        self.runs = Once(KEPT_RUNS)
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
         topology = reducer.topology
@@ -84,11 +84,7 @@ class Bench:
 
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
-        if key not in self.runs:
-            if len(self.runs) > self.most_runs:
-                self.runs.clear()
-            self.runs[key] = make()
-        return cast(Run, self.runs[key])
+        return self.runs.get(key, make)
 
     def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
         """The values that a run depends on, without those that stand at their start."""

@@ -1,5 +1,6 @@
 """How finely a run is computed: as finely as the noise of what was measured lets one tell."""
 
+import copy
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -8,59 +9,78 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
-SEEN = 3.0
+SEEN = 2.0
+# What it may err, of what is changed, where only a direction is looked for or a fit goes on.
+ROUGHLY = 0.1
 # Finer than this there are no nodes: every sample is computed.
 EVERY_SAMPLE = 99
-# A decision is made for values this many times as far from the base model's, and holds for all that are less.
-AHEAD = 2.0
+# A decision holds for all values that are less far from the base model's, and for those that are this much further.
+FURTHER = 1.25
+# A level's error over that of the next, where it falls fast.
+A_LEVEL = 2.0
 
+# Quantity and condition.
 Group = tuple[str, str]
-# Error of interpolation, root mean square, at a level with some values of the model; None where nodes are not worthwhile.
-ErrorAt = Callable[[int, Mapping[str, float]], float | None]
+# Error of interpolation and size of what is interpolated, root mean square, at a level with some values of the model;
+# None where nodes are not worthwhile.
+ErrsAt = Callable[[int, Mapping[str, float]], tuple[float, float] | None]
 
 
 class Fineness:
     """Levels of nodes by signal, condition and what is added to the base model; each found once."""
 
+    # Whether predictions may err as much as is allowed roughly.
+    rough = False
+
     def __init__(self, records: Sequence[Record]):
-        self.allowed: dict[Group, float] = {}
+        noise: dict[Group, float] = {}
         counts: dict[Group, int] = {}
         for record in records:
             group = (record.quantity, record.condition)
             counts[group] = counts.get(group, 0) + len(record.values)
-            self.allowed[group] = min(self.allowed.get(group, np.inf), fast_noise(np.asarray(record.values, float)))
-        for group, count in counts.items():
-            self.allowed[group] *= SEEN / np.sqrt(count)
+            noise[group] = min(noise.get(group, np.inf), fast_noise(np.asarray(record.values, float)))
+        self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
         self.base: dict[Group, int] = {}
-        # By name: distances from the base model's value, and the level that they need, growing.
+        # By name and sense: distances from the base model's value, and the level that they need, growing.
         self.added: dict[tuple[Group, str, bool], list[tuple[float, int]]] = {}
 
-    def level(self, record: Record, away: Mapping[str, tuple[float, float]], error: ErrorAt) -> int:
+    def roughly(self) -> "Fineness":
+        """The same for rough predictions."""
+        other = copy.copy(self)
+        other.rough, other.added = True, {}
+        return other
+
+    def level(self, record: Record, away: Mapping[str, tuple[float, float]], errs: ErrsAt) -> int:
         """The level for values that are ``away`` from the base model: by name its value there and how far they are off."""
         group = (record.quantity, record.condition)
-        if group not in self.base:
-            self.base[group] = self.found(group, 0, {}, error)
-        level = self.base[group]
+        if group not in self.allowed:
+            return EVERY_SAMPLE
+        if not away:
+            if group not in self.base:
+                self.base[group] = self.found(self.allowed[group], 0.0, {}, errs)
+            return self.base[group]
+        level = 0
         for name, (start, off) in away.items():
             known = self.added.setdefault((group, name, off > 0.0), [])
-            large = [found for distance, found in known if distance >= abs(off)]
+            large = [found for distance, found in known if FURTHER * distance >= abs(off)]
             if not large:
-                large = [self.found(group, self.base[group], {name: start + AHEAD * off}, error)]
-                known.append((AHEAD * abs(off), large[0]))
+                large = [self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, {name: start + off}, errs)]
+                known.append((abs(off), large[0]))
             level = max(level, large[0])
         return level
 
-    def found(self, group: Group, first: int, values: Mapping[str, float], error: ErrorAt) -> int:
-        """The first level at which what interpolation errs stays below what noise allows."""
-        level = first
+    def found(self, allowed: float, share: float, values: Mapping[str, float], errs: ErrsAt) -> int:
+        """The first level at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change."""
+        level = 0
         while level < EVERY_SAMPLE:
-            at = error(level, values)
+            at = errs(level, values)
             if at is None:
                 return EVERY_SAMPLE
-            if at <= self.allowed[group]:
+            error, size = at
+            least = max(allowed, share * size)
+            if error <= least:
                 return level
-            # Errors fall with some power of the distance: far off, two levels at once.
-            level += 2 if at > 4.0 * self.allowed[group] else 1
+            level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
         return EVERY_SAMPLE
 
 

@@ -1,14 +1,14 @@
 """One function per measured quantity: what the bench would have shown on a record's axes, in SI units."""
 
 import math
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
 from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
-from discrepancy.prediction.support import AngleNodes, TorqueNodes, angle_nodes, torque_nodes
+from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
+from discrepancy.prediction.curves import OverAngle, OverTorque, error_change, loop_change, signal
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
@@ -16,7 +16,6 @@ from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.life import peak_of_circle
 
-Values = Mapping[str, float]
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 2048
@@ -25,106 +24,8 @@ TORQUE_STEPS = 12
 ELASTIC_STEPS = 20
 WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
-# Share of the rated torque below which a loop has no nodes: the output floats.
-NEAR_NOTHING = 0.009
 # Of the deepest place: what is worn less is not compared in proportion.
 LEAST_WORN = 0.1
-DEFAULTS = {"temperature": 293.15, "hours": 0.0}
-
-
-def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
-    """Speed, load, temperature and hours, each one number or one a row."""
-    defaults = {**DEFAULTS, "speed": bench.rated_speed, "load": bench.rated_load}
-    return [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
-
-
-def row_conditions(bench: Bench, record: Record) -> list[Condition]:
-    """The condition of every row (rows may differ in speed, load, temperature, hours)."""
-    columns = [np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)]
-    direction = int(record.factors.get("direction", 1))
-    return [
-        Condition(float(speed), float(load), float(temperature), float(hours), direction)
-        for speed, load, temperature, hours in zip(*columns)
-    ]
-
-
-def condition_of(bench: Bench, record: Record) -> Condition:
-    """The one condition of a record whose rows share it."""
-    speed, load, temperature, hours = (float(np.ravel(c)[0]) for c in settings_of(bench, record))
-    return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)))
-
-
-def identity(record: Record) -> tuple[Hashable, ...]:
-    """What a prediction depends on in a record: equal for runs that repeat each other."""
-    axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
-    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
-
-
-def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
-    """Output angles [rad] of the samples."""
-    condition = condition_of(bench, record)
-    if "angle" in record.axes:
-        return np.asarray(record.axes["angle"], np.float64) + zero
-    time = np.asarray(record.axes["time"], np.float64)
-    return condition.direction * condition.speed / abs(bench.ratio) * (time - float(time[0])) + zero
-
-
-def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
-    """The record's angles in the order in which they are passed, and the place of each sample among them."""
-    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
-    order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    return angles[order], place
-
-
-def along(bench: Bench, record: Record, values: Values, name: str, cage: float = 0.0) -> Floats:
-    """A column of the running bench at the record's angles (or times)."""
-    condition, column = condition_of(bench, record), COLUMNS.index(name)
-    nodes = nodes_over_angle(bench, record, values, name)
-    if nodes is not None:
-        angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
-        return nodes.samples(bench.running(condition, values, nodes.angles, cage)[:, column], angles)
-    angles, place = as_turned(bench, record, values)
-    return bench.running(condition, values, angles, cage)[:, column][place]
-
-
-def nodes_over_angle(bench: Bench, record: Record, values: Values, name: str) -> AngleNodes | None:
-    """Where a run is computed for the record's samples; None: at each of them."""
-    if bench.fineness is None:
-        return None
-    condition, column = condition_of(bench, record), COLUMNS.index(name)
-    angles = angles_of(bench, record, 0.0)
-
-    def nodes(level: int) -> AngleNodes | None:
-        return angle_nodes(angles, condition.direction, level)
-
-    def error(level: int, more: Values) -> float | None:
-        at = nodes(level)
-        return None if at is None else at.error(bench.running(condition, more, at.angles)[:, column])
-
-    return nodes(bench.fineness.level(record, bench.away(values), error))
-
-
-def nodes_over_torque(bench: Bench, record: Record, values: Values) -> TorqueNodes | None:
-    """Where a loop of torque is computed for the record's samples; None: at each of them."""
-    if bench.fineness is None:
-        return None
-    torques, condition = np.asarray(record.axes["torque"], np.float64), held_condition(bench, record)
-
-    def nodes(level: int) -> TorqueNodes | None:
-        return torque_nodes(torques, NEAR_NOTHING * bench.rated_load, level)
-
-    def error(level: int, more: Values) -> float | None:
-        at = nodes(level)
-        return None if at is None else at.error(entered(bench, condition, more, at.torques))
-
-    return nodes(bench.fineness.level(record, bench.away(values), error))
-
-
-def angle_zero(record: Record) -> str:
-    """Nuisance: the output angle of the model at which the record's angle is 0."""
-    return f"angle_zero[{record.mounting}]"
 
 
 def centred(values: Floats) -> Floats:
@@ -132,69 +33,28 @@ def centred(values: Floats) -> Floats:
 
 
 def transmission_error(bench: Bench, record: Record, values: Values) -> Floats:
-    error = along(bench, record, values, "transmission_error")
-    return centred(error)
+    return centred(signal(OverAngle(bench, record, "transmission_error"), values))
 
 
 def transmission_error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
-    """What ``values`` change next to ``base``, to first order; None where that is not cheaper."""
-    condition = condition_of(bench, record)
-    if condition.hours > 0.0:
-        return None
-    nodes = nodes_over_angle(bench, record, {**base, **values}, "transmission_error")
-    if nodes is None:
-        angles, place = as_turned(bench, record, values)
-        before, place_before = as_turned(bench, record, base)
-        high = bench.error_beside(condition, values, angles, base, before)[place]
-        return centred(high - bench.error_beside(condition, base, before, base, before)[place_before])
-    high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
-    ahead, behind = (angles_of(bench, record, v.get(angle_zero(record), 0.0)) for v in (values, base))
-    change = nodes.samples(high - low, ahead)
-    if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
-        change += nodes.samples(low, ahead) - nodes.samples(low, behind)
-    return centred(change)
+    change = error_change(bench, record, values, base)
+    return None if change is None else centred(change)
 
 
 def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
     """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
-    return along(bench, record, values, "transmission_error", share * 2.0 * math.pi / bench.reducer.topology.rollers)
+    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
+    return signal(OverAngle(bench, record, "transmission_error", share * pitch), values)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
     if record.tags.get("locked") == "output":
         return locked_output(bench, record, values)
-    torques = np.asarray(record.axes["torque"], np.float64)
-    condition = held_condition(bench, record)
-    nodes = nodes_over_torque(bench, record, values)
-    if nodes is not None:
-        return nodes.samples(entered(bench, condition, values, nodes.torques), torques)
-    return entered(bench, condition, values, torques)
+    return signal(OverTorque(bench, record), values)
 
 
 def hysteresis_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
-    """What ``values`` change in a loop next to ``base``, to first order; None where that is not cheaper or the loop remembers."""
-    if record.tags.get("locked") == "output" or bench.remembers(values) or bench.remembers(base):
-        return None
-    torques, condition = np.asarray(record.axes["torque"], np.float64), held_condition(bench, record)
-    if condition.hours > 0.0:
-        return None
-    nodes = nodes_over_torque(bench, record, {**base, **values})
-    path, lead = with_lead(bench, torques if nodes is None else nodes.torques)
-    high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
-    return high - low if nodes is None else nodes.samples(high - low, torques)
-
-
-def entered(bench: Bench, condition: Condition, values: Values, torques: Floats) -> Floats:
-    """Turning [rad] of the held output along ``torques`` [N m]."""
-    path, lead = with_lead(bench, torques)
-    return bench.held(condition, values, path)[lead:]
-
-
-def with_lead(bench: Bench, torques: Floats) -> tuple[Floats, int]:
-    """The loop is entered from little torque (with none the output floats and has no place): its way, and the length of its entry."""
-    first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
-    lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
-    return np.concatenate([lead, torques]), len(lead)
+    return None if record.tags.get("locked") == "output" else loop_change(bench, record, values, base)
 
 
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
@@ -213,15 +73,6 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     for _ in range(2):
         locked_output_loop(turning, table, applied, friction, share, presliding, sliders, found)
     return found
-
-
-def held_condition(bench: Bench, record: Record) -> Condition:
-    return at_rest(bench, condition_of(bench, record))
-
-
-def at_rest(bench: Bench, c: Condition) -> Condition:
-    """The held test of a unit that ran at rated speed and load before."""
-    return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
 
 
 def loop(bench: Bench, condition: Condition, values: Values) -> tuple[Floats, Floats]:
@@ -261,7 +112,7 @@ def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
 
 def input_torque(bench: Bench, record: Record, values: Values) -> Floats:
     if "angle" in record.axes or "time" in record.axes:
-        return np.abs(along(bench, record, values, "drive_torque"))
+        return np.abs(signal(OverAngle(bench, record, "drive_torque"), values))
     return np.array([abs(bench.averages(c, values)["drive_torque"]) for c in row_conditions(bench, record)])
 
 

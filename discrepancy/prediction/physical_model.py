@@ -14,13 +14,14 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import CHANGES, OBSERVED, Values, angle_zero, error_with_cages, identity
+from discrepancy.prediction.conditions import Values, angle_zero, identity
+from discrepancy.prediction.observe import CHANGES, OBSERVED, error_with_cages
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.threads import Threads
 
 # Free zeros: the mean of the prediction is that of the measurement.
 ZEROED = ("transmission_error", "hysteresis")
@@ -47,16 +48,17 @@ class PhysicalModel:
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
                  jobs: int = 1, fmus: Path | None = None):
-        # FMUs cannot be shared between processes.
-        self.file, self.campaign, self.jobs = model, campaign, 1 if fmus else jobs
-        self.crew: Crew | None = None
-        self.complete = False
+        # An FMU is stepped by one.
+        self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
         self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
         self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
         present = model.values()
         settings = {n: v for n, v in present.items() if "[" not in n}
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.bench.fineness = Fineness(self.records)
+        # The same runs, as coarse as a search allows.
+        self.rough_bench = copy.copy(self.bench)
+        self.rough_bench.fineness = self.bench.fineness.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
@@ -80,7 +82,6 @@ class PhysicalModel:
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
         )
-        self.complete = True
 
     def angle_nuisances(self) -> list[Parameter]:
         width = 2.0 * np.pi / PHASE_ORDER
@@ -151,28 +152,30 @@ class PhysicalModel:
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
-        return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None))
+        return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None, False))
 
     def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
-        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base)))
+        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base), True))
+
+    def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""
+        return self.shared(which, (self.standing() | dict(values), None, True))
 
     def standing(self) -> dict[str, float]:
         """Nuisances where they start."""
         return {**self.zeros, **{p.name: p.off for p in self.declared}}
 
-    def shared(self, which: Sequence[int], arguments: tuple[Mapping[str, float], Mapping[str, float] | None]) -> list[Floats]:
-        """Predictions on all processes, if there are several and the model is complete."""
-        if self.jobs > 1 and self.crew is None and self.complete:
-            self.crew = Crew(self.records, Predictor(self), self.jobs)
-        if self.crew is not None:
-            return self.crew(which, arguments)
-        return [self.one(self.records[i], *arguments) for i in which]
+    def shared(self, which: Sequence[int], arguments: tuple[Mapping[str, float], Mapping[str, float] | None, bool]) -> list[Floats]:
+        """Predictions on all threads."""
+        return self.threads.map(lambda i: self.one(self.records[i], *arguments), which)
 
-    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None) -> Floats:
+    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None,
+            rough: bool = False) -> Floats:
+        self.threads.check()
         own = self.for_record(record, values)
         try:
-            predicted = self.observed(record, own, None if beside is None else self.for_record(record, beside))
+            predicted = self.observed(record, own, None if beside is None else self.for_record(record, beside), rough)
         except RunFault:
             if not self.bench.relevant(values, True):
                 raise
@@ -195,18 +198,19 @@ class PhysicalModel:
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())
         return predicted
 
-    def observed(self, record: Record, own: Values, beside: Values | None = None) -> Floats:
+    def observed(self, record: Record, own: Values, beside: Values | None, rough: bool) -> Floats:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
-        key = (self.identities.get(id(record)) or identity(record), tuple(own.items()), None if beside is None else tuple(beside.items()))
-        if key not in self.shown:
+        key = (self.identities.get(id(record)) or identity(record), rough, tuple(own.items()), None if beside is None else tuple(beside.items()))
+        found = self.shown.get(key)
+        if found is None:
             if len(self.shown) > MOST_SHOWN:
                 self.shown.clear()
-            change = None if beside is None or record.quantity not in CHANGES else CHANGES[record.quantity](self.bench, record, own, beside)
-            self.shown[key] = (
-                np.asarray(OBSERVED[record.quantity](self.bench, record, own), float) if beside is None or change is None else
-                self.observed(record, beside) + change
-            )  # fmt: skip
-        return self.shown[key]
+            bench = self.rough_bench if rough else self.bench
+            change = None if beside is None or record.quantity not in CHANGES else CHANGES[record.quantity](bench, record, own, beside)
+            found = np.asarray(OBSERVED[record.quantity](bench, record, own), float) if beside is None or change is None else \
+                self.observed(record, beside, None, rough) + change
+            self.shown[key] = found
+        return found
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """Values with those of this record's mounting, condition or run under the plain name."""
@@ -216,21 +220,6 @@ class PhysicalModel:
             if place is not None and f"{name}[{place}]" in values:
                 own[name] = values[f"{name}[{place}]"]
         return own
-
-
-class Predictor:
-    """``model.one`` by the record's number, without a hold on the model's crew; goes to other processes."""
-
-    def __init__(self, model: PhysicalModel):
-        self.model = copy.copy(model)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__ |= state
-        # They go by the objects, which are others here.
-        self.model.identities = {id(record): identity(record) for record in self.model.records}
-
-    def __call__(self, i: int, values: Mapping[str, float], beside: Mapping[str, float] | None) -> Floats:
-        return self.model.one(self.model.records[i], values, beside)
 
 
 def defined(record: Record, campaign: Campaign) -> Record:

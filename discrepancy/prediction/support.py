@@ -12,10 +12,14 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from fmu_src.arrays import Floats
 
-# Nodes of one turn of the output by level.  Prime, so that no order of the reducer looks constant on every second node.
-PER_TURN = (727, 1021, 1447, 2039, 2887, 4099, 5779, 8191, 11587, 16381)
+# Nodes of one turn of the output by level.
+PER_TURN = (509, 727, 1021, 1447, 2039, 2887, 4099, 5779, 8191, 11587, 16381)
 # Nodes of a branch on either side of no torque.
-PER_SIDE = (12, 16, 24, 32, 48, 64, 96, 128)
+PER_SIDE = (8, 12, 16, 24, 32, 48, 64, 96, 128)
+# Nodes stand off equal distances by up to half this share of them: else a high order looks like a low one on all nodes
+# alike, and nothing shows the error.
+SCATTERED = 0.4
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 # How far beyond a record's angles nodes go [rad]: where its angle 0 lies is estimated within a pitch of the pins.
 BEYOND = 2.0 * np.pi / 64
 # Runs of one condition that begin a little apart share their nodes: the ends are rounded to this [rad].
@@ -42,7 +46,9 @@ class AngleNodes:
 
     def error(self, values: Floats) -> float:
         """Error of interpolated ``values``, root mean square, from every second node by the others."""
-        between = CubicSpline(np.arange(0, len(values), 2), values[::2])(np.arange(1, len(values), 2))
+        rising = slice(None) if self.angles[-1] > self.angles[0] else slice(None, None, -1)
+        angles, values = self.angles[rising], values[rising]
+        between = CubicSpline(angles[::2], values[::2])(angles[1::2])
         inside = slice(2, -2)
         return float(np.sqrt(np.mean((between - values[1::2])[inside] ** 2))) / HALVING
 
@@ -54,7 +60,8 @@ def angle_nodes(angles: Floats, direction: int, level: int) -> AngleNodes | None
     distance = 2.0 * np.pi / PER_TURN[level]
     low = ROUNDED * np.floor((float(angles.min()) - BEYOND) / ROUNDED)
     high = ROUNDED * np.ceil((float(angles.max()) + BEYOND) / ROUNDED)
-    nodes = distance * np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
+    count = np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
+    nodes = distance * (count + SCATTERED * ((count * GOLDEN) % 1.0 - 0.5))
     if len(nodes) > WORTHWHILE * len(angles):
         return None
     return AngleNodes(nodes[::direction])

@@ -1,10 +1,11 @@
 """A model's predictions, each computed once."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 
-from discrepancy.problem import FirstOrder, Model
+from discrepancy.problem import Cheaper, Model
 from fmu_src.arrays import Floats
 
 Key = tuple[tuple[str, float], ...]
@@ -20,6 +21,9 @@ class Predictions:
             self.off.update({p.name: p.off for p in c.amplitudes})
         self.store: dict[Key, dict[int, Floats]] = {}
         self.beside_store: dict[tuple[Key, Key], dict[int, Floats]] = {}
+        self.rough_store: dict[Key, dict[int, Floats]] = {}
+        # Whether predictions may be rough for now: while something is searched for.
+        self.rough = False
         self.calls = 0
 
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -35,18 +39,30 @@ class Predictions:
         return active
 
     def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
-        active = self.active(values)
+        model, active = self.model, self.active(values)
+        if self.rough and active and isinstance(model, Cheaper):
+            known = self.rough_store.setdefault(tuple(sorted(active.items())), {})
+            return self._kept(known, which, lambda missing: model.predict_roughly(active, missing))
         known = self.store.setdefault(tuple(sorted(active.items())), {})
-        return self._kept(known, which, lambda missing: self.model.predict(active, missing))
+        return self._kept(known, which, lambda missing: model.predict(active, missing))
 
     def beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
-        """Predictions for values next to ``base``, to first order if the model has them (``FirstOrder``)."""
+        """Predictions for values next to ``base``, to first order if the model has them (``Cheaper``)."""
         model = self.model
-        if not isinstance(model, FirstOrder):
+        if not isinstance(model, Cheaper):
             return self(values, which)
         values, base = self.active(values), self.active(base)
         known = self.beside_store.setdefault((tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
         return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing))
+
+    @contextmanager
+    def roughly(self) -> Iterator[None]:
+        """Predictions in this block may be rough."""
+        before, self.rough = self.rough, True
+        try:
+            yield
+        finally:
+            self.rough = before
 
     def _kept(self, known: dict[int, Floats], which: Sequence[int], predict: Callable[[list[int]], list[Floats]]) -> list[Floats]:
         missing = [i for i in which if i not in known]

@@ -7,8 +7,9 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.predictions import Predictions
 from discrepancy.inference.noise.noise import Noise, estimate
-from discrepancy.problem import Candidate, Model, Parameter
+from discrepancy.problem import Candidate, Model, OnThreads, Parameter
 from fmu_src.arrays import Floats
+from fmu_src.threads import Threads
 
 STEP = 0.01
 """Step of a finite difference in units of ``Parameter.scale``."""
@@ -35,7 +36,7 @@ class Workspace:
     base: Fit
 
     def __init__(self, model: Model):
-        self.model = model
+        self.model, self.threads = model, model.threads if isinstance(model, OnThreads) else Threads()
         self.records = list(model.records)
         self.predictions = Predictions(model)
         self.training = [i for i, r in enumerate(self.records) if not r.held_out]
@@ -84,12 +85,12 @@ class Workspace:
 
     def columns(self, parameters: Sequence[Parameter], values: Mapping[str, float]) -> Floats:
         """Sensitivities (N, p) of the training records at ``values``, whitened."""
-        return self._stack([self.column(values, p, self.training) for p in parameters])
+        return self._stack(self.threads.map(lambda p: self.column(values, p, self.training), parameters))
 
     def _everywhere(self, nuisances: Sequence[Parameter], values: Mapping[str, float]) -> list[dict[int, Floats]]:
         """Sensitivities of all records, those held out too, as far as they are not zero."""
         every = list(range(len(self.records)))
-        return [{i: c for i, c in self.column(values, p, every).items() if np.any(c)} for p in nuisances]
+        return self.threads.map(lambda p: {i: c for i, c in self.column(values, p, every).items() if np.any(c)}, nuisances)
 
     def _stack(self, raw: Sequence[Mapping[int, Floats]]) -> Floats:
         stacked = np.zeros((self.size, len(raw)))

@@ -81,7 +81,8 @@ class _Frozen:
         return float(r @ r - g @ self.inverse @ g), r
 
     def columns(self, values: Mapping[str, float]) -> Floats:
-        return np.column_stack([self.space.whiten(self.space.column({**self.theta, **values}, p, self.shows[p.name])) for p in self.own])
+        space, at = self.space, {**self.theta, **values}
+        return np.column_stack(space.threads.map(lambda p: space.whiten(space.column(at, p, self.shows[p.name])), self.own))
 
     def nuisances_with(self, residual: Floats) -> dict[str, float]:
         """The nuisances that go with what the effects leave."""

@@ -69,39 +69,42 @@ class Screen:
 
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
+    made = space.threads.map(lambda candidate: _blocks(space, candidate, values), candidates)
     stacks, blocks, width = [], [], 0
-    for k, candidate in enumerate(candidates):
-        which = [i for i in space.touched(candidate) if i in space.rows]
-        if not which:
-            continue
-        linear: bool | None = None
-        seen: list[Floats] = []
-        for shape in candidate.shape_grid or ({},):
-            at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
-            # The small one is cheap, and enough where the large one showed the same at the first shape.
-            sizes = [SMALL] if linear else [TYPICAL, SMALL]
-            two_sided = any(p.sign == 0 for p in candidate.amplitudes)
-            made = {}
-            for size in sizes:
-                made[size] = _block(space, candidate, at, which, size)
-            if linear is None:
-                a, b = made[TYPICAL], made[SMALL]
-                linear = _same(a, b)
-                if linear:
-                    del made[SMALL]
-            if not linear and two_sided:
-                made[-TYPICAL] = _block(space, candidate, at, which, -TYPICAL)
-            for size, block in made.items():
-                if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for other in seen):
-                    continue
-                seen.append(block)
-                stacks.append(block)
-                # a difference over a large amplitude of a curved effect is only valid on its own side
-                signs = tuple((p.sign or (int(np.sign(size)) if not linear and abs(size) == TYPICAL and len(candidate.amplitudes) == 1 else 0))
-                              for p in candidate.amplitudes)
-                blocks.append(Block(k, dict(shape), slice(width, width + block.shape[1]), signs))
-                width += block.shape[1]
+    for k, own in enumerate(made):
+        for shape, block, signs in own:
+            stacks.append(block)
+            blocks.append(Block(k, shape, slice(width, width + block.shape[1]), signs))
+            width += block.shape[1]
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
+
+
+def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) -> list[tuple[dict[str, float], Floats, tuple[int, ...]]]:
+    """(shape, columns, signs of the amplitudes) of one candidate, without those that show nothing or what another shows."""
+    which = [i for i in space.touched(candidate) if i in space.rows]
+    found: list[tuple[dict[str, float], Floats, tuple[int, ...]]] = []
+    if not which:
+        return found
+    linear: bool | None = None
+    two_sided = any(p.sign == 0 for p in candidate.amplitudes)
+    for shape in candidate.shape_grid or ({},):
+        at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
+        # The small one is cheap, and enough where the large one showed the same at the first shape.
+        made = {size: _block(space, candidate, at, which, size) for size in ([SMALL] if linear else [TYPICAL, SMALL])}
+        if linear is None:
+            linear = _same(made[TYPICAL], made[SMALL])
+            if linear:
+                del made[TYPICAL]
+        if not linear and two_sided:
+            made[-TYPICAL] = _block(space, candidate, at, which, -TYPICAL)
+        for size, block in made.items():
+            if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for _, other, _ in found):
+                continue
+            # a difference over a large amplitude of a curved effect is only valid on its own side
+            signs = tuple((p.sign or (int(np.sign(size)) if not linear and abs(size) == TYPICAL and len(candidate.amplitudes) == 1 else 0))
+                          for p in candidate.amplitudes)
+            found.append((dict(shape), block, signs))
+    return found
 
 
 def _reach(candidate: Candidate, block: Floats) -> float:

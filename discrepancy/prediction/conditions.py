@@ -1,0 +1,73 @@
+"""From a record to what the bench is set to, and to the angles at which it is sampled."""
+
+from collections.abc import Hashable, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+
+Values = Mapping[str, float]
+DEFAULTS = {"temperature": 293.15, "hours": 0.0}
+
+
+def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
+    """Speed, load, temperature and hours, each one number or one a row."""
+    defaults = {**DEFAULTS, "speed": bench.rated_speed, "load": bench.rated_load}
+    return [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
+
+
+def row_conditions(bench: Bench, record: Record) -> list[Condition]:
+    """The condition of every row (rows may differ in speed, load, temperature, hours)."""
+    columns = [np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)]
+    direction = int(record.factors.get("direction", 1))
+    return [
+        Condition(float(speed), float(load), float(temperature), float(hours), direction)
+        for speed, load, temperature, hours in zip(*columns)
+    ]
+
+
+def condition_of(bench: Bench, record: Record) -> Condition:
+    """The one condition of a record whose rows share it."""
+    speed, load, temperature, hours = (float(np.ravel(c)[0]) for c in settings_of(bench, record))
+    return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)))
+
+
+def identity(record: Record) -> tuple[Hashable, ...]:
+    """What a prediction depends on in a record: equal for runs that repeat each other."""
+    axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
+    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
+
+
+def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
+    """Output angles [rad] of the samples."""
+    condition = condition_of(bench, record)
+    if "angle" in record.axes:
+        return np.asarray(record.axes["angle"], np.float64) + zero
+    time = np.asarray(record.axes["time"], np.float64)
+    return condition.direction * condition.speed / abs(bench.ratio) * (time - float(time[0])) + zero
+
+
+def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
+    """The record's angles in the order in which they are passed, and the place of each sample among them."""
+    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+    order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return angles[order], place
+
+
+def angle_zero(record: Record) -> str:
+    """Nuisance: the output angle of the model at which the record's angle is 0."""
+    return f"angle_zero[{record.mounting}]"
+
+
+def held_condition(bench: Bench, record: Record) -> Condition:
+    return at_rest(bench, condition_of(bench, record))
+
+
+def at_rest(bench: Bench, c: Condition) -> Condition:
+    """The held test of a unit that ran at rated speed and load before."""
+    return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)

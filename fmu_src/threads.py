@@ -1,0 +1,81 @@
+"""Work shared between threads of this process: compiled kernels run beside each other, Python's own code in turn.
+
+Inside shared work nothing is shared further, so that whoever shares need not know who else does.
+"""
+
+import threading
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+
+class Stopped(BaseException):
+    """Raised in a thread whose work nobody waits for any more."""
+
+
+class Threads:
+    """``jobs`` threads; with one, everything happens where it is asked for."""
+
+    def __init__(self, jobs: int = 1):
+        self.jobs = jobs
+        self.stopped = False
+        self.here = threading.local()
+
+    def map(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+        """``function`` of every item, in their order.  The first exception is raised when all threads have come to rest."""
+        work = list(items)
+        if self.jobs < 2 or len(work) < 2 or getattr(self.here, "inside", False):
+            return [function(item) for item in work]
+        with ThreadPoolExecutor(self.jobs, "rvwear") as pool:
+            futures: list[Future[Result]] = [pool.submit(self.inside, function, item) for item in work]
+            try:
+                return [future.result() for future in futures]
+            except BaseException:
+                # An error, or Ctrl-C: what has not begun does not begin, the rest ends at its next prediction.
+                self.stopped = True
+                pool.shutdown(wait=True, cancel_futures=True)
+                raise
+            finally:
+                self.stopped = False
+
+    def inside(self, function: Callable[[Item], Result], item: Item) -> Result:
+        self.here.inside = True
+        return function(item)
+
+    def check(self) -> None:
+        """To be called now and then in long work: ends it if nobody waits for it."""
+        if self.stopped and getattr(self.here, "inside", False):
+            raise Stopped
+
+
+class Once:
+    """Results by key, each made once, whoever asks first; the others wait for it."""
+
+    def __init__(self, most: int):
+        self.most = most
+        self.found: dict[object, Future[object]] = {}
+        self.lock = threading.Lock()
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def get(self, key: object, make: Callable[[], Result]) -> Result:
+        with self.lock:
+            future = self.found.get(key)
+            own = future is None
+            if future is None:
+                if len(self.found) > self.most:
+                    self.found.clear()
+                future = self.found[key] = Future()
+        if own:
+            try:
+                future.set_result(make())
+            except BaseException as problem:
+                with self.lock:
+                    self.found.pop(key, None)
+                future.set_exception(problem)
+                raise
+        return future.result()  # type: ignore[return-value]
