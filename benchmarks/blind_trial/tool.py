@@ -3,7 +3,6 @@
 import json
 import time
 import warnings
-from collections.abc import Hashable
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
+from fmu_src.threads import Once
 
 MODEL = "RV20E-121"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.

@@ -95,10 +95,10 @@ class Bench:
             if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
         ))  # fmt: skip
 
-    def away(self, values: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-        """By name the plant's value in the base model, and how far off ``values`` are from it."""
+    def away(self, values: Mapping[str, float]) -> dict[str, float]:
+        """By name how far the plant's values are off the base model's."""
         start = self.templates[0]
-        return {name: (float(start[name].flat[0]), value - float(start[name].flat[0])) for name, value in self.relevant(values, False)}
+        return {name: value - float(start[name].flat[0]) for name, value in self.relevant(values, False)}
 
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs."""

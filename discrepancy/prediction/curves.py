@@ -134,7 +134,7 @@ def nodes_of(curve: Curve, values: Values) -> Nodes | None:
         at = curve.run(more, nodes) - (curve.run({}, nodes) if more else 0.0)
         return nodes.error(at), float(np.std(at))
 
-    return curve.nodes(fineness.level(curve.record, bench.away(values), errs))
+    return curve.nodes(fineness.level(curve.record, bench.away(values), values, errs))
 
 
 def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:

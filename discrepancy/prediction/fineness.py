@@ -41,8 +41,10 @@ class Fineness:
             noise[group] = min(noise.get(group, np.inf), fast_noise(np.asarray(record.values, float)))
         self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
         self.base: dict[Group, int] = {}
-        # By name and sense: distances from the base model's value, and the level that they need, growing.
-        self.added: dict[tuple[Group, str, bool], list[tuple[float, int]]] = {}
+        # Parameters that change nothing alone, only how an amplitude shows.
+        self.shapes: set[str] = set()
+        # By what is away from the base model, and to which side: how far off it was, and the level that it needs.
+        self.added: dict[tuple[Group, tuple[tuple[str, bool], ...]], list[tuple[Floats, int]]] = {}
 
     def roughly(self) -> "Fineness":
         """The same for rough predictions."""
@@ -50,28 +52,30 @@ class Fineness:
         other.rough, other.added = True, {}
         return other
 
-    def level(self, record: Record, away: Mapping[str, tuple[float, float]], errs: ErrsAt) -> int:
-        """The level for values that are ``away`` from the base model: by name its value there and how far they are off."""
+    def level(self, record: Record, away: Mapping[str, float], values: Mapping[str, float], errs: ErrsAt) -> int:
+        """The level for ``values``; ``away`` says by name how far the plant's are off the base model's."""
         group = (record.quantity, record.condition)
         if group not in self.allowed:
             return EVERY_SAMPLE
-        if not away:
+        amounts = {name: off for name, off in sorted(away.items()) if name not in self.shapes}
+        if not amounts:
             if group not in self.base:
                 self.base[group] = self.found(self.allowed[group], 0.0, {}, errs)
             return self.base[group]
-        level = 0
-        for name, (start, off) in away.items():
-            known = self.added.setdefault((group, name, off > 0.0), [])
-            large = [found for distance, found in known if FURTHER * distance >= abs(off)]
-            if not large:
-                large = [self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, {name: start + off}, errs)]
-                known.append((abs(off), large[0]))
-            level = max(level, large[0])
+        off = np.abs(np.array(list(amounts.values())))
+        known = self.added.setdefault((group, tuple((name, amount > 0.0) for name, amount in amounts.items())), [])
+        for distances, level in known:
+            # A share of the change is so at any distance.
+            if self.rough or np.all(off <= FURTHER * distances):
+                return level
+        first = max((level for _, level in known), default=0)
+        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, values, errs, first)
+        known.append((off, level))
         return level
 
-    def found(self, allowed: float, share: float, values: Mapping[str, float], errs: ErrsAt) -> int:
-        """The first level at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change."""
-        level = 0
+    def found(self, allowed: float, share: float, values: Mapping[str, float], errs: ErrsAt, first: int = 0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change."""
+        level = first
         while level < EVERY_SAMPLE:
             at = errs(level, values)
             if at is None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES
-from discrepancy.model_file import ModelFile
+from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.fineness import Fineness
@@ -56,6 +56,7 @@ class PhysicalModel:
         settings = {n: v for n, v in present.items() if "[" not in n}
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.bench.fineness = Fineness(self.records)
+        self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         # The same runs, as coarse as a search allows.
         self.rough_bench = copy.copy(self.bench)
         self.rough_bench.fineness = self.bench.fineness.roughly()
