@@ -23,7 +23,7 @@ settings.load_profile(os.environ.get("RVWEAR_PROPERTIES", "default"))
 # The workers take files in this order: the longest come early, so that no worker is left with one at the end.
 FIRST = (
     "test_blind_trial", "test_loop", "test_real_data", "test_wheel", "test_fmu", "test_fmu_bench", "test_inference_diagnose", "test_native_fmu",
-    "test_reproduce", "test_life", "test_strangers", "test_ensemble", "test_crew", "test_plain_python", "test_motion", "test_inference_trial",
+    "test_reproduce", "test_life", "test_strangers", "test_ensemble", "test_plain_python", "test_motion", "test_inference_trial",
     "test_compiler_properties", "test_robot_joint", "test_missing_parts", "test_pin_on_disc", "test_isolation", "test_inference_tools",
 )  # fmt: skip
 

@@ -33,6 +33,7 @@ from benchmarks.blind_trial.score import cases_of, misses, score  # noqa: E402
 from discrepancy.campaign.check import check_campaign  # noqa: E402
 from discrepancy.campaign.load import load_campaign  # noqa: E402
 from discrepancy.model_file import every_effect  # noqa: E402
+from fmu_src.threads import Once  # noqa: E402
 
 SEED = 7
 # Half of the time goes into these (laws with a rival, a fault that looks like several effects); nulls stand in for them.

@@ -5,11 +5,12 @@ import pytest
 from test_loop import CLEARANCE, campaign_of
 
 from discrepancy.model_file import ModelFile, load_model
-from discrepancy.prediction.bench import HOUR, Bench, Condition
+from discrepancy.prediction.bench import HOUR, KEPT_RUNS, Bench, Condition
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.threads import Once
 from orchestrator.fmu import Fmu
 from studies.coupled import COLUMNS
 
@@ -71,7 +72,7 @@ def test_values_that_the_plant_refuses_end_a_run_and_not_the_bench(benches):
     before = bench.averages(SHORT, {})
     with pytest.raises(RunFault, match="loops"):
         bench.averages(SHORT, {"eccentricity": 2e-3})
-    bench.runs.clear()
+    bench.runs = Once(KEPT_RUNS)
     assert bench.averages(SHORT, {}) == before
 
 

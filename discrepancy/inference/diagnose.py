@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,10 @@ class Diagnostician:
                 self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
         return self.fitted[key]
 
+    def beside(self, names: Sequence[str], own: dict[str, float], score: Score) -> Refit:
+        """Joint refit of the named effects, which stand at ``own``, and the scored one."""
+        return self.fit([*names, score.name], own, [score])
+
     def singles(self) -> list[Refit]:
         """Refits of the candidates that may win alone."""
         scores = [s for s in self.screening.scores if s.p_single < 0.05]
@@ -117,7 +122,7 @@ class Diagnostician:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = self.space.threads.map(lambda s: self.fit([*names, s.name], own, [s]), promising)
+            trials = self.space.threads.map(partial(self.beside, names, own), promising)
             # exchange of an earlier member: the first choice was made without the second
             challenger = min(trials, key=penalised)
             newest = challenger.candidates[-1].name

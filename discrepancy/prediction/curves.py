@@ -4,7 +4,7 @@ A prediction is the base model's, at fine nodes and once, and what the values ch
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -16,16 +16,19 @@ from fmu_src.arrays import Floats
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE
 
-Nodes = AngleNodes | TorqueNodes
+Nodes = TypeVar("Nodes", AngleNodes, TorqueNodes)
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
 
 
-class Curve(Protocol):
+class Curve(Protocol[Nodes]):
     """A signal of the bench over the axis of a record."""
 
-    bench: Bench
-    record: Record
+    @property
+    def bench(self) -> Bench: ...
+
+    @property
+    def record(self) -> Record: ...
 
     def nodes(self, level: int) -> Nodes | None:
         """Nodes for the record's samples; None where every sample is computed."""
@@ -109,7 +112,7 @@ def entered(bench: Bench, torques: Floats) -> tuple[Floats, int]:
     return np.concatenate([lead, torques]), len(lead)
 
 
-def signal(curve: Curve, values: Values) -> Floats:
+def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
     fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
     if fine is None or coarse is None:
@@ -121,7 +124,7 @@ def signal(curve: Curve, values: Values) -> Floats:
     return found
 
 
-def nodes_of(curve: Curve, values: Values) -> Nodes | None:
+def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
     """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given."""
     fineness, bench = curve.bench.fineness, curve.bench
     if fineness is None:
@@ -150,8 +153,7 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
         high = bench.error_beside(condition, values, angles, base, before)[place]
         return high - bench.error_beside(condition, base, before, base, before)[place_before]
     high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
-    ahead, behind = curve.places(values), curve.places(base)
-    change = nodes.samples(high - low, ahead)
+    change = nodes.samples(high - low, curve.places(values))
     if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, angle_zero(record): values[angle_zero(record)]}) - signal(curve, base)

@@ -95,4 +95,4 @@ def fast_noise(values: Floats) -> float:
     third = np.diff(values, 3)
     steps = np.diff(np.unique(values))
     rounding = float(steps.min()) / np.sqrt(12.0) if len(steps) else 0.0
-    return max(1.4826 * float(np.median(np.abs(third))) / np.sqrt(20.0), rounding)
+    return float(max(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0), rounding))

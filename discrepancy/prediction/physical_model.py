@@ -5,7 +5,6 @@ import difflib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -14,9 +13,9 @@ from discrepancy.effects import MODULES
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.conditions import Values, angle_zero, identity
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.conditions import Values, angle_zero, identity
 from discrepancy.prediction.observe import CHANGES, OBSERVED, error_with_cages
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats

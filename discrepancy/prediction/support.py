@@ -5,6 +5,7 @@ distances, along a torque's way on each branch between two reversals, and the sa
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -125,7 +126,7 @@ def torque_nodes(applied: Floats, least: float, level: int) -> TorqueNodes | Non
     way = [np.array([applied[0]])]
     branches = []
     count = 1
-    for begin, end in zip(turns[:-1], turns[1:]):
+    for begin, end in pairwise(turns):
         a, b = float(applied[begin]), float(applied[end])
         passed = grid[(grid > min(a, b)) & (grid < max(a, b))]
         new = np.append(passed if b > a else passed[::-1], b)

@@ -1,0 +1,130 @@
+"""Runs at nodes: samples follow from them as exactly as the noise can tell, in a small part of the time."""
+
+import numpy as np
+import pytest
+
+from discrepancy.model_file import load_model
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.curves import OverAngle, OverTorque, loop_change, signal
+from discrepancy.prediction.fineness import SEEN, Fineness, fast_noise
+from discrepancy.prediction.observe import hysteresis, transmission_error
+from discrepancy.prediction.support import AngleNodes, angle_nodes, reversals, torque_nodes
+from discrepancy.problem import Record
+
+TURN = 2.0 * np.pi
+SAMPLES, NOISE = 4000, 4e-6
+RATED = {"speed": 2000 * TURN / 60, "load": 167.0, "temperature": 293.15, "hours": 0.0, "direction": 1.0}
+HIDDEN = {"pin_ring_runout": 2e-6}
+
+
+def over_angle(direction: int = 1) -> Record:
+    angle = np.linspace(0.0, TURN, SAMPLES, endpoint=False)[::direction]
+    noise = np.random.default_rng(1).normal(0.0, NOISE, SAMPLES)
+    return Record("te", "transmission_error", "rad", "rated", 1, noise, {"angle": angle}, RATED | {"direction": direction})
+
+
+def way(samples: int, noise: float = 0.0) -> np.ndarray:
+    quarter = np.linspace(0.0, 1.0, samples // 4, endpoint=False)
+    torque = 167.0 * np.concatenate([quarter, 1.0 - quarter, -quarter, quarter - 1.0])
+    return torque + np.random.default_rng(2).normal(0.0, noise, len(torque))
+
+
+def over_torque(noise: float = 0.0) -> Record:
+    torque = way(1200, noise)[np.abs(way(1200)) > 3.0]
+    values = np.random.default_rng(3).normal(0.0, 1e-5, len(torque))
+    return Record("loop", "hysteresis", "rad", "rated", 1, values, {"torque": torque}, RATED, tags={"locked": "input"})
+
+
+@pytest.fixture(scope="module")
+def benches():
+    """Of a campaign that is computed at nodes, and at every sample."""
+    reducer = load_model("RV20E-121").reducer
+    at_nodes, directly = Bench(reducer, {}), Bench(reducer, {})
+    at_nodes.fineness = Fineness([over_angle(), over_torque()])
+    return at_nodes, directly
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_transmission_error_at_nodes_is_that_at_every_sample(benches, direction):
+    record = over_angle(direction)
+    at_nodes, directly = (transmission_error(bench, record, HIDDEN) for bench in benches)
+    assert np.std(directly) > 1e-6
+    chi2 = np.sum((at_nodes - directly) ** 2) / NOISE**2
+    # The base model and the change may each add as much; noise adds 4000.
+    assert chi2 < 2.0 * (2.0 * SEEN) ** 2
+
+
+def test_it_takes_far_fewer_equilibria(benches):
+    nodes = angle_nodes(over_angle().axes["angle"], 1, benches[0].fineness.base[("transmission_error", "rated")])
+    assert nodes is not None and len(nodes.angles) < 0.5 * SAMPLES
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_a_loop_at_nodes_is_that_at_every_sample(benches, noise):
+    """Noise of the torque sensor makes no reversals."""
+    record = over_torque(noise)
+    smooth = over_torque()
+    at_nodes = hysteresis(benches[0], record, {"needle_clearance_added": 1e-6})
+    directly = hysteresis(benches[1], smooth, {"needle_clearance_added": 1e-6})
+    stiffness = 167.0 / np.abs(directly).max()
+    assert np.sqrt(np.mean((at_nodes - directly) ** 2)) < 2e-7 + 2.0 * noise / stiffness
+    assert len(torque_nodes(record.axes["torque"], 1.5, 0).torques) < 80
+
+
+def test_a_loops_change_to_first_order_is_that_of_whole_runs(benches):
+    record, step = over_torque(), {"needle_clearance_added": 1e-9}
+    whole = signal(OverTorque(benches[1], record), step) - signal(OverTorque(benches[1], record), {})
+    for bench in benches:
+        first = loop_change(bench, record, step, {})
+        # Where the sign of the torque has just changed, contacts open and close within the step.
+        assert np.quantile(np.abs(first - whole), 0.99) < 0.02 * np.abs(whole).max()
+
+
+def test_reversals_of_a_noisy_torque_are_those_of_the_torque():
+    assert list(reversals(way(400))) == [0, 100, 300, 399]
+    found = reversals(way(400, 0.5))
+    assert len(found) == 4 and np.abs(found - [0, 100, 300, 399]).max() < 8
+
+
+def test_an_order_between_the_nodes_is_noticed():
+    """On equally spaced nodes an order of 1520 looks smooth at 727 of them."""
+    for level in range(3):
+        nodes = angle_nodes(np.linspace(0.0, TURN, 9000), 1, level)
+        assert nodes.error(1e-6 * np.sin(1520 * nodes.angles)) > 2e-7
+        assert nodes.error(1e-6 * np.sin(40 * nodes.angles)) < 2e-9
+
+
+def test_error_that_is_foretold_is_that_which_is_made():
+    angles = np.linspace(0.0, TURN, 9000)
+    kinked = lambda x: 1e-5 * np.abs(np.sin(20.0 * x))
+    for level in range(6):
+        nodes = angle_nodes(angles, 1, level)
+        made = np.sqrt(np.mean((nodes.samples(kinked(nodes.angles), angles) - kinked(angles)) ** 2))
+        assert 0.4 * made < nodes.error(kinked(nodes.angles)) < 3.0 * made
+
+
+def test_noise_that_jumps_is_measured_beside_what_is_smooth():
+    x = np.linspace(0.0, TURN, 3000)
+    noise = np.random.default_rng(5).normal(0.0, 1e-6, len(x))
+    assert fast_noise(1e-5 * np.sin(80 * x) + noise) == pytest.approx(1e-6, rel=0.1)
+    # A coarse converter's steps count as noise of their width over the root of twelve.
+    assert fast_noise(np.round(np.linspace(0.0, 1.0, 3000), 2)) == pytest.approx(0.01 / np.sqrt(12.0))
+
+
+def test_samples_without_noise_are_each_computed(benches):
+    record = Record(**{**over_angle().__dict__, "values": np.zeros(SAMPLES)})
+    bench = Bench(benches[0].reducer, {})
+    bench.fineness = Fineness([record])
+    assert transmission_error(bench, record, {}) == pytest.approx(transmission_error(benches[1], record, {}), abs=1e-15)
+
+
+def test_few_samples_are_each_computed():
+    assert angle_nodes(np.linspace(0.0, TURN, 360), 1, 0) is None
+    assert isinstance(angle_nodes(np.linspace(0.0, TURN, 1000), 1, 0), AngleNodes)
+    assert torque_nodes(way(40), 1.5, 0) is None
+
+
+def test_curves_know_where_their_samples_lie(benches):
+    record = over_angle()
+    curve = OverAngle(benches[0], record, "transmission_error")
+    assert curve.places({"angle_zero[1]": 0.01}) == pytest.approx(record.axes["angle"] + 0.01)

@@ -1,0 +1,63 @@
+"""Work on several threads: same answers, errors and Ctrl-C heard, each run made once."""
+
+import threading
+import time
+
+import pytest
+
+from fmu_src.threads import Once, Stopped, Threads
+
+
+def test_results_come_in_the_order_of_the_items():
+    assert Threads(4).map(lambda n: (time.sleep(0.001 * (9 - n)), n * n)[1], range(9)) == [n * n for n in range(9)]
+
+
+def test_work_inside_of_work_stays_on_its_thread():
+    threads = Threads(2)
+
+    def inner(n):
+        return threading.get_ident()
+
+    for outside, inside in threads.map(lambda n: (threading.get_ident(), threads.map(inner, range(3))), range(4)):
+        assert set(inside) == {outside}
+
+
+@pytest.mark.parametrize("problem", [ValueError("bad"), KeyboardInterrupt()])
+def test_what_nobody_waits_for_ends_at_its_next_look(problem):
+    threads, ended = Threads(2), []
+
+    def work(n):
+        if n == 0:
+            raise problem
+        try:
+            for _ in range(5000):
+                time.sleep(0.001)
+                threads.check()
+        except Stopped:
+            ended.append(n)
+            raise
+
+    begun = time.perf_counter()
+    with pytest.raises(type(problem)):
+        threads.map(work, range(50))
+    assert 1 <= len(ended) <= 2 and time.perf_counter() - begun < 2.0
+    # And the next work is done.
+    assert threads.map(abs, [-1, -2]) == [1, 2]
+
+
+def test_a_run_that_two_ask_for_is_made_once():
+    made, kept = [], Once(10)
+
+    def make():
+        made.append(1)
+        time.sleep(0.02)
+        return len(made)
+
+    assert Threads(4).map(lambda n: kept.get("run", make), range(8)) == [1] * 8
+
+
+def test_a_run_that_failed_is_tried_again():
+    kept = Once(10)
+    with pytest.raises(ZeroDivisionError):
+        kept.get("run", lambda: 1 / 0)
+    assert kept.get("run", lambda: 7) == 7
