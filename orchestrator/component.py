@@ -5,7 +5,6 @@ transfer once and return a function that fills a buffer, or empties it, without
 allocating.
 """
 
-import difflib
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fmu_src.arrays import Integers, Records
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
@@ -93,9 +92,7 @@ class Component(ABC):
             except ValueError:
                 raise InputFault(f"{self.name}.{name}: {base} has the shape {array.shape}, counted from 1") from None
             return replace(array, name=name, references=(array.references[place],), shape=())
-        close = difflib.get_close_matches(base, self.signals, 3)
-        hint = f"; did you mean {', '.join(close)}?" if close else ""
-        raise InputFault(f"{self.name} has no variable {name!r}{hint}")
+        raise InputFault(f"{self.name} has no variable {name!r}{nearest(base, self.signals)}")
 
     def has(self, name: str) -> bool:
         """Whether there is a variable or array element of this name."""
