@@ -11,7 +11,7 @@ from benchmarks.integrators.runs import errors, with_alpha
 from benchmarks.integrators.stretches import Stretch, rated
 from benchmarks.motion import Problem, cheapest, check_right_hand_sides
 from benchmarks.numpy_plant import NumpyPlant
-from benchmarks.ratios import Figure, Measured, Ratio, cost_at, exponent, machine
+from benchmarks.ratios import Curve, Figure, Measured, Ratio, cost_at, exponent, machine
 from benchmarks.table import write
 
 
@@ -42,10 +42,14 @@ def test_exponent_of_a_power():
 
 
 def test_table_holds_rows_that_could_not_be_measured(tmp_path):
-    found = {"x": Measured([Ratio("x", "work", "peer", 1.0, math.nan, "1 %", 3.0)], [Figure("x", "what", 2.0, "s", at_most=1.0)])}
+    curve = Curve("cost", "error", "time", {"ours": [(1e-2, 1.0), (1.234e-9, 200.0)], "none": []}, {"ours": -0.5})
+    found = {"x": Measured([Ratio("x", "work", "peer", 1.0, math.nan, "1 %", 3.0)], [Figure("x", "what", 2.0, "s", at_most=1.0)], [curve])}
     write(found, machine(), True, tmp_path / "bench")
     assert '"ratio": null' in (tmp_path / "bench.json").read_text()
-    assert "not met" in (tmp_path / "bench.html").read_text()
+    page = (tmp_path / "bench.html").read_text()
+    assert "not met" in page and "0 of 1 targets are met" in page and "Quick form" in page
+    # Points of a logarithmic axis keep their digits, however small.
+    assert '"name":"ours ~ x^-0.50","x":[1.234e-9,0.01],"y":[200,1]' in page.replace("1.234e-09", "1.234e-9")
 
 
 @pytest.mark.parametrize("numpy", [False, True])
