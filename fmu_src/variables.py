@@ -67,7 +67,8 @@ class Variable:
         if len(self.axes) != len(self.shape):
             raise ValueError(f"variable {self.name}: {len(self.shape)} dimensions but axes {self.axes}")
         for name in ("start", "minimum", "maximum", "nominal"):
-            if not isinstance(getattr(self, name), Real):
+            # The abstract class last: it takes far longer to ask.
+            if not isinstance(getattr(self, name), (float, int, Real)):
                 hint = "" if name == "start" else "; leave it out for the usual one"
                 raise ValueError(f"variable {self.name}: {name} = {getattr(self, name)!r} is no number{hint}")
         usual = (0, len(self.choices) - 1, 1.0) if self.choices else usual_limits(self.unit, self.is_integer)
@@ -81,7 +82,7 @@ class Variable:
 
     @property
     def size(self) -> int:
-        return int(np.prod(self.shape, dtype=int))
+        return math.prod(self.shape)
 
     @property
     def variability(self) -> str:

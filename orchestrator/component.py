@@ -5,10 +5,11 @@ transfer once and return a function that fills a buffer, or empties it, without
 allocating.
 """
 
+import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -185,12 +186,22 @@ class Component(ABC):
         """Free what the component holds."""
 
 
+def unit_of(specification: Specification) -> Unit:
+    """The unit of a specification.  Those of equal ones share unit and table, which nobody changes: thousands of variables are made once."""
+    return unit_of_text(json.dumps(specification, sort_keys=True))
+
+
+@lru_cache(maxsize=32)
+def unit_of_text(specification: str) -> Unit:
+    return make_unit(json.loads(specification))
+
+
 class InProcess(Component):
     """A unit whose compiled kernels run in this process."""
 
     def __init__(self, name: str, specification: Specification):
         self.name = name
-        self.unit: Unit = make_unit(specification)
+        self.unit = unit_of(specification)
         self.table: Table = self.unit.table
         self.signals = {v.name: signal_of(v, self.table) for v in self.table.interface()}
         self.records = self.table.new_records()
