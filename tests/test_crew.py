@@ -10,31 +10,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from crew_work import RECORDS, Deaf, dying, interrupted, predict, telling
 from shared import gone
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.crew import HOW, WAYS, Crew, shares
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
 from fmu_src.faults import InputFault, RunFault
-from fmu_src.progress import task, told_to
+from fmu_src.progress import told_to
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-def record(name, condition, size, quantity="transmission_error"):
-    return Record(name=name, quantity=quantity, unit="rad", condition=condition, replicate=1, values=np.zeros(size),
-                  axes={"angle": np.arange(float(size))}, factors={})
-
-
-RECORDS = [record("a", "one", 400), record("b", "two", 300), record("c", "one", 400), record("d", "three", 200)]
-
-
-def predict(i, factor, fails):
-    if i == fails:
-        raise ValueError(f"record {i}")
-    return np.full(len(RECORDS[i].values), factor * i)
 
 
 @pytest.fixture(params=WAYS)
@@ -80,23 +66,11 @@ def test_a_way_that_does_not_exist_is_refused(monkeypatch):
         Crew(RECORDS, predict, 2)
 
 
-def dying(i, factor, fails):
-    if multiprocessing.parent_process() is not None:
-        os._exit(3)
-    return predict(i, factor, fails)
-
-
 def test_a_process_that_dies_is_told(way):
     crew = Crew(RECORDS, dying, 2)
     with pytest.raises(RunFault, match="ended with exit code 3"):
         crew([0, 1, 2, 3], (1.0, None))
     crew.close()
-
-
-def interrupted(i, factor, fails):
-    if multiprocessing.parent_process() is None and fails is not None:
-        raise KeyboardInterrupt
-    return predict(i, factor, None)
 
 
 def test_answers_of_an_interrupted_round_are_passed_over(way):
@@ -105,20 +79,6 @@ def test_answers_of_an_interrupted_round_are_passed_over(way):
         crew([0, 1, 2, 3], (1.0, 0))
     assert [y[0] for y in crew([3, 1], (2.0, None))] == [6.0, 2.0]
     crew.close()
-
-
-class Deaf:
-    """A listener that must not be asked in another process: its locks may be held there for ever."""
-
-    def begin(self, task):
-        assert multiprocessing.parent_process() is None
-
-    end = say = begin
-
-
-def telling(i, factor, fails):
-    with task("predicting"):
-        return predict(i, factor, fails)
 
 
 def test_only_the_first_process_tells_how_far_it_is(way):
