@@ -1,20 +1,25 @@
 """The table of all measurements: screen, JSON, HTML with plots."""
 
-import html
 import json
 import math
 from dataclasses import asdict
 from pathlib import Path
 
-import plotly.graph_objects as go
+import numpy as np
+import rich.table
 from rich.console import Console
-from rich.table import Table
 
 from benchmarks.ratios import Curve, Measured
+from pages import charts, look
+from pages.content import Page, Section, Table
+from pages.render import rendered_sections, written
 
 VERDICT = {True: "met", False: "not met", None: ""}
 RATIO_HEADS = ("work", "against", "accuracy", "ours", "theirs", "ratio", "target", "")
 FIGURE_HEADS = ("figure", "value", "wanted", "")
+# Columns that hold numbers.
+NUMBERS = ("ours", "theirs", "ratio", "value", "target", "wanted")
+LOGARITHMIC = {"type": "log"}
 
 
 def amount(value: float, unit: str) -> str:
@@ -51,9 +56,9 @@ def figure_rows(found: dict[str, Measured]) -> list[tuple[str, ...]]:
 def show(found: dict[str, Measured]) -> None:
     console = Console(width=max(Console().width, 190))
     for title, heads, rows in (("cost of others over ours", RATIO_HEADS, ratio_rows(found)), ("figures", FIGURE_HEADS, figure_rows(found))):
-        table = Table(title=title, title_justify="left")
+        table = rich.table.Table(title=title, title_justify="left")
         for head in heads:
-            table.add_column(head, justify="right" if head in ("ours", "theirs", "ratio", "value", "target", "wanted") else "left")
+            table.add_column(head, justify="right" if head in NUMBERS else "left")
         for row in rows:
             table.add_row(*row)
         console.print(table, markup=False) if rows else None
@@ -71,36 +76,40 @@ def write(found: dict[str, Measured], machine: dict[str, str | float], quick: bo
     # NaN is not JSON.
     text = json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1)
     output.with_suffix(".json").write_text(text + "\n", encoding="utf-8")
-    output.with_suffix(".html").write_text(page(found, machine, quick), encoding="utf-8")
+    written(rendered_sections(page(found, machine, quick)), output.with_suffix(".html"))
 
 
-def page(found: dict[str, Measured], machine: dict[str, str | float], quick: bool) -> str:
+def page(found: dict[str, Measured], machine: dict[str, str | float], quick: bool) -> Page:
     curves = [curve for measured in found.values() for curve in measured.curves]
-    plots = "".join(plot(curve).to_html(full_html=False, include_plotlyjs=i == 0) for i, curve in enumerate(curves))
-    warning = "<p><b>Quick form: figures mean little.</b></p>" if quick else ""
     said = ", ".join(f"{key} {value}" for key, value in machine.items())
-    return (
-        "<!doctype html><meta charset=utf-8><title>rvwear: measured cost</title><style>body{font:15px sans-serif;"
-        "max-width:1200px;margin:2em auto;padding:0 1em}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left;"
-        "border-bottom:1px solid #ccc}</style><h1>Measured cost</h1>"
-        f"{warning}<p>{html.escape(said)}. Processor time of one process, least of several runs; each ratio is of one run."
-        f"</p><h2>Others over ours</h2>{rows_html(RATIO_HEADS, ratio_rows(found))}<h2>Figures</h2>"
-        f"{rows_html(FIGURE_HEADS, figure_rows(found))}<h2>Curves</h2>{plots}"
-    )
+    tables = [
+        Table("Others over ours", list(RATIO_HEADS), [list(row) for row in ratio_rows(found)], right_of(RATIO_HEADS)),
+        Table("Figures", list(FIGURE_HEADS), [list(row) for row in figure_rows(found)], right_of(FIGURE_HEADS)),
+    ]
+    lead = "Processor time of one process, least of several runs; each ratio is of one run."
+    return Page(
+        "Measured cost", "rvwear", said, verdicts(found), [],
+        [Section("costs", "Costs", lead, tables=tables),
+         Section("curves", "Curves", "Cost against accuracy or size.", [plot(i, curve) for i, curve in enumerate(curves)])],
+        ["Quick form: figures mean little."] if quick else [],
+    )  # fmt: skip
 
 
-def rows_html(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    head = "".join(f"<th>{html.escape(h)}" for h in heads)
-    return f"<table><tr>{head}" + "".join("<tr>" + "".join(f"<td>{html.escape(c)}" for c in row) for row in rows) + "</table>"
+def verdicts(found: dict[str, Measured]) -> str:
+    """How many targets are met of those that could be measured, in a sentence."""
+    met = [r.met for measured in found.values() for r in measured.ratios if math.isfinite(r.ratio)]
+    met += [f.met for measured in found.values() for f in measured.figures]
+    return f"{met.count(True)} of {met.count(True) + met.count(False)} targets are met."
 
 
-def plot(curve: Curve) -> go.Figure:
-    figure = go.Figure()
+def right_of(heads: tuple[str, ...]) -> tuple[int, ...]:
+    return tuple(i for i, head in enumerate(heads) if head in NUMBERS)
+
+
+def plot(number: int, curve: Curve) -> look.Figure:
+    lines = []
     for name, points in curve.lines.items():
-        points = sorted(points)
         label = f"{name} ~ x^{curve.fits[name]:.2f}" if name in curve.fits else name
-        figure.add_scatter(x=[x for x, _ in points], y=[y for _, y in points], mode="lines+markers", name=label)
-    figure.update_layout(title=curve.title, height=480)
-    figure.update_xaxes(type="log", title=curve.x)
-    figure.update_yaxes(type="log", title=curve.y)
-    return figure
+        x, y = np.array(sorted(points)).reshape(-1, 2).T
+        lines.append(charts.Curve(label, x, y, mode="lines+markers"))
+    return charts.chart(f"curve{number}", curve.title, "", lines, curve.x, curve.y, 12, 480, x_axis=LOGARITHMIC, y_axis=LOGARITHMIC)

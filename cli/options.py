@@ -69,6 +69,19 @@ def settings_of(options: argparse.Namespace, reducer: "Reducer") -> list["Settin
     return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
 
 
+def chosen(options: argparse.Namespace) -> tuple["Reducer", list["Setting"], int]:
+    """The reducer, its settings and the positions of a crank turn that the options of ``add_reducer_options`` name.
+
+    InputFault if one of them is none that there is.
+    """
+    from reducers.reducer import load_reducer
+    from studies.solve import require_positions
+
+    positions = require_positions(options.positions)
+    reducer = load_reducer(options.reducer)
+    return reducer, settings_of(options, reducer), positions
+
+
 def folder(text: str | None) -> Path | None:
     return Path(text) if text else None
 

@@ -18,8 +18,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from fmu_src.faults import InputFault
-from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, nearest, source_of
+from fmu_src.faults import InputFault, nearest
+from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, source_of
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, user_effect_files
 from fmu_src.variables import Variable
 
@@ -194,7 +194,7 @@ def of_hooks(source: Source, frame: Frame) -> list[Finding]:
     called = reached(source, hooks)
     for name, function in kernels.items():
         if name not in called:
-            close = nearest(name, frame.hooks) or f"; hooks are {', '.join(frame.hooks)}"
+            close = nearest(name, frame.hooks, 1) or f"; hooks are {', '.join(frame.hooks)}"
             findings.append(Finding(source.file, function.lineno, f"{name} is no hook and no hook calls it{close}"))
     if not hooks and not kernels:
         findings.append(Finding(source.file, 1, f"no hook, so that the effect does nothing; hooks are {', '.join(frame.hooks)}"))

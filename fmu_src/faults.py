@@ -1,5 +1,7 @@
 """Errors that a user can mend."""
 
+from collections.abc import Iterable
+
 
 class InputFault(ValueError):
     """Bad input: says where, what, and how to mend it."""
@@ -14,3 +16,11 @@ class MissingPart(InputFault):
 
 class RunFault(RuntimeError):
     """A run that cannot go on: says which unit, when, and what to do."""
+
+
+def nearest(name: str, known: Iterable[str], most: int = 3) -> str:
+    """The names that were perhaps meant, as the end of a message; empty if none is near."""
+    import difflib
+
+    close = difflib.get_close_matches(name, list(known), most)
+    return f"; did you mean {', '.join(close)}?" if close else ""

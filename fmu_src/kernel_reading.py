@@ -7,13 +7,14 @@ on the order of the statements: a name stands for everything that it is given an
 
 import ast
 import builtins
-import difflib
 import importlib.util
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+
+from fmu_src.faults import nearest
 
 # Neither machine code without allocation nor native FMUs have these.
 FOREIGN = {
@@ -230,7 +231,7 @@ class Call:
             return NOTHING
         if isinstance(node, ast.Name):
             if node.id not in self.known:
-                self.trouble(node, f"{node.id} is not defined" + nearest(node.id, self.known - set(dir(builtins))))
+                self.trouble(node, f"{node.id} is not defined" + nearest(node.id, self.known - set(dir(builtins)), 1))
             return self.stands_for.get(node.id, NOTHING)
         if isinstance(node, ast.Attribute):
             return self.attribute(node)
@@ -253,7 +254,7 @@ class Call:
     def has_field(self, node: ast.Attribute) -> bool:
         if node.attr in self.reading.dimensions:
             return True
-        self.trouble(node, f"the record has no field {node.attr}" + nearest(node.attr, self.reading.dimensions))
+        self.trouble(node, f"the record has no field {node.attr}" + nearest(node.attr, self.reading.dimensions, 1))
         return False
 
     def attribute(self, node: ast.Attribute) -> Parts:
@@ -263,7 +264,7 @@ class Call:
         if node.attr not in OF_ARRAYS:
             self.read_all(parts, node)
         if isinstance(node.value, ast.Name) and self.source.imports.get(node.value.id) == ("math", "") and not hasattr(math, node.attr):
-            self.trouble(node, f"math has no {node.attr}" + nearest(node.attr, dir(math)))
+            self.trouble(node, f"math has no {node.attr}" + nearest(node.attr, dir(math), 1))
         return NOTHING
 
     def inside(self, parts: Parts, indices: int, node: Place) -> Parts:
@@ -313,9 +314,3 @@ class Call:
             module, attribute = self.source.imports.get(function.value.id, ("", "-"))
             source, name = imported_source(module) if module and not attribute else None, function.attr
         return (source, name) if source is not None and name in source.functions else (None, name)
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The name that was perhaps meant."""
-    close = difflib.get_close_matches(name, list(known), 1)
-    return f"; did you mean {close[0]}?" if close else ""

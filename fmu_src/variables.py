@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,7 @@ class Variable:
     there is none).  ``axes`` names what each index counts.  ``choices`` makes the
     variable an enumeration: its value is an index into it.  ``source`` says where the
     number comes from (``author, table``, ``reducer file``, ``assumed: reason``).
-    Bounds and nominal value have usual ones where none are given (``limits``).
+    Bounds and nominal value have usual ones where none are given (``limits``).  ValueError if one of the numbers is none.
     ``profile`` makes a state visible as an array output where there are arrays (FMI 3).
     """
 
@@ -65,6 +66,11 @@ class Variable:
             raise ValueError(f"variable {self.name}: role {self.role!r} is none of {ROLES}")
         if len(self.axes) != len(self.shape):
             raise ValueError(f"variable {self.name}: {len(self.shape)} dimensions but axes {self.axes}")
+        for name in ("start", "minimum", "maximum", "nominal"):
+            # The abstract class last: it takes far longer to ask.
+            if not isinstance(getattr(self, name), (float, int, Real)):
+                hint = "" if name == "start" else "; leave it out for the usual one"
+                raise ValueError(f"variable {self.name}: {name} = {getattr(self, name)!r} is no number{hint}")
         usual = (0, len(self.choices) - 1, 1.0) if self.choices else usual_limits(self.unit, self.is_integer)
         for name, value in zip(("minimum", "maximum", "nominal"), usual):
             if math.isnan(getattr(self, name)):
@@ -76,7 +82,7 @@ class Variable:
 
     @property
     def size(self) -> int:
-        return int(np.prod(self.shape, dtype=int))
+        return math.prod(self.shape)
 
     @property
     def variability(self) -> str:

@@ -5,18 +5,18 @@ transfer once and return a function that fills a buffer, or empties it, without
 allocating.
 """
 
-import difflib
+import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fmu_src.arrays import Integers, Records
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
@@ -93,9 +93,7 @@ class Component(ABC):
             except ValueError:
                 raise InputFault(f"{self.name}.{name}: {base} has the shape {array.shape}, counted from 1") from None
             return replace(array, name=name, references=(array.references[place],), shape=())
-        close = difflib.get_close_matches(base, self.signals, 3)
-        hint = f"; did you mean {', '.join(close)}?" if close else ""
-        raise InputFault(f"{self.name} has no variable {name!r}{hint}")
+        raise InputFault(f"{self.name} has no variable {name!r}{nearest(base, self.signals)}")
 
     def has(self, name: str) -> bool:
         """Whether there is a variable or array element of this name."""
@@ -188,12 +186,22 @@ class Component(ABC):
         """Free what the component holds."""
 
 
+def unit_of(specification: Specification) -> Unit:
+    """The unit of a specification.  Those of equal ones share unit and table, which nobody changes: thousands of variables are made once."""
+    return unit_of_text(json.dumps(specification, sort_keys=True))
+
+
+@lru_cache(maxsize=32)
+def unit_of_text(specification: str) -> Unit:
+    return make_unit(json.loads(specification))
+
+
 class InProcess(Component):
     """A unit whose compiled kernels run in this process."""
 
     def __init__(self, name: str, specification: Specification):
         self.name = name
-        self.unit: Unit = make_unit(specification)
+        self.unit = unit_of(specification)
         self.table: Table = self.unit.table
         self.signals = {v.name: signal_of(v, self.table) for v in self.table.interface()}
         self.records = self.table.new_records()

@@ -18,8 +18,8 @@ from fmu_src.arrays import Records
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.source_hash import STAMP, source_hash
 from fmu_src.state import unpack
-from fmu_src.unit import Specification, make_unit
-from orchestrator.component import Component, Element, Snapshot
+from fmu_src.unit import Specification
+from orchestrator.component import Component, Element, Snapshot, unit_of
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
@@ -174,7 +174,7 @@ class Fmu(Component):
         return specification
 
     def record(self) -> Records:
-        table = make_unit(self.specification()).table
+        table = unit_of(self.specification()).table
         records = table.new_records()
         identity = self.description.guid or self.description.instantiationToken
         table.cells(records)[: table.state_cells] = unpack(identity, self.save(), table.state_cells).cells

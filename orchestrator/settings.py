@@ -4,13 +4,12 @@
 ``contact_law=palmgren``: any parameter or input of plant or wear unit.
 """
 
-import difflib
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from fmu_src.arrays import Floats
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault, Variable
 from orchestrator.component import Component, Signal
@@ -44,9 +43,7 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
     owners = [t for t in owners if t.by_name[name.partition("[")[0]].role in ("parameter", "input")]
     if not owners:
         names = [v.name for t in tables for v in t.of_role("parameter", "input")]
-        close = difflib.get_close_matches(name, names, 3)
-        hint = f"; did you mean {', '.join(close)}?" if close else ""
-        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{hint}")
+        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{nearest(name, names)}")
     for owner in owners:
         variable = owner.by_name[name.partition("[")[0]]
         if "[" in name:

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pages import look
-from pages.look import Figure, Layout
+from pages.look import Figure, Layout, Trace
 
 # Colour-blind safe, in the order of use.
 COLOURS = ("#0b4f94", "#d55e00", "#009e73", "#98a3af", "#cc79a7", "#e0a000")
@@ -37,9 +37,9 @@ def chart(
     traces = []
     for i, curve in enumerate(curves):
         colour = curve.colour or COLOURS[i % len(COLOURS)]
-        trace = {
-            "type": "scatter", "mode": curve.mode, "name": curve.label, "x": look.short(curve.x, 5),
-            "y": look.short(curve.y, 4), "hovertemplate": f"{curve.label}: %{{y}} at %{{x}}<extra></extra>",
+        trace: Trace = {
+            "type": "scatter", "mode": curve.mode, "name": curve.label, "x": rounded(curve.x, 5, x_axis),
+            "y": rounded(curve.y, 4, y_axis), "hovertemplate": f"{curve.label}: %{{y}} at %{{x}}<extra></extra>",
         }  # fmt: skip
         if "lines" in curve.mode:
             trace["line"] = {"color": colour, "width": curve.width, "dash": curve.dash}
@@ -54,6 +54,12 @@ def chart(
         shapes=[shape for shape, _ in lines], annotations=[label for _, label in lines],
     )  # fmt: skip
     return Figure(name, title, caption, traces, picture, columns, height)
+
+
+def rounded(values: Row, digits: int, axis: Layout | None) -> list[float | None]:
+    """As its axis needs them: a logarithmic one shows small values as well as large ones."""
+    found: list[float | None] = look.significant(values, digits) if (axis or {}).get("type") == "log" else look.short(values, digits)
+    return found
 
 
 def degrees_axis(last: float = 180.0) -> Layout:

@@ -80,6 +80,12 @@ def short(values: npt.ArrayLike, digits: int = 4) -> Any:
     return plain(rounded.tolist())
 
 
+def significant(values: npt.ArrayLike, digits: int = 4) -> Any:
+    """Nested lists with ``digits`` digits of each value, for logarithmic axes; NaN becomes None."""
+    array = np.asarray(values, float)
+    return plain(np.array([float(f"{value:.{digits}g}") for value in array.flat]).reshape(array.shape).tolist())
+
+
 def plain(value: Any) -> Any:
     if isinstance(value, list):
         return [plain(v) for v in value]

@@ -74,7 +74,8 @@ class Reducer:
 
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
-        names = {"rv_plant": self.plant, "wear_fmu": self.wear, "rv_reducer": self.joint}[unit].by_name
+        table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])
+        names = table.by_name
         return {
             "unit": unit,
             "reducer": self.name,

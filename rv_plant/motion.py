@@ -9,6 +9,7 @@ import math
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
 from rv_plant.constraints import CONSTRAINED, largest_drift
+from rv_plant.contact_arrays import copy_contacts
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import (
@@ -208,13 +209,7 @@ def advance(r, duration):
 @kernel
 def start_ramp(r):
     """Keep the profile errors that the step shall end with."""
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            r.mesh_error_end[d, j] = r.mesh_profile_error[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_error_end[d, c, k] = r.roller_profile_error[d, c, k]
+    copy_contacts(r.mesh_profile_error, r.roller_profile_error, r.mesh_error_end, r.roller_error_end)
 
 
 @kernel
@@ -234,13 +229,8 @@ def ramp_profile_errors(r, share):
 @kernel
 def end_ramp(r):
     """The inputs as they were given; the next ramp starts from them."""
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            r.mesh_profile_error[d, j] = r.mesh_error_start[d, j] = r.mesh_error_end[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_profile_error[d, c, k] = r.roller_error_start[d, c, k] = r.roller_error_end[d, c, k]
+    copy_contacts(r.mesh_error_end, r.roller_error_end, r.mesh_profile_error, r.roller_profile_error)
+    copy_contacts(r.mesh_error_end, r.roller_error_end, r.mesh_error_start, r.roller_error_start)
 
 
 @kernel

@@ -10,7 +10,7 @@ tolerance; it is taken as proportional to that of the depths.
 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
-from wear_fmu.accumulator import publish_profile_errors
+from wear_fmu.contacts import publish_profile_errors
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03

@@ -6,6 +6,7 @@ thousands of runs.
 """
 
 from fmu_src.kernel import kernel
+from rv_plant.contact_arrays import copy_contacts
 from rv_plant.equilibrium import newton_direction
 from rv_plant.faults import NO_EQUILIBRIUM
 from rv_plant.plant import advance_effects, assemble_at_input, publish, turn_input
@@ -18,25 +19,13 @@ def give_forces(p, w):
     """What the plant gives the wear unit."""
     w.crank_angle, w.crank_speed, w.output_angle, w.cage_angle = p.crank_angle, p.crank_speed, p.output_angle, p.cage_angle
     w.temperature = p.reducer_temperature
-    discs, cranks, rollers = p.roller_force.shape
-    for d in range(discs):
-        for j in range(p.mesh_force.shape[1]):
-            w.mesh_force[d, j] = p.mesh_force[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                w.roller_force[d, c, k] = p.roller_force[d, c, k]
+    copy_contacts(p.mesh_force, p.roller_force, w.mesh_force, w.roller_force)
 
 
 @kernel
 def give_profiles(w, p):
     """What the wear unit gives the plant."""
-    discs, cranks, rollers = p.roller_force.shape
-    for d in range(discs):
-        for j in range(p.mesh_force.shape[1]):
-            p.mesh_profile_error[d, j] = w.mesh_profile_error[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                p.roller_profile_error[d, c, k] = w.roller_profile_error[d, c, k]
+    copy_contacts(w.mesh_profile_error, w.roller_profile_error, p.mesh_profile_error, p.roller_profile_error)
 
 
 @kernel

@@ -1,10 +1,14 @@
 """What is made once per run of the tests, whichever worker of pytest-xdist asks first; what several tests ask."""
 
 import os
+import re
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
+
+import lark
+from fmpy.validation import validate_fmu
 
 try:
     import fcntl
@@ -32,6 +36,24 @@ def made_once(tmp_path_factory, name: str, make: Callable[[Path], None]) -> Path
             make(folder)
             complete.touch()
     return folder
+
+
+class Names(lark.Lark):
+    """The grammar of names takes a run of digits wherever it takes one: what differs in digits alone is parsed once."""
+
+    known: set[str] = set()
+
+    def parse(self, text, *arguments, **named):
+        alike = re.sub("[0-9]+", "1", text)
+        if alike not in self.known:
+            super().parse(text, *arguments, **named)
+            self.known.add(alike)
+
+
+def problems_of(fmu: Path, monkeypatch) -> list[str]:
+    """All that fmpy's validation finds, in a tenth of its time, which goes into the names of the arrays' elements."""
+    monkeypatch.setattr(lark, "Lark", Names)
+    return validate_fmu(str(fmu))
 
 
 def gone(group: int, seconds: float = 10.0) -> bool:

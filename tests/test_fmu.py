@@ -7,10 +7,10 @@ import zipfile
 from xml.etree import ElementTree
 
 import fmpy
-import fmpy.validation
 import numpy as np
 import pytest
 from conftest import UNITS
+from shared import problems_of
 
 from fmu_src.description import guid
 from fmu_src.faults import InputFault, RunFault
@@ -37,8 +37,19 @@ def description(path):
         return ElementTree.fromstring(archive.read("modelDescription.xml"))
 
 
-def test_validation_finds_no_problem(path):
-    assert fmpy.validation.validate_fmu(str(path)) == []
+def test_validation_finds_no_problem(path, monkeypatch):
+    assert problems_of(path, monkeypatch) == []
+
+
+def test_validation_finds_names_that_are_none(path, monkeypatch, tmp_path):
+    """However much alike they are to good ones that were looked at before."""
+    spoilt = tmp_path / path.name
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(spoilt, "w") as new:
+        text = old.read("modelDescription.xml").replace(b"mesh_force[2,7]", b"mesh_force[2,7").replace(b"mesh_force[1,7]", b"mesh_force[1,x7]")
+        new.writestr("modelDescription.xml", text)
+    for _ in range(2):
+        first, second = problems_of(spoilt, monkeypatch)
+        assert '"mesh_force[1,x7]"' in first and '"mesh_force[2,7"' in second
 
 
 def test_description_follows_the_project(path):

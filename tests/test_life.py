@@ -11,8 +11,8 @@ from studies.duty import Segment
 from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
 from studies.pair import make_pair
 
-# A third of the usual positions per turn, and no equilibria between them: the jumps, not the angles, are under test.
-COARSE, UNDIVIDED = 24, Setting("largest_crank_step", 0.3)
+# A sixth of the usual positions per turn, and no equilibria between them: the jumps, not the angles, are under test.
+COARSE, UNDIVIDED = 12, Setting("largest_crank_step", 0.6)
 
 
 def nothing(_):

@@ -50,22 +50,29 @@ def trajectory(case):
     return rows
 
 
-def write(path, case):
-    values = {f"{i}/{u}/{n}": v for i, row in enumerate(trajectory(case)) for u, unit in enumerate(row)
-              for n, v in unit.items()}
-    np.savez(path, **values)
+def values_of(case):
+    return {f"{i}/{u}/{n}": v for i, row in enumerate(trajectory(case)) for u, unit in enumerate(row) for n, v in unit.items()}
+
+
+def write_all(folder):
+    for i, case in enumerate(CASES):
+        np.savez(Path(folder) / f"{i}.npz", **values_of(case))
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    """Folder with the trajectories of all cases, by a process without the compiler."""
+    folder, root = tmp_path_factory.mktemp("plain"), Path(__file__).resolve().parents[1]
+    program = f"import test_plain_python as t; t.assert_plain(); t.write_all({str(folder)!r})"
+    search = os.pathsep.join([str(root), str(root / "tests")])
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=240,
+                   env={**os.environ, "RVWEAR_PLAIN_PYTHON": "1", "PYTHONPATH": search})
+    return folder
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_plain_python_gives_the_compiled_trajectory(tmp_path, case):
-    plain = tmp_path / "plain.npz"
-    root = Path(__file__).resolve().parents[1]
-    program = f"import test_plain_python as t; t.assert_plain(); t.write({str(plain)!r}, {case!r})"
-    search = os.pathsep.join([str(root), str(root / "tests")])
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=120,
-                   env={**os.environ, "RVWEAR_PLAIN_PYTHON": "1", "PYTHONPATH": search})
-    write(tmp_path / "compiled.npz", case)
-    found, expected = np.load(plain), np.load(tmp_path / "compiled.npz")
+def test_plain_python_gives_the_compiled_trajectory(plain, case):
+    found, expected = np.load(plain / f"{list(CASES).index(case)}.npz"), values_of(case)
     assert set(found) == set(expected) and len(found) > 100
     for name in expected:
         if expected[name].dtype.kind == "i":

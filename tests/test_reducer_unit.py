@@ -160,3 +160,12 @@ def test_fmus_are_valid_and_equal_the_kernels(rv20e, one_unit_fmus, flavour):
 def test_few_connections_are_enough(rv20e):
     assert sum(v.size for v in rv20e.joint.of_role("input")) == 4
     assert sum(v.size for v in rv20e.joint.of_role("output")) < 80
+
+
+def test_units_of_one_reducer_share_their_table_and_no_value(rv20e, bx40e):
+    one, other = make_unit(rv20e, load_torque=50.0), make_unit(rv20e)
+    assert one.table is other.table is not make_unit(bx40e).table
+    assert one.get("load_torque") == 50.0 and other.get("load_torque") == rv20e.starts["load_torque"]
+    changed = rv20e.specification("rv_reducer")
+    changed["starts"] = changed["starts"] | {"load_torque": 60.0}
+    assert InProcess("reducer", changed).get("load_torque") == 60.0

@@ -16,7 +16,9 @@ def rate_of_change(records, y, dy):
     """For SciPy: y = (q, v, cage)."""
     r = records[0]
     n = r.q.shape[0]
-    r.q[:], r.v[:], r.cage = y[:n], y[n : 2 * n], y[2 * n]
+    for i in range(n):
+        r.q[i], r.v[i] = y[i], y[n + i]
+    r.cage = y[2 * n]
     assemble_motion(r, 1.0)
     for i in range(n):
         dy[i], dy[n + i] = r.v[i], -r.residual_vector[i] / r.mass[i]

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cli.options import add_coupling_options, add_json, add_reducer_options, folder, result_path, settings_of
+from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path, settings_of
 from fmu_src.faults import InputFault
 
 if TYPE_CHECKING:
@@ -56,18 +56,14 @@ def life(options: argparse.Namespace) -> int:
     from fmu_src.source_hash import source_hash
     from orchestrator import netcdf
     from orchestrator.master import Master
-    from reducers.reducer import load_reducer
     from studies import results
     from studies.checkpoint import load_checkpoint, save_checkpoint
     from studies.coupled_master import CoupledMaster
     from studies.duty import load_duty
     from studies.life import Life, LifeSettings, live
     from studies.pair import make_pair
-    from studies.solve import require_positions
 
-    positions = require_positions(options.positions)
-    reducer = load_reducer(options.reducer)
-    settings = settings_of(options, reducer)
+    reducer, settings, positions = chosen(options)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
     life_settings.check()
     duty = load_duty(options.duty) if options.duty else ()

@@ -2,7 +2,7 @@
 
 import argparse
 
-from cli.options import add_json, add_reducer_options, settings_of
+from cli.options import add_json, add_reducer_options, chosen, settings_of
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -32,14 +32,12 @@ def solve(options: argparse.Namespace) -> int:
     from orchestrator.component import InProcess
     from orchestrator.master import Master
     from orchestrator.settings import apply
-    from reducers.reducer import load_reducer
     from studies.pair import Pair, crank_turn_time
-    from studies.solve import figures_of, record_turn, require_positions
+    from studies.solve import figures_of, record_turn
 
-    positions = require_positions(options.positions)
-    reducer = load_reducer(options.reducer)
+    reducer, settings, positions = chosen(options)
     plant = InProcess("plant", reducer.specification("rv_plant"))
-    apply(settings_of(options, reducer), {"plant": plant})
+    apply(settings, {"plant": plant})
     torque = plant.number("load_torque")
     with task("equilibria of one crank turn"):
         master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)

@@ -6,7 +6,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, folder, result_path, settings_of
+from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 from orchestrator.schemes import SCHEMES
@@ -78,14 +78,11 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
     import numpy as np
 
     from orchestrator import netcdf
-    from reducers.reducer import load_reducer
     from studies import results
     from studies.pair import make_pair
-    from studies.solve import SERIES, record_turn, require_positions
+    from studies.solve import SERIES, record_turn
 
-    positions = require_positions(options.positions)
-    reducer = load_reducer(options.reducer)
-    settings = settings_of(options, reducer)
+    reducer, settings, positions = chosen(options)
     path = result_path(options.output, f"{reducer.name}_run")
     if not 0.0 < options.turns <= 1e5:
         raise InputFault(f"turns = {options.turns}: between one position ({1 / positions:.3g} turns) and 100,000")

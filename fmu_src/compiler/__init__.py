@@ -2,7 +2,12 @@
 
     source     a kernel's syntax tree and what its names mean
     types      what a value of a kernel can be: number, tuple, record, array
-    emitter    one function for given argument types: Python's syntax tree to LLVM code
+    function   a function of LLVM while it is written: its lines, blocks and variables
+    names      what a name means: a variable, or something outside of the kernel
+    elements   fields of records, elements and rows of arrays, items of tuples
+    calls      calls of kernels, of ``math``, of builtin functions
+    expressions, statements, loops   Python's syntax tree to LLVM code
+    emitter    one function for given argument types, walked until its types have settled
     arithmetic numbers: operators and functions of ``math`` with Python's meaning
     module     an entry point with all it calls: one LLVM module, optimised, as object code
     store      object code on disk, private to its owner, checked before it is used

@@ -7,9 +7,10 @@ from typing import Any
 import llvmlite.binding as llvm
 import numpy as np
 
-from fmu_src.compiler.emitter import Emitter, Instance, returned
+from fmu_src.compiler.emitter import Emitter
+from fmu_src.compiler.function import Instance
 from fmu_src.compiler.source import Source
-from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Number, Type
+from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Number, Type, returned
 
 # As LLVM itself: 3 would only inline more.
 OPTIMISATION = 2

@@ -165,3 +165,28 @@ def joined(a: Type, b: Type) -> Type | None:
         items = [item for x, y in zip(a.items, b.items) if (item := joined(x, y)) is not None]
         return Group(tuple(items)) if len(items) == len(a.items) else None
     return None
+
+
+def items_of(value: Value) -> list[Value]:
+    """The items of a tuple; what is known of whole numbers goes with them."""
+    assert isinstance(value.type, Group)
+    items, start = [], 0
+    for kind in value.type.items:
+        parts = value.parts[start : start + len(kind.parts)]
+        start += len(parts)
+        constant = None
+        if kind == INTEGER and parts[0].lstrip("-").isdigit():
+            constant = int(parts[0])
+        items.append(Value(kind, parts, constant, constant is not None and constant >= 0))
+    return items
+
+
+def together(items: list[Value]) -> Value:
+    return Value(Group(tuple(item.type for item in items)), tuple(part for item in items for part in item.parts))
+
+
+def returned(kind: Type) -> str:
+    """LLVM's type of a result."""
+    if len(kind.parts) <= 1:
+        return kind.parts[0] if kind.parts else "void"
+    return "{ " + ", ".join(kind.parts) + " }"
