@@ -92,8 +92,8 @@ def run_compare(options: argparse.Namespace) -> int:
 
 
 def run_localise(options: argparse.Namespace) -> int:
-    from cli.screen import json_text
-    from cli.show.comparison import console, show_localisation, show_warnings
+    from cli.screen import console, json_text
+    from cli.show.comparison import show_localisation, show_warnings
     from discrepancy.compare import compare
 
     with task("localising"):

@@ -97,7 +97,7 @@ def template(words: tuple[str, str, str]) -> list[dict[str, Any]]:
 
 
 def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
-    factor, _ = amounts.scale(unit)
+    factor, _ = amounts.scale(unit, runs[0].record.quantity)
     found = []
     for held in (False, True):
         members = [r for r in runs if r.record.held_out == held]
