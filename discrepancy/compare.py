@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
@@ -92,6 +93,7 @@ def rms(values: Iterable[float]) -> float:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
+    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

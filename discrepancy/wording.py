@@ -64,7 +64,7 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
         return f"no run is held out; leaving out one condition at a time: error {change} times the noise"
     if not below_noise(answer, effect):
         return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit"
-    units = {name: unit for name, unit in ((r.quantity, r.unit) for r in answer.diagnosis.fits.space.records)}
+    units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}
     rows = [
         f"{name}: {shown(row['before'], units[name.partition('[')[0]], name)}, noise {shown(row['floor'], units[name.partition('[')[0]], name)}"
         for name, row in judged(answer, effect)["rms"].items()

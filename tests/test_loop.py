@@ -178,3 +178,18 @@ def test_unknown_nuisance_is_refused(file, wide):
     vague = Nuisance(Parameter("bearing_clearence", "m", 0.0, 0.0, 1.0, 1.0))
     with pytest.raises(InputFault, match="bearing_clearence.*bearing_clearance"):
         PhysicalModel(file, replace(wide, nuisances=(vague,)))
+
+
+def test_mean_counts_where_the_zero_is_known(file):
+    angle = np.linspace(0.0, 0.2, 60)
+    free = Record("a", "transmission_error", "rad", "c", 1, np.full(60, 5e-5), {"angle": angle}, {"speed": 209.0, "load": 167.0, "direction": 1})
+    known = replace(free, name="b", zero_known=True)
+    campaign = Campaign(None, "bench", "", file.reducer, 121.0, 167.0, {}, (free, known), {}, {}, (), None, "")
+    model = PhysicalModel(file, campaign, zeros={})
+    first, second = model.predict({})
+    assert first.mean() == pytest.approx(5e-5)
+    # The carrier lags by 52 arcsec at the rated load.
+    assert second.mean() == pytest.approx(-52.0 * np.pi / 180.0 / 3600.0, rel=0.05)
+    assert first - first.mean() == pytest.approx(second - second.mean(), abs=1e-12)
+    beside = model.predict_beside({"needle_clearance_added": 1e-7}, {}, [1])[0]
+    assert beside.mean() == pytest.approx(model.predict({"needle_clearance_added": 1e-7}, [1])[0].mean(), rel=0.01)

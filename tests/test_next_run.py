@@ -64,7 +64,7 @@ def test_experiments_that_differ_by_nothing_useful_are_one_row():
     rivals = [RivalLaw(name, {"a": 1.0}, ["a"], np.array([[1e-4]]), np.array([1.0])) for name in ("line", "square")]
     choices = [Experiment(f"x{load}{t}", 1.0, settings={"load": load, "temperature": t}, kind="x") for load in (1.0, 4.0, 9.0) for t in (293.0, 313.0, 333.0)]
     result = next_experiment(law, choices, rivals, naming=lambda p: f"{p.kind} {p.settings['load']:g} {p.spans}")
-    assert [p.experiment for p in result.proposals][0].startswith("x 9") and len(result.proposals) == 3 and len(result.every) == 9
+    assert result.proposals[0].experiment.startswith("x 9") and len(result.proposals) == 3 and len(result.every) == 9
     assert all(p.spans == {"temperature": (293.0, 333.0)} for p in result.proposals) and result.proposals[0].experiment in result.verdict
     dearer = [replace(c, cost=2.0 if c.settings["temperature"] > 320.0 else 1.0) for c in choices]
     assert len(next_experiment(law, dearer, rivals).proposals) == 6

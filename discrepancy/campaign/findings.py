@@ -7,6 +7,7 @@ import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
 from discrepancy.campaign.quantities import QUANTITIES, keys_for
+from discrepancy.campaign.zeros import unused_means
 
 PROBLEM, WARNING = "problem", "warning"
 
@@ -195,6 +196,11 @@ def rows(design: Design) -> Iterator[Finding]:
                 )  # fmt: skip
 
 
+def zeros(design: Design) -> Iterator[Finding]:
+    for text, remedy in unused_means(design.campaign.records):
+        yield Finding(WARNING, "means not used", text, remedy)
+
+
 def statements(design: Design) -> Iterator[Finding]:
     """What the file leaves open or what misleads."""
     campaign = design.campaign
@@ -217,4 +223,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, zeros, statements)

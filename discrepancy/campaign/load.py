@@ -71,7 +71,7 @@ def zero_known(run: Run, content: CampaignFile, place: str) -> bool:
 def sources_of(run: Run, scales: Scales, place: str) -> dict[str, Source]:
     """By axis, and "value" for the quantity itself, where the run's numbers stand."""
     roles = roles_of(QUANTITIES[run.quantity])
-    found = {}
+    found: dict[str, Source] = {}
     for role, key in roles.items():
         if role in run.columns:
             column = run.columns[role]

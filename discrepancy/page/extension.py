@@ -91,7 +91,8 @@ def signal_figure(step: dict[str, Any], place: int = 0) -> Figure:
     rows = step["signals"]
     ratio = {k: [r[k] / r["noise_floor"] if r["noise_floor"] > 0.0 else None for r in rows] for k in ("before", "after")}
     before, after = (
-        [f"{amounts.text(r[k], r['unit'], r['signal'])}, noise {amounts.text(r['noise_floor'], r['unit'], r['signal'])}" for r in rows] for k in ("before", "after")
+        [f"{amounts.text(r[k], r['unit'], r['signal'])}, noise {amounts.text(r['noise_floor'], r['unit'], r['signal'])}" for r in rows]
+        for k in ("before", "after")
     )
     title = f"Step {place}: {ladder.label(step)}" if place else "Error over noise per signal"
     caption = (

@@ -54,7 +54,7 @@ def condition_of(bench: Bench, record: Record) -> Condition:
 def identity(record: Record) -> tuple[Hashable, ...]:
     """What a prediction depends on in a record: equal for runs that repeat each other."""
     axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
-    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
+    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values), record.zero_known
 
 
 def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
@@ -91,9 +91,13 @@ def centred(values: Floats) -> Floats:
     return values - float(values.mean())
 
 
+def from_zero(record: Record, values: Floats) -> Floats:
+    """As counted by the record: from its own mean unless its zero is known."""
+    return centred(values) if record.free_zero else values
+
+
 def transmission_error(bench: Bench, record: Record, values: Values) -> Floats:
-    error = along(bench, record, values, "transmission_error")
-    return centred(error)
+    return from_zero(record, along(bench, record, values, "transmission_error"))
 
 
 def transmission_error_beside(bench: Bench, record: Record, values: Values, base: Values) -> Floats:
@@ -103,7 +107,7 @@ def transmission_error_beside(bench: Bench, record: Record, values: Values, base
         return transmission_error(bench, record, values)
     angles, place = as_turned(bench, record, values)
     error = bench.error_beside(condition, values, angles, base, as_turned(bench, record, base)[0])[place]
-    return centred(error)
+    return from_zero(record, error)
 
 
 def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:

@@ -184,8 +184,10 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
         predicted = np.array([way(r) for r in held]) * (level + shape)
         before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
     lead_name = lead.split(":")[1]
-    return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name,
-                     {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}, forms, before, after, _text(signal, name, lead_name, forms, x_told[2], y_told[1]), x_told, y_told)
+    text = _text(signal, name, lead_name, forms, x_told[2], y_told[1])
+    points = {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}
+    return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name, points, forms, before, after, text,
+                     x_told, y_told)
 
 
 def _told(signal: str, way: str, told: Told) -> tuple[float, str]:
