@@ -217,3 +217,16 @@ def test_only_what_has_a_zero_may_declare_it(tmp_path):
         campaign(tmp_path, {"a": condition()}, [value("input_torque", "1 N.m") + '\nzero = "absolute"'])
     with pytest.raises(InputFault, match="input_torque.*no zero to declare"):
         campaign(tmp_path, {"a": condition() + '\n[quantities.input_torque]\nzero = "free"'}, [value("input_torque", "1 N.m")])
+
+
+def test_repetition_that_stands_out_is_named_with_file_and_size(tmp_path):
+    runs = []
+    for k, span in enumerate((14, 18, 111, 23, 16)):
+        torque = np.concatenate([np.linspace(-100, 100, 60), np.linspace(100, -100, 60)])
+        np.savetxt(tmp_path / f"r{k}.csv", np.column_stack([torque, span * torque / 200.0]), delimiter=",", header="T,phi", comments="")
+        runs.append(
+            f'quantity = "hysteresis"\ncondition = "a"\nreplicate = {k + 1}\ntags.locked = "output"\nfile = "r{k}.csv"\n'
+            'columns.torque = { column = "T", unit = "N.m" }\ncolumns.value = { column = "phi", unit = "arcmin" }'
+        )
+    (found,) = [f for f in campaign(tmp_path, {"a": condition()}, runs).findings if f.code == "outlying repetition"]
+    assert "run r2 (replicate 3, of 5" in found.text and "spans 111 arcmin, the others 14 to 23" in found.text and "r2.csv, column phi [arcmin]" in found.text

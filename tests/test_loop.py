@@ -193,3 +193,13 @@ def test_mean_counts_where_the_zero_is_known(file):
     assert first - first.mean() == pytest.approx(second - second.mean(), abs=1e-12)
     beside = model.predict_beside({"needle_clearance_added": 1e-7}, {}, [1])[0]
     assert beside.mean() == pytest.approx(model.predict({"needle_clearance_added": 1e-7}, [1])[0].mean(), rel=0.01)
+
+
+def test_repetition_that_stands_out_is_shown_by_compare(file):
+    campaign = campaign_of(file, {}, 8)
+    more = [replace(r, name=f"lm{k}", replicate=k, values=np.array(r.values) * (8.0 if k == 5 else 1.0))
+            for k, r in zip((4, 5), [r for r in campaign.records if r.quantity == "lost_motion"])]
+    comparison = compare(file, replace(campaign, records=(*campaign.records, *more)))
+    (found,) = comparison.outlying
+    assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] < 0.5
+    assert any("run lm5" in text and "the model errs there by" in text and "arcmin" in text for text in comparison.warnings)

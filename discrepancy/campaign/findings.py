@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
-from discrepancy.campaign.quantities import QUANTITIES, keys_for
+from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
+from discrepancy.campaign.repetition_words import words
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.repetitions import outlying
 
 PROBLEM, WARNING = "problem", "warning"
 
@@ -196,6 +198,15 @@ def rows(design: Design) -> Iterator[Finding]:
                 )  # fmt: skip
 
 
+def repetitions(design: Design) -> Iterator[Finding]:
+    for found in outlying(design.campaign.records):
+        source = design.campaign.sources.get(found.run, {}).get(VALUE)
+        yield Finding(
+            WARNING, "outlying repetition", words(found) + (f" ({source})" if source else ""),
+            "look at it: clamping, a slip, a wrong file or unit; leave it out or measure it again",
+        )  # fmt: skip
+
+
 def zeros(design: Design) -> Iterator[Finding]:
     for text, remedy in unused_means(design.campaign.records):
         yield Finding(WARNING, "means not used", text, remedy)
@@ -223,4 +234,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, zeros, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, zeros, statements)
