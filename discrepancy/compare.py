@@ -15,6 +15,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
+from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.repetitions import Outlying, outlying
@@ -73,7 +74,8 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
             "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
         })  # fmt: skip
     found = outlying(space.records)
-    warnings = [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
+    warnings = doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found)
 
 

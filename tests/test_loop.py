@@ -203,3 +203,10 @@ def test_repetition_that_stands_out_is_shown_by_compare(file):
     (found,) = comparison.outlying
     assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] < 0.5
     assert any("run lm5" in text and "the model errs there by" in text and "arcmin" in text for text in comparison.warnings)
+
+
+def test_compare_doubts_a_scale_that_no_reducer_has(file):
+    campaign = campaign_of(file, {}, 9)
+    milli = [replace(r, values=1000.0 * np.array(r.values)) if r.quantity == "input_torque" else r for r in campaign.records]
+    warnings = compare(file, replace(campaign, records=tuple(milli))).warnings
+    assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1

@@ -187,9 +187,12 @@ def rows(design: Design) -> Iterator[Finding]:
                     "state unwrap = true in its column",
                 )  # fmt: skip
             elif name == "time" and np.any(np.diff(axis) < 0.0):
+                back = np.flatnonzero(np.diff(axis) < 0.0)
                 yield Finding(
-                    WARNING, "time runs back", f"run {record.name}: time falls {int(np.sum(np.diff(axis) < 0.0))} times",
-                    "split repetitions by where = { ... } into runs of their own",
+                    WARNING, "time runs back",
+                    f"run {record.name}: time{design.campaign.place(record.name, 'time')} falls {len(back)} times, first from {axis[back[0]]:.6g}"
+                    f" to {axis[back[0] + 1]:.6g} s at sample {back[0] + 2}",
+                    "split repetitions by where = { ... } into runs of their own; put shuffled rows into the order of time",
                 )  # fmt: skip
             elif worst_gap(axis) > 10.0:
                 yield Finding(
@@ -200,9 +203,8 @@ def rows(design: Design) -> Iterator[Finding]:
 
 def repetitions(design: Design) -> Iterator[Finding]:
     for found in outlying(design.campaign.records):
-        source = design.campaign.sources.get(found.run, {}).get(VALUE)
         yield Finding(
-            WARNING, "outlying repetition", words(found) + (f" ({source})" if source else ""),
+            WARNING, "outlying repetition", words(found) + design.campaign.place(found.run, VALUE),
             "look at it: clamping, a slip, a wrong file or unit; leave it out or measure it again",
         )  # fmt: skip
 

@@ -106,5 +106,10 @@ class Campaign:
     def held_out(self) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.held_out)
 
+    def place(self, run: str, axis: str) -> str:
+        """Where the numbers of a run's axis (or ``value``) stand, in brackets; empty for records of no file."""
+        source = self.sources.get(run, {}).get(axis)
+        return f" ({source})" if source else ""
+
     def of(self, quantity: str) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.quantity == quantity)
