@@ -4,6 +4,7 @@ Every attempt becomes a step of the model's ladder, those that did not help too.
 runs that the parameters were fitted to is never called a success.
 """
 
+import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -26,6 +27,14 @@ HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 BETTER = 0.97
 # Error over noise that noise alone makes now and then.
 WITHIN_NOISE = 1.3
+
+
+class UnknownEffect(InputFault):
+    """An effect that is not among the candidates; ``nearest`` are names that were perhaps meant, ``name`` what was asked for."""
+
+    def __init__(self, name: str, nearest: list[str], text: str):
+        super().__init__(text)
+        self.name, self.nearest = name, nearest
 
 
 @dataclass(frozen=True)
@@ -90,8 +99,11 @@ def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates of a name: one variant, or all those of an effect."""
     variants = [c for c in candidates if c.name == name] or [c for c in candidates if c.name.partition(".")[0] == name]
     if not variants:
-        known = ", ".join(sorted({c.name for c in candidates}))
-        raise InputFault(f"effect {name!r}: not among those that this campaign can show and the model lacks: {known}")
+        known = sorted({c.name for c in candidates})
+        plain = [*known, *{c.partition(".")[0] for c in known}]
+        nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(name.partition(".")[0], plain, 1)
+        text = f"effect {name!r}: not among those that this campaign can show and the model lacks: {', '.join(known)}"
+        raise UnknownEffect(name, nearest, text + (f"; did you mean {nearest[0]}?" if nearest else ""))
     return variants
 
 

@@ -53,8 +53,8 @@ def torques(design: Design) -> Iterator[Finding]:
         remedy = f'state unit = "{fits}" in its column if that is what it holds' if fits else "correct unit or scale of the column"
         yield Finding(
             WARNING, "impossible torque",
-            f"run {record.name}: the torque reaches {largest:.6g} N.m{campaign.place(record.name, 'torque')}, {largest / rated:.3g} times the rated {rated:.4g} N.m;"
-            f" a reducer takes {MOST_RATED:g} times", remedy,
+            f"run {record.name}: the torque reaches {largest:.6g} N.m{campaign.place(record.name, 'torque')},"
+            f" {largest / rated:.3g} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times", remedy,
         )  # fmt: skip
 
 
@@ -79,8 +79,8 @@ def order_of_rows(design: Design) -> Iterator[Finding]:
             unit = f" {source.unit}" if source.column else ""
             yield Finding(
                 WARNING, "rows out of order",
-                f"run {record.name}: {name}{design.campaign.place(record.name, name)} jumps back and forth {len(at)} times, first from {before:.6g} to {after:.6g}{unit}"
-                f" at sample {first + 2}",
+                f"run {record.name}: {name}{design.campaign.place(record.name, name)} jumps back and forth {len(at)} times,"
+                f" first from {before:.6g} to {after:.6g}{unit} at sample {first + 2}",
                 "export the rows in the order in which they were measured (sort by time); split repetitions by where = { ... }",
             )  # fmt: skip
 
