@@ -72,7 +72,7 @@ def model_of(hidden=None, held=True, extra=None):
                     values = values + extra(load)
                 records.append(replace(record, values=values + size * rng.normal(size=values.size)))
     file = SimpleNamespace(name="gearbox <7>", effects={})
-    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None))
+    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, speed_at="output", ratio=100.0))
 
 
 def compared(model):
@@ -315,3 +315,12 @@ def test_named_but_incomplete_does_not_explain_all(answer, tmp_path):
     page = written(replace(answer, verdict=INCOMPLETE, diagnosis=diagnosis, effects=effects), tmp_path)
     assert not re.search(r"(explains?|is|>) ?100 %", re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL))
     assert "something else is left" in page and "input_torque, value, changing with load" in page
+
+
+def test_speeds_stand_where_the_campaign_states_them(tmp_path):
+    model = model_of({"gap": 2e-6})
+    model.records = [replace(r, factors=r.factors | {"speed": 190.0 + 10.0 * k}) for k, r in enumerate(model.records)]
+    page = written(compared(model), tmp_path)
+    over = next(c for c in figure(page, "run_number_input_torque")["choices"] if "speed" in str(c["layout"]))
+    title = over["layout"]["xaxis"]["title"]
+    assert "output speed [rpm]" in str(title) and 18.0 < over["traces"][0]["x"][0] < 19.0

@@ -9,6 +9,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.problem import Record
+from discrepancy.scales import AXES
 from discrepancy.verdict import told_in
 
 RPM = np.pi / 30.0
@@ -66,4 +67,4 @@ def test_draft_and_page_take_the_law():
     from discrepancy.page import laws as page
 
     (law,) = laws(lambda speed, load: 0.3 * (speed / 2000.0) ** 2)
-    assert page.figures(law) and "SI unit" not in str(page.table(law)) and SimpleNamespace(**law.to_dict())
+    assert page.figures(law, AXES["speed"]) and "SI unit" not in str(page.table(law)) and SimpleNamespace(**law.to_dict())

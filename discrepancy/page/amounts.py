@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.scales import AXES, largest, of_parameter, of_signal
+from discrepancy.scales import AXES, Scale, largest, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
 
@@ -41,15 +41,15 @@ def text(value: float | None, unit: str, signal: str = "") -> str:
     return f"{number(factor * value)} {name}".rstrip()
 
 
-def axis_values(name: str, values: npt.ArrayLike) -> Floats:
-    found = AXES.get(name)
-    plain = np.asarray(values, np.float64)
-    return plain if found is None else found.factor * plain + found.offset
+def axis_values(name: str, values: npt.ArrayLike, speed: Scale = AXES["speed"]) -> Floats:
+    """As the axis' title says; ``speed`` is how the campaign tells one."""
+    scale = speed if name == "speed" else AXES.get(name, Scale())
+    return scale.factor * np.asarray(values, np.float64) + scale.offset
 
 
-def axis_title(name: str) -> str:
+def axis_title(name: str, speed: Scale = AXES["speed"]) -> str:
     unit = pretty(AXES[name].unit) if name in AXES else ""
-    title = TITLES.get(name, name.replace("_", " "))
+    title = "output speed" if name == "speed" and speed != AXES["speed"] else TITLES.get(name, name.replace("_", " "))
     return f"{title} [{unit}]" if unit else title
 
 

@@ -7,6 +7,7 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, U
 from discrepancy.page import amounts, comparison, response
 from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
+from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from pages.content import Card, Page
 from pages.words import number
@@ -15,7 +16,7 @@ from pages.words import number
 def page(answer: Answer) -> Page:
     diagnosis = answer.diagnosis
     space = diagnosis.fits.space
-    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records)))))
+    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records)))), of_axis("speed", answer.model.campaign))
     place = diagnosis.localisation
     localised = comparison.localisation_section(place.get("map", []), place.get("conditions", {}), place.get("level", 0.0))
     laws_found = [recovered(answer)] if answer.verdict in (UNKNOWN, INCOMPLETE) or answer.laws else []

@@ -6,7 +6,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.page import amounts, maps, numbers, panels, series
 from discrepancy.page.runs import Run, by_signal, runs_of
-from discrepancy.scales import of_parameter
+from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -18,7 +18,7 @@ MOST_CARDS = 6
 
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
-    runs = runs_of(space, result.predictions)
+    runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
     sections = [
         errors(result),
         localisation_section(

@@ -6,6 +6,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
+from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from discrepancy.wording import NEARLY_ALL
 from pages import look
@@ -179,7 +180,7 @@ def recovered(answer: Answer) -> Section:
     if not answer.laws:
         lead = "No law was recovered: the campaign has too few points or conditions, or what is left depends on none of them."
         return Section("laws", "The law without a name", lead)
-    figures = [f for law in answer.laws for f in laws.figures(law)]
+    figures = [f for law in answer.laws for f in laws.figures(law, of_axis("speed", answer.model.campaign))]
     lead = "How what is missing depends on the conditions, as curves with 95 % bands and as closed forms. " + " ".join(
         laws.sentence(law) for law in answer.laws
     )

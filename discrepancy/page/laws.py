@@ -7,6 +7,7 @@ from discrepancy.inference.law.recover import Recovered
 from discrepancy.inference.law.splines import Curve
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
+from discrepancy.scales import Scale
 from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Table
@@ -18,7 +19,7 @@ MOST_SHARE_HIDDEN = 0.02
 FORM_COLOUR = "#d55e00"
 
 
-def figures(law: Recovered) -> list[Figure]:
+def figures(law: Recovered, speed: Scale) -> list[Figure]:
     """The leading curve over its points, and the other curves that matter."""
     factor, y_unit = law.y_told
     title = f"misfit / {law.factor}" if law.factor else f"misfit of {amounts.signal_title(law.signal.partition('[')[0])}"
@@ -28,13 +29,13 @@ def figures(law: Recovered) -> list[Figure]:
     others = [c for c in law.curves if c.name != law.leading and c.share > MOST_SHARE_HIDDEN]
     made = [leading(name, law, lead, factor, title, 12 if not others else 8)]
     for curve in others:
-        x = amounts.axis_values(curve.name, curve.x)
+        x = amounts.axis_values(curve.name, curve.x, speed)
         half = 1.96 * factor * curve.deviation
         traces = [
             panels.band(x, factor * curve.y - half, factor * curve.y + half, ""),
             look.line(short(x, 5), short(factor * curve.y, 4), look.NOW, hover="%{y} at %{x}"),
         ]
-        layout = look.layout(xaxis=look.axis(amounts.axis_title(curve.name)), yaxis=look.axis(title))
+        layout = look.layout(xaxis=look.axis(amounts.axis_title(curve.name, speed)), yaxis=look.axis(title))
         made.append(
             Figure(
                 f"{name}_{slug(curve.name)}",
