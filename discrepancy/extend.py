@@ -124,15 +124,18 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
             " measure at a condition that was not used, or mark one as held_out"
         )
+    # Patterns stand out of noise that drowns single samples; then the noise of samples is no measure of them.
+    drowned = bool(judged.rms) and all(row["before"] <= row["floor"] for row in judged.rms.values())
+    measure = "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned else "times the noise"
     if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
         return NOT_PROVEN, (
             f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"
             " they do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
-        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} times the noise"
+        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}"
     return DID_NOT_HELP, (
-        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} times the noise although that on fitted"
+        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
         " runs fell: the effect fits noise or stands for another one; the model stays as it was"
     )
 

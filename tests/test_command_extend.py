@@ -9,7 +9,8 @@ import pytest
 from cli.commands import comparison as commands
 from cli.main import main, parser
 from discrepancy import extend as extension
-from discrepancy.extend import DID_NOT_HELP, Extension, UnknownEffect, variants_of
+from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
+from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.verdict import INCOMPLETE, NONE, SET
 from discrepancy.model_file import load_model
 from discrepancy.problem import Candidate
@@ -70,3 +71,11 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     target = str(tmp_path / "m.toml")
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 1
     assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --anyway"
+
+
+@pytest.mark.parametrize(("floor", "said"), [(3.0, False), (300.0, True)])
+def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, said):
+    judged = HeldOut(28.0, 2.0, 1e-3, {"hysteresis": {"before": 10.0, "after": 1.0, "floor": floor}}, "held-out runs")
+    verdict, reason = verdict_of(judged)
+    assert verdict == HELPED and "28.00 to 2.00" in reason
+    assert ("times the noise" in reason) != said and ("less than their noise" in reason) == said
