@@ -1,7 +1,8 @@
 """Measured numbers whose scale no reducer has: held against the model's prediction, with the unit that would fit."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,13 +29,13 @@ LOOKED_AT = 20.0
 # the error of ideal parts; none is stiffer or better than its contacts (assumed limits).
 NEAR = {"hysteresis": (0.5, 10.0), "lost_motion": (0.5, 10.0), "transmission_error": (0.5, 10.0), "torsional_stiffness": (0.1, 2.0)}
 NEAR_OTHERS = (1.0 / 3.0, 3.0)
-# Off by so many times it is doubted whatever unit it has; wear and vibration hang on coefficients that are hardly known.
+# Off by so many times it is doubted whatever unit it has; wear hangs on coefficients that are hardly known.
 DOUBTED, HARDLY_KNOWN = 100.0, 1000.0
-LOOSE = ("wear_profile", "wear_depth", "mass_loss", "debris_iron", "vibration", "vibration_order", "pin_on_disc_depth", "pin_on_disc_mass")
-# Without friction, which the base model leaves out, there is nothing to compare with.
-NOT_COMPARED = ("no_load_torque", "temperature", "pin_on_disc_friction")
-# So many samples show a scale.
-SAMPLES = 200
+LOOSE = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
+# Without friction and errors of parts, which the base model leaves out, there is nothing to compare with.
+NOT_COMPARED = ("no_load_torque", "temperature", "vibration", "vibration_order")
+# So many samples show a scale; and so many runs of a signal, from all its files.
+SAMPLES, MOST_RUNS = 200, 8
 
 
 @dataclass(frozen=True)
@@ -46,17 +47,17 @@ class Fit:
 
 
 def scale_doubts(campaign: Campaign) -> list[Finding]:
-    """One run of each signal, file and unit against the reducer of the campaign; nothing without a reducer."""
+    """Runs of each signal, from different files, against the reducer of the campaign; nothing without a reducer."""
     if campaign.reducer is None:
         return []
-    chosen: dict[object, Record] = {}
+    chosen: dict[Hashable, dict[str, Record]] = defaultdict(dict)
     # New units first: a worn one costs a life.
-    for record in sorted(campaign.records, key=lambda r: float(np.max(r.axes.get("hours", r.factors.get("hours", 0.0)), initial=0.0))):
+    for record in sorted(campaign.records, key=hours_of):
         if record.quantity not in NOT_COMPARED:
-            chosen.setdefault(kind_of(record, campaign), record)
-    if not chosen:
+            chosen[kind_of(record, campaign)].setdefault(file_of(record, campaign), record)
+    few = tuple(thinned(record) for runs in chosen.values() for record in list(runs.values())[:: -(-len(runs) // MOST_RUNS)])
+    if not few:
         return []
-    few = tuple(thinned(record) for record in chosen.values())
     model = PhysicalModel(ModelFile(campaign.reducer.name, campaign.reducer), replace(campaign, records=few, nuisances=()), zeros={})
     pairs = []
     for k, record in enumerate(model.records):
@@ -69,19 +70,36 @@ def scale_doubts(campaign: Campaign) -> list[Finding]:
 
 
 def doubts_of(pairs: Iterable[tuple[Record, Floats]], campaign: Campaign) -> list[Finding]:
-    """What is doubted of records beside their predictions, once for each signal, file and unit."""
-    found: dict[object, Finding] = {}
+    """What is doubted of records beside their predictions, once for each signal and unit; runs that are off alike are named."""
+    found: dict[Hashable, Finding] = {}
+    alike: dict[Hashable, list[str]] = defaultdict(list)
     for record, predicted in pairs:
-        key = kind_of(record, campaign)
-        if key not in found and (doubted := doubt(record, predicted, campaign.sources)) is not None:
+        if (doubted := doubt(record, predicted, campaign.sources)) is None:
+            continue
+        key = (kind_of(record, campaign), doubted.remedy)
+        if key in found:
+            alike[key].append(record.name)
+        else:
             found[key] = doubted
-    return list(found.values())
+    return [
+        replace(f, text=f.text + (f"; alike {', '.join(alike[key][:MOST_RUNS])}{' ...' if len(alike[key]) > MOST_RUNS else ''}" if alike[key] else ""))
+        for key, f in found.items()
+    ]
 
 
-def kind_of(record: Record, campaign: Campaign) -> object:
-    """Equal for runs whose numbers have one scale."""
+def hours_of(record: Record) -> float:
+    return float(np.max(record.axes.get("hours", record.factors.get("hours", 0.0)), initial=0.0))
+
+
+def kind_of(record: Record, campaign: Campaign) -> Hashable:
+    """Equal for runs whose numbers are of one signal in one unit."""
     source = campaign.sources.get(record.name, {}).get(VALUE)
-    return (record.quantity, *sorted(record.tags.items()), source and source.file, source and source.unit)
+    return (record.quantity, *sorted(record.tags.items()), source and source.unit)
+
+
+def file_of(record: Record, campaign: Campaign) -> str:
+    source = campaign.sources.get(record.name, {}).get(VALUE)
+    return source.file if source else ""
 
 
 def thinned(record: Record) -> Record:
@@ -145,7 +163,7 @@ def readable(times: float) -> str:
 
 def remedy_of(best: Fit | None, fits: Sequence[Fit], stated: str, si: str) -> str:
     if best is None:
-        nearest = ", ".join(f"in {f.unit} it would be {readable(f.times)} it" for f in fits[:2])
+        nearest = ", ".join(f"in {f.unit} it would be {readable(f.times)} the prediction" for f in fits[:2])
         return "look at unit and scale of the column" + (f" ({nearest})" if nearest else "")
     factor = conversion(stated, si)[0] / conversion(best.unit, si)[0]
     factor = max(factor, 1.0 / factor)

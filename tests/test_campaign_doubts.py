@@ -47,6 +47,13 @@ def test_soft_drive_in_degrees_is_doubted_though_no_unit_is_near(tmp_path):
     assert "look at unit and scale" in found.remedy and "in arcmin it would be" in found.remedy
 
 
+def test_runs_that_are_off_alike_are_one_doubt(tmp_path):
+    runs = [loop_file(tmp_path, unit="deg", name=f"{k}.csv") + f"\nreplicate = {k}" for k in (1, 2, 3)]
+    campaign(tmp_path, {"a": condition()}, [*runs, loop_file(tmp_path, name="right.csv") + "\nreplicate = 4"])
+    (found,) = scale_doubts(load_campaign(tmp_path))
+    assert "1.csv" in found.text and found.text.endswith("alike r1, r2")
+
+
 def test_factors_between_units():
     assert fitting(206265.0, "rad", "rad")[0].unit == "arcsec"
     assert fitting(57.3, "rad", "rad")[0].unit == "deg" and fitting(1000.0, "mm", "m")[0].unit == "um"

@@ -83,7 +83,7 @@ def cards(step: dict[str, Any]) -> list[Card]:
         if before is not None and after is not None:
             shown = key != "training" and step["verdict"] == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "times noise", tone))
+            made.append(Card(text, number(after), note, number(before), "1: noise alone" if key == "held_out_error" else "times noise", tone))
     return made
 
 
