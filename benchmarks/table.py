@@ -54,14 +54,14 @@ def figure_rows(found: dict[str, Measured]) -> list[tuple[str, ...]]:
 
 
 def show(found: dict[str, Measured]) -> None:
-    console = Console(width=max(Console().width, 190))
+    console = Console(width=max(Console().width, 190), markup=False)
     for title, heads, rows in (("cost of others over ours", RATIO_HEADS, ratio_rows(found)), ("figures", FIGURE_HEADS, figure_rows(found))):
         table = rich.table.Table(title=title, title_justify="left")
         for head in heads:
             table.add_column(head, justify="right" if head in NUMBERS else "left")
         for row in rows:
             table.add_row(*row)
-        console.print(table, markup=False) if rows else None
+        console.print(table) if rows else None
 
 
 def write(found: dict[str, Measured], machine: dict[str, str | float], quick: bool, output: Path) -> None:

@@ -13,7 +13,7 @@ class Rows(Progress):
 
     def __init__(self) -> None:
         self.rows: dict[Task, TaskID] = {}
-        super().__init__(TextColumn("{task.fields[text]}"), BarColumn(), console=Console(stderr=True), transient=True)
+        super().__init__(TextColumn("{task.fields[text]}", markup=False), BarColumn(), console=Console(stderr=True), transient=True)
 
     def get_renderable(self) -> RenderableType:
         for task, row in list(self.rows.items()):

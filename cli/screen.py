@@ -5,8 +5,22 @@ from collections.abc import Mapping
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from studies.figure_units import figure_unit
+
+
+def console(width: int = 0) -> Console:
+    """Prints texts as they are: ``[disc=1]`` of a signal's name is no markup, ``:gear:`` no picture.
+
+    ``width``: the least, where the output goes to a file too; what is to stand out is made by ``styled``.
+    """
+    return Console(width=max(Console().width, width), markup=False, highlight=False, emoji=False)
+
+
+def styled(*parts: str | tuple[str, str]) -> Text:
+    """A line of texts; those with a style are given with it."""
+    return Text.assemble(*parts)
 
 
 def json_text(content: Mapping[str, object]) -> None:
@@ -24,4 +38,4 @@ def figures(title: str, values: Mapping[str, object]) -> None:
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
         unit = figure_unit(name)
         table.add_row(name, text, "" if unit == "1" else unit)
-    Console().print(table)
+    console().print(table)

@@ -2,19 +2,24 @@
 
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
+from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.repetitions import Outlying, outlying
+from discrepancy.scales import shown
 from fmu_src.arrays import Floats
 
 # A run whose error is this many times its noise is worth a look.
@@ -37,11 +42,13 @@ class Comparison:
     nuisances: dict[str, float]
     warnings: list[str]
     predictions: list[Floats]
+    outlying: list[Outlying] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         return {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": self.signals, "runs": self.runs,
             "nuisances": self.nuisances, "warnings": self.warnings, "not_predicted": self.model.unpredicted,
+            "outlying": [asdict(o) | {"weight": o.weight} for o in self.outlying],
             "localisation": self.diagnostician.localisation.to_dict(),
         }  # fmt: skip
 
@@ -66,8 +73,19 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
             "held_out": record.held_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),
             "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
         })  # fmt: skip
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values),
-                      warnings_of(model, list(space.noise.warnings)), predictions)
+    found = outlying(space.records)
+    doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
+    warnings = doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found)
+
+
+def outlier_text(found: Outlying, runs: list[dict[str, Any]]) -> str:
+    """A repetition that stands out, and what the model makes of it and of the others."""
+    alike = [r for r in runs if r["signal"] == found.signal and r["condition"] == found.condition]
+    own = [r["error"] for r in alike if r["run"] == found.run]
+    rest = [r["error"] for r in alike if r["run"] != found.run]
+    errors = [shown(v, found.unit, found.signal) for v in (*own, min(rest), max(rest))] if own and rest else []
+    return words(found) + (f"; the model errs there by {errors[0]}, in the others by {errors[1]} to {errors[2]}" if errors else "")
 
 
 def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -92,6 +110,7 @@ def rms(values: Iterable[float]) -> float:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
+    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

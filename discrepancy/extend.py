@@ -4,6 +4,7 @@ Every attempt becomes a step of the model's ladder, those that did not help too.
 runs that the parameters were fitted to is never called a success.
 """
 
+import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -26,6 +27,14 @@ HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 BETTER = 0.97
 # Error over noise that noise alone makes now and then.
 WITHIN_NOISE = 1.3
+
+
+class UnknownEffect(InputFault):
+    """An effect that is not among the candidates; ``nearest`` are names that were perhaps meant, ``name`` what was asked for."""
+
+    def __init__(self, name: str, nearest: list[str], text: str):
+        super().__init__(text)
+        self.name, self.nearest = name, nearest
 
 
 @dataclass(frozen=True)
@@ -90,8 +99,11 @@ def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates of a name: one variant, or all those of an effect."""
     variants = [c for c in candidates if c.name == name] or [c for c in candidates if c.name.partition(".")[0] == name]
     if not variants:
-        known = ", ".join(sorted({c.name for c in candidates}))
-        raise InputFault(f"effect {name!r}: not among those that this campaign can show and the model lacks: {known}")
+        known = sorted({c.name for c in candidates})
+        plain = [*known, *{c.partition(".")[0] for c in known}]
+        nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(name.partition(".")[0], plain, 1)
+        text = f"effect {name!r}: not among those that this campaign can show and the model lacks: {', '.join(known)}"
+        raise UnknownEffect(name, nearest, text + (f"; did you mean {nearest[0]}?" if nearest else ""))
     return variants
 
 
@@ -112,15 +124,18 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
             " measure at a condition that was not used, or mark one as held_out"
         )
+    # Patterns stand out of noise that drowns single samples; then the noise of samples is no measure of them.
+    drowned = bool(judged.rms) and all(row["before"] <= row["floor"] for row in judged.rms.values())
+    measure = "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned else "times the noise"
     if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
         return NOT_PROVEN, (
             f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"
             " they do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
-        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} times the noise"
+        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}"
     return DID_NOT_HELP, (
-        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} times the noise although that on fitted"
+        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
         " runs fell: the effect fits noise or stands for another one; the model stays as it was"
     )
 

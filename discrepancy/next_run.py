@@ -1,8 +1,8 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from itertools import product
+from dataclasses import dataclass, field, replace
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -10,14 +10,16 @@ import numpy as np
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.next_experiment import Experiment, NextExperiment, RivalLaw, next_experiment, rival_of
+from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
+from discrepancy.inference.noise.noise import noise_key
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.verdict import Settings
+from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.scales import of_axis, shown, speed_words
 from discrepancy.verdict import Answer, diagnose
 from fmu_src.arrays import Floats
 from studies.hysteresis import torque_way
@@ -30,6 +32,9 @@ LEVELS = 3
 ANGLES = 400
 LOOP_STEPS = 9
 MOST_RIVALS = 4
+# What a rig can set, so that a misfit over it can be asked for; lines of such questions, and values named in one.
+FACTORS_SET = ("speed", "load", "temperature", "hours")
+MOST_OPEN, MOST_TEXTS = 4, 6
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {
     "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
@@ -52,31 +57,47 @@ class Measurement(Experiment):
 
 @dataclass(frozen=True)
 class NextRun:
-    """``proposals`` best first; ``rivals`` are what they separate."""
+    """``proposals`` best first; ``rivals`` are what they separate; ``open``: what shows a misfit better that nothing explains."""
 
     answer: Answer
     result: NextExperiment | None
     rivals: list[str]
     verdict: str
+    open: list[str] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         plain = self.result.to_dict() if self.result else {"separable": None, "proposals": [], "at_stake": {}}
-        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict}
+        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open}
+
+    def stakes(self) -> dict[str, str]:
+        """By which the rivals differ where the reducer is used, in the unit of each signal."""
+        signals = {name: name.partition(" at ")[0] for name in (self.result.at_stake if self.result else {})}
+        return {
+            name: shown(size, QUANTITIES[signals[name].partition("[")[0]].unit, signals[name])
+            for name, size in (self.result.at_stake.items() if self.result else ())
+        }
 
 
 def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
     """Diagnose, and propose what to measure next."""
-    answer = diagnose(file, campaign, settings, jobs=jobs)
+    return proposal_for(diagnose(file, campaign, settings, jobs=jobs), campaign)
+
+
+def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
+    """What to measure next after a diagnosis."""
     fits = answer.diagnosis.fits
     members = fits.members or fits.rivals[:MOST_RIVALS]
     names: dict[str, Refit] = {}
     for member in members:
         # Variants of one effect need no separation: the effect is known.
         names.setdefault(member.name.partition(".")[0], member)
+    unexplained = answer.verdict in (INCOMPLETE, UNKNOWN)
+    left = open_questions(answer, campaign) if unexplained else []
+    known = " and ".join(names) if fits.members else ""
+    start = f"{f'beside {known} ' if known else ''}something is left that no effect of the catalogue explains" if unexplained else ""
     if len(names) < 2:
-        known = next(iter(names), None)
-        text = f"nothing is left to separate: {known} stands alone" if known else "nothing is left to separate: no effect was found"
-        return NextRun(answer, None, list(names), text)
+        text = start or (f"nothing is left to separate: {known} stands alone" if known else "nothing is left to separate: no effect was found")
+        return NextRun(answer, None, list(names), text, left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     rivals = [rival_of(member, None, least) for member in chosen]
@@ -85,8 +106,40 @@ def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:
         return answer.model.one(experiment.record, {**answer.model.zeros, **values})
 
-    result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model))
-    return NextRun(answer, result, [r.name for r in rivals], result.verdict)
+    def naming(p: Proposal) -> str:
+        return f"{p.kind} at {describe(p.settings, campaign, p.spans)}"
+
+    result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
+    verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
+    return NextRun(answer, result, [r.name for r in rivals], verdict, left)
+
+
+def open_questions(answer: Answer, campaign: Campaign) -> list[str]:
+    """Where a misfit that nothing explains should be measured: at the widest gaps of what it changes with."""
+    findings = answer.diagnosis.leftover.get("findings") or answer.diagnosis.localisation.get("findings", [])
+    pairs = [(f["signal"], f["dependence"]) for f in findings]
+    pairs += [(law.signal, law.leading) for law in answer.laws]
+    texts = []
+    for signal, name in dict.fromkeys(pairs):
+        if name == "everywhere":
+            texts.append(f"{signal}: off at all conditions alike; mount sensor and unit anew and repeat, to tell the bench from the reducer")
+        elif name in FACTORS_SET:
+            texts.append(gap_text(signal, name, answer.model, campaign))
+    return list(dict.fromkeys(texts))[:MOST_OPEN] or [
+        "what is left shows no place and no dependence: repeat the runs that are off, and measure at conditions between those that there are"
+    ]
+
+
+def gap_text(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -> str:
+    """The value of a factor furthest from those at which the signal was measured, within the rig's limits."""
+    seen = [v for r in model.records if stream_of(r) == signal for v in np.atleast_1d(r.axes.get(name, r.factors.get(name, np.nan)))]
+    measured = sorted({float(v) for v in seen if np.isfinite(v)})
+    low, high = limits(name, model, campaign.rig, campaign)
+    ends = [v for v in (low, high) if low <= high]
+    trials = ends + [0.5 * (a + b) for a, b in pairwise(measured)]
+    best = max(trials, key=lambda v: min((abs(v - m) for m in measured), default=0.0), default=low)
+    texts = list(dict.fromkeys(describe({name: v}, campaign) for v in measured))
+    return f"{signal} at {describe({name: best}, campaign)}: what is left changes with {name}, measured at {', '.join(texts[:MOST_TEXTS])}"
 
 
 def at_rated(model: PhysicalModel) -> list[Measurement]:
@@ -96,7 +149,7 @@ def at_rated(model: PhysicalModel) -> list[Measurement]:
         rated = {"speed": model.bench.rated_speed, "load": model.bench.rated_load, "temperature": 293.15}
         if record.quantity in AGED:
             rated["hours"] = 6000.0 * HOUR
-        found[stream_of(record)] = Measurement(f"{stream_of(record)} at {describe(rated)}", 0.0, record=blank(record, rated))
+        found[stream_of(record)] = Measurement(f"{stream_of(record)} at {describe(rated, model.campaign)}", 0.0, record=blank(record, rated))
     return list(found.values())
 
 
@@ -116,18 +169,26 @@ def possible(model: PhysicalModel, campaign: Campaign, space: Workspace) -> list
     for signal, example in signals.items():
         if example.quantity not in measured:
             continue
-        stream = space.noise.streams.get(signal)
+        # Single numbers share the noise of their quantity, whatever part they are of.
+        stream = space.noise.streams.get(noise_key(example))
         for condition in conditions(example, model, rig, campaign):
             record = blank(example, condition)
             hours = condition.get("hours", 0.0) if example.quantity in AGED else 0.0
             run_cost, hour_cost = (rig.cost_per_run, rig.cost_per_hour) if rig else (1.0, 0.01)
             cost = REPEATS * run_cost + hour_cost * hours / HOUR
-            noise = stream.scale * correlation_loss(stream, record) if stream else UNMEASURED[example.quantity]
+            noise = noise_of(stream, record, model) if stream else UNMEASURED[example.quantity]
             found.append(Measurement(
-                f"{signal} at {describe(condition)}", cost, noise / np.sqrt(REPEATS),
-                settings=condition, record=record,
+                f"{signal} at {describe(condition, campaign)}", cost, noise / np.sqrt(REPEATS),
+                settings=condition, record=record, kind=signal,
             ))  # fmt: skip
     return found
+
+
+def noise_of(stream: StreamNoise, record: Record, model: PhysicalModel) -> Floats | float:
+    """Standard deviation of each sample as good as independent, in SI."""
+    if stream.proportional:
+        return stream.scale * np.maximum(np.abs(model.one(record, model.standing())), stream.floor)
+    return stream.scale * correlation_loss(stream, record)
 
 
 def correlation_loss(stream: StreamNoise, record: Record) -> float:
@@ -175,9 +236,14 @@ def blank(example: Record, condition: dict[str, float]) -> Record:
     return replace(example, name="proposed", values=np.zeros(size), axes=axes, factors=factors, held_out=False)
 
 
-def describe(condition: dict[str, float]) -> str:
-    texts = {
-        "speed": lambda v: f"{v * 60.0 / (2.0 * np.pi):.0f} rpm", "load": lambda v: f"{v:.0f} N m",
-        "temperature": lambda v: f"{v - 273.15:.0f} degC", "hours": lambda v: f"{v / HOUR:.0f} h",
-    }  # fmt: skip
-    return ", ".join(texts[k](v) for k, v in condition.items())
+def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[str, tuple[float, float]] | None = None) -> str:
+    """Settings as the campaign states them; those that make no difference with their span."""
+    return ", ".join(setting_text(name, (spans or {}).get(name, (value, value)), campaign) for name, value in condition.items())
+
+
+def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> str:
+    scale = of_axis(name, campaign)
+    low, high = (f"{scale.number(v):{'.3g' if 0.0 < abs(scale.number(v)) < 10.0 else '.0f'}}" for v in span)
+    where = f" at the {speed_words(campaign)}" if name == "speed" else ""
+    unit = "" if scale.unit == "1" else f" {scale.unit}"
+    return f"{low}{unit}{where}" if low == high else f"any {name} from {low} to {high}{unit}{where}"

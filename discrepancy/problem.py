@@ -11,6 +11,9 @@ from typing import Protocol, runtime_checkable
 from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 
+# Quantities whose zero nobody knows unless it is said: an encoder starts anywhere.
+FREE_ZERO = ("transmission_error", "hysteresis")
+
 
 @dataclass(frozen=True)
 class Record:
@@ -23,7 +26,8 @@ class Record:
     Runs with one ``condition`` and different ``replicate`` repeat each other; runs with one
     ``mounting`` share its phases.  ``held_out`` runs are never used for fitting.
     ``stated_noise`` is the standard deviation that the campaign states, if it does.
-    ``tags`` say what is meant (surface, disc, crank, lobe ...).
+    ``tags`` say what is meant (surface, disc, crank, lobe ...).  ``zero_known``: the mean counts, too, of a quantity whose
+    zero is free otherwise.
     """
 
     name: str
@@ -38,6 +42,12 @@ class Record:
     held_out: bool = False
     stated_noise: float | None = None
     tags: Mapping[str, str] = field(default_factory=dict)
+    zero_known: bool = False
+
+    @property
+    def free_zero(self) -> bool:
+        """Whether the mean of its values says nothing."""
+        return self.quantity in FREE_ZERO and not self.zero_known
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,106 @@
-"""SI values in the units that a bench uses."""
+"""SI values in the units that a bench uses; what is computed stays in SI."""
 
+import math
+from dataclasses import dataclass
+
+from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
-from fmu_src.units import conversion
+from fmu_src.units import UnitError, conversion, parse, registry
 
-USUAL = {q.unit: q.usual_unit for q in QUANTITIES.values() if q.usual_unit not in ("arcmin", "1/min")}
+# What numbers of no one quantity are shown in, by their SI unit.
+USUAL = {
+    "m": "um", "m/s^2": "m/s^2", "kg": "mg", "rad/s": "rpm", "N.m/rad": "N.m/arcmin", "rad/(N.m)": "arcmin/(N.m)", "kg.m": "g.mm",
+}  # fmt: skip
+# Units of two parts that read well with a prefix.
+PREFIXED = ("m/N", "N/m", "m/s")
+ABSOLUTE_ZERO = -273.15
+# From here on a number in kelvin is a temperature and no difference of two: no test rig warms by so much (assumed).
+TEMPERATURE = 150.0
+ARCMIN, DEGREE = math.pi / 180.0 / 60.0, math.pi / 180.0
+# An angle is told in the next larger unit from this many on.
+MANY = 120.0
 
 
-def shown(value: float, unit: str) -> str:
-    """``value`` [unit] with three digits in the usual unit; differences of temperature stay in kelvin."""
-    usual = USUAL.get(unit, unit)
-    if usual in ("degC", unit):
-        return f"{value:.3g} {'' if unit == '1' else unit}".rstrip()
-    factor, _ = conversion(unit, usual)
-    return f"{factor * value:.3g} {usual}"
+@dataclass(frozen=True)
+class Scale:
+    """A way to tell an SI value: ``factor * value + offset`` in ``unit``."""
+
+    factor: float = 1.0
+    unit: str = "1"
+    offset: float = 0.0
+
+    def number(self, value: float) -> float:
+        return self.factor * value + self.offset
+
+    def text(self, value: float, digits: int = 3) -> str:
+        return f"{self.number(value):.{digits}g} {'' if self.unit == '1' else self.unit}".rstrip()
+
+
+def of_signal(signal: str, unit: str) -> Scale:
+    """Of a difference of a signal (``quantity[tags]``, its SI unit), in its quantity's usual unit; temperatures in kelvin."""
+    quantity = QUANTITIES.get(signal.partition("[")[0])
+    usual = quantity.usual_unit if quantity and quantity.unit == unit else "arcsec" if unit == "rad" else USUAL.get(unit, unit)
+    return Scale(1.0, unit) if usual in ("degC", unit) else Scale(conversion(unit, usual)[0], usual)
+
+
+def of_parameter(size: float, unit: str) -> Scale:
+    """Of a parameter of about ``size`` (SI): the field's unit, or the SI unit with a prefix; pint knows them."""
+    if unit == "rad":
+        usual = "arcsec" if size < MANY * ARCMIN / 60.0 else "arcmin" if size < MANY * ARCMIN else "deg"
+        return Scale(conversion(unit, usual)[0], usual)
+    if unit == "K":
+        return Scale(1.0, "degC", ABSOLUTE_ZERO) if size > TEMPERATURE else Scale(1.0, unit)
+    if unit == "s" and size >= 3600.0:
+        return Scale(1.0 / 3600.0, "h")
+    if unit in USUAL:
+        return Scale(conversion(unit, USUAL[unit])[0], USUAL[unit])
+    try:
+        quantity = registry().Quantity(size, parse(unit))
+    except UnitError:
+        return Scale(1.0, unit)
+    if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):
+        return Scale(1.0, unit)
+    if unit.startswith("1/"):
+        # 1/GK and the like are nobody's units.
+        return Scale(1.0, unit)
+    compact = quantity.to_compact()
+    return Scale(float(compact.magnitude / size), f"{compact.units:~P}")
+
+
+# Axes and factors as one reads them; a speed as the campaign states it.
+AXES = {
+    "speed": Scale(30.0 / math.pi, "rpm"), "load": Scale(1.0, "N.m"), "temperature": Scale(1.0, "degC", ABSOLUTE_ZERO),
+    "hours": Scale(1.0 / 3600.0, "h"), "angle": Scale(1.0 / DEGREE, "deg"), "depth_angle": Scale(1.0 / DEGREE, "deg"),
+    "torque": Scale(1.0, "N.m"), "time": Scale(1.0, "s"), "normal_force": Scale(1.0, "N"), "sliding_speed": Scale(1.0, "m/s"),
+    "sliding_distance": Scale(1.0, "m"),
+}  # fmt: skip
+
+
+def of_axis(name: str, campaign: Campaign | None = None) -> Scale:
+    """Of an axis or a factor; its speed counts at the output where the campaign states it there."""
+    scale = AXES.get(name, Scale())
+    if name == "speed" and campaign is not None and campaign.speed_at == "output" and campaign.ratio:
+        return Scale(scale.factor / campaign.ratio, scale.unit)
+    return scale
+
+
+def speed_words(campaign: Campaign) -> str:
+    """Where its speeds are counted: at input or output."""
+    return "output" if campaign.speed_at == "output" and campaign.ratio else "input"
+
+
+def shown(value: float, unit: str, signal: str = "") -> str:
+    """A difference of a signal [``unit``, SI] with three digits."""
+    return of_signal(signal, unit).text(value)
+
+
+def parameter_texts(value: float, interval: tuple[float, float], unit: str) -> tuple[str, str, str]:
+    """(value, interval, unit) of an estimate, all in one unit."""
+    scale = of_parameter(largest(value, *interval), unit)
+    low, high = (f"{scale.number(v):.4g}" for v in interval)
+    return f"{scale.number(value):.4g}", f"{low} to {high}", "" if scale.unit == "1" else scale.unit
+
+
+def largest(*values: float) -> float:
+    """The largest size among finite numbers; 0 without any."""
+    return max((abs(v) for v in values if math.isfinite(v)), default=0.0)

@@ -4,6 +4,7 @@ The statistics speaks of candidates; several can be variants of one effect (a pi
 centre, or oval).  Here they are put together under the effect's name.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,10 +13,12 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.compare import warnings_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import Recovered, recover
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.scales import of_axis, of_signal, speed_words
 
 
 @dataclass(frozen=True)
@@ -58,9 +61,21 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         space = found.fits.space
         fit = found.fits.members[0].fit if found.fits.members else space.base
         touched = {finding["signal"] for finding in found.localisation["findings"]}
-        laws = recover(space, fit, sorted(touched) or None)
+        laws = recover(space, fit, sorted(touched) or None, told_in(model))
     warnings = warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, effects, confusable, laws, list(dict.fromkeys(warnings)))
+
+
+def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:
+    """Units of axes, factors and signals as the campaign and the field have them, for laws."""
+    units = {stream_of(r): r.unit for r in model.records}
+
+    def told(name: str) -> tuple[float, float, str]:
+        scale = of_signal(name, units[name]) if name in units else of_axis(name, model.campaign)
+        where = f" at the {speed_words(model.campaign)}" if name == "speed" else ""
+        return scale.factor, scale.offset, "" if scale.unit == "1" else scale.unit + where
+
+    return told
 
 
 def merged(effects: list[dict[str, Any]], verdict: str) -> list[dict[str, Any]]:

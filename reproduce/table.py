@@ -4,6 +4,7 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Audited, Claim, Number
 
@@ -28,7 +29,7 @@ def audited_text(number: Number) -> str:
 
 def print_table(claims: list[Claim]) -> None:
     """One row per claim, and below what the independent check does not confirm."""
-    console = Console(width=max(Console().width, 130))
+    console = Console(width=max(Console().width, 130), markup=False)
     table = Table(title="Claims of the sources against the computation", title_justify="left", show_lines=True)
     for head in ("id", "claim", "verdict", "why"):
         table.add_column(head, ratio={"claim": 3, "verdict": 2, "why": 7}.get(head))
@@ -36,7 +37,7 @@ def print_table(claims: list[Claim]) -> None:
         verdict = claim.verdict if claim.stands else f"{claim.verdict}: NO LONGER CARRIED BY THE NUMBERS"
         condition = f"{claim.condition}. " if claim.condition else ""
         condition = f"Condition: {condition}" if condition else ""
-        table.add_row(claim.id, claim.title, f"[{STYLES[claim.verdict]}]{verdict}[/]", condition + claim.why)
+        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.verdict]), condition + claim.why)
     console.print(table)
     counts = {verdict: sum(c.verdict == verdict for c in claims) for verdict in VERDICTS}
     console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)

@@ -189,3 +189,44 @@ def test_commands(tmp_path, capsys):
         command("template", str(tmp_path / "other"), "--quantities", "noise")
     with pytest.raises(InputFault, match="--format xls: choose one of csv, parquet"):
         command("template", str(tmp_path / "other"), "--format", "xls")
+
+
+def lagging(folder, more: str, keys: str = ""):
+    """A transmission error of 1 arcsec about a lag of 30."""
+    run = angle_file(folder, "te.csv", 1.0, 100)
+    table = np.loadtxt(folder / "te.csv", delimiter=",", skiprows=1)
+    np.savetxt(folder / "te.csv", table - [0.0, 30.0], delimiter=",", header="phi,te", comments="")
+    return campaign(folder, {"a": condition() + more}, [f'condition = "a"\n{keys}{run}'])
+
+
+def test_means_that_are_not_used_are_said_with_their_size(tmp_path):
+    check = lagging(tmp_path, "")
+    found = next(f for f in check.findings if f.code == "means not used")
+    assert "a mean of -30" in found.text and "arcsec" in found.text and 'zero = "absolute" in [quantities.transmission_error]' in found.remedy
+    assert check.campaign.records[0].free_zero
+
+
+@pytest.mark.parametrize(("more", "keys"), [('\n[quantities.transmission_error]\nzero = "absolute"', ""), ("", 'zero = "absolute"\n')])
+def test_a_zero_that_is_known_makes_the_mean_count(tmp_path, more, keys):
+    check = lagging(tmp_path, more, keys)
+    assert "means not used" not in codes(check) and not check.campaign.records[0].free_zero
+
+
+def test_only_what_has_a_zero_may_declare_it(tmp_path):
+    with pytest.raises(InputFault, match=r"runs\[1\] \(r0\)\.zero = 'absolute': input_torque has no zero"):
+        campaign(tmp_path, {"a": condition()}, [value("input_torque", "1 N.m") + '\nzero = "absolute"'])
+    with pytest.raises(InputFault, match="input_torque.*no zero to declare"):
+        campaign(tmp_path, {"a": condition() + '\n[quantities.input_torque]\nzero = "free"'}, [value("input_torque", "1 N.m")])
+
+
+def test_repetition_that_stands_out_is_named_with_file_and_size(tmp_path):
+    runs = []
+    for k, span in enumerate((14, 18, 111, 23, 16)):
+        torque = np.concatenate([np.linspace(-100, 100, 60), np.linspace(100, -100, 60)])
+        np.savetxt(tmp_path / f"r{k}.csv", np.column_stack([torque, span * torque / 200.0]), delimiter=",", header="T,phi", comments="")
+        runs.append(
+            f'quantity = "hysteresis"\ncondition = "a"\nreplicate = {k + 1}\ntags.locked = "output"\nfile = "r{k}.csv"\n'
+            'columns.torque = { column = "T", unit = "N.m" }\ncolumns.value = { column = "phi", unit = "arcmin" }'
+        )
+    (found,) = [f for f in campaign(tmp_path, {"a": condition()}, runs).findings if f.code == "outlying repetition"]
+    assert "run r2 (replicate 3, of 5" in found.text and "spans 111 arcmin, the others 14 to 23" in found.text and "r2.csv, column phi [arcmin]" in found.text

@@ -16,7 +16,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import NONE, ONE, SET, UNKNOWN
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, UNKNOWN
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
@@ -72,7 +72,7 @@ def model_of(hidden=None, held=True, extra=None):
                     values = values + extra(load)
                 records.append(replace(record, values=values + size * rng.normal(size=values.size)))
     file = SimpleNamespace(name="gearbox <7>", effects={})
-    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None))
+    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, speed_at="output", ratio=100.0))
 
 
 def compared(model):
@@ -235,7 +235,7 @@ def test_law_without_a_name(tmp_path):
     assert {t["name"] for t in curve["data"]} >= {"95 %", "measured, averaged", "curve"}
     bare = replace(found, laws=[], diagnosis=replace(found.diagnosis, rejected=[], localisation={"findings": [], "map": [], "conditions": {}, "level": 0.001}))
     empty = written(bare, tmp_path)
-    assert "too few points or conditions to recover a law" in empty and "No rival came near" in empty
+    assert "No law was recovered" in empty and "No rival came near" in empty
 
 
 def test_ladder_shows_steps_that_did_not_help(tmp_path):
@@ -262,7 +262,7 @@ def test_next_experiment(answer, tmp_path):
                  Proposal("input_torque at 900 rpm, 20 degC", {}, 100.0, 2.0, 0.001, {"a ~ b": 0.001, "a ~ c": 4.0})]  # fmt: skip
     found = NextExperiment(True, "input_torque at 500 rpm, 20 degC separates all rivals", proposals, {"input_torque at 500 rpm, 20 degC": 0.25})
     page = written(NextRun(answer, found, ["a", "b", "c"], found.verdict), tmp_path)
-    assert "1 of 2 possible experiments" in page and "0.250 N·m" in page and "&lt; 0.01" in page
+    assert "1 of 2 possible experiments" in page and "0.25 N·m" in page and "&lt; 0.01" in page
     cost, least = figure(page, "ranking")["data"]
     assert cost["x"] == [300, 100] and least["x"] == [12.5, 0]
     nothing = written(NextRun(answer, None, ["clearance"], "nothing is left to separate: clearance stands alone"), tmp_path)
@@ -299,3 +299,28 @@ def test_orders_have_their_amplitudes():
 def test_other_results_have_no_page(tmp_path):
     with pytest.raises(TypeError, match="Comparison"):
         write_page(object(), tmp_path / "x.html")
+
+
+def test_nothing_is_green_that_no_unused_run_has_shown(answer, tmp_path):
+    assert 'class="card good"' in written(answer, tmp_path)
+    for result in (compared(model_of(held=False)), diagnosed(model_of({"gap": 1e-5}, held=False)), diagnosed(model_of(held=False))):
+        page = written(result, tmp_path)
+        assert 'class="card good"' not in page and "#00705a" not in json.dumps(figures_of(page)) and "#e6f3ec" not in page
+
+
+def test_named_but_incomplete_does_not_explain_all(answer, tmp_path):
+    left = {"findings": [{"signal": "input_torque", "feature": "value", "dependence": "load", "p": 1e-8}]}
+    diagnosis = replace(answer.diagnosis, verdict=INCOMPLETE, captured=0.999, leftover=left)
+    effects = [answer.effects[0] | {"share_explained": 0.999}]
+    page = written(replace(answer, verdict=INCOMPLETE, diagnosis=diagnosis, effects=effects), tmp_path)
+    assert not re.search(r"(explains?|is|>) ?100 %", re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL))
+    assert "something else is left" in page and "input_torque, value, changing with load" in page
+
+
+def test_speeds_stand_where_the_campaign_states_them(tmp_path):
+    model = model_of({"gap": 2e-6})
+    model.records = [replace(r, factors=r.factors | {"speed": 190.0 + 10.0 * k}) for k, r in enumerate(model.records)]
+    page = written(compared(model), tmp_path)
+    over = next(c for c in figure(page, "run_number_input_torque")["choices"] if "speed" in str(c["layout"]))
+    title = over["layout"]["xaxis"]["title"]
+    assert "output speed [rpm]" in str(title) and over["traces"][0]["x"][0] == pytest.approx(19.1, abs=0.01)

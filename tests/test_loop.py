@@ -178,3 +178,35 @@ def test_unknown_nuisance_is_refused(file, wide):
     vague = Nuisance(Parameter("bearing_clearence", "m", 0.0, 0.0, 1.0, 1.0))
     with pytest.raises(InputFault, match="bearing_clearence.*bearing_clearance"):
         PhysicalModel(file, replace(wide, nuisances=(vague,)))
+
+
+def test_mean_counts_where_the_zero_is_known(file):
+    angle = np.linspace(0.0, 0.2, 60)
+    free = Record("a", "transmission_error", "rad", "c", 1, np.full(60, 5e-5), {"angle": angle}, {"speed": 209.0, "load": 167.0, "direction": 1})
+    known = replace(free, name="b", zero_known=True)
+    campaign = Campaign(None, "bench", "", file.reducer, 121.0, 167.0, {}, (free, known), {}, {}, (), None, "")
+    model = PhysicalModel(file, campaign, zeros={})
+    first, second = model.predict({})
+    assert first.mean() == pytest.approx(5e-5)
+    # The carrier lags by 52 arcsec at the rated load.
+    assert second.mean() == pytest.approx(-52.0 * np.pi / 180.0 / 3600.0, rel=0.05)
+    assert first - first.mean() == pytest.approx(second - second.mean(), abs=1e-12)
+    beside = model.predict_beside({"needle_clearance_added": 1e-7}, {}, [1])[0]
+    assert beside.mean() == pytest.approx(model.predict({"needle_clearance_added": 1e-7}, [1])[0].mean(), rel=0.01)
+
+
+def test_repetition_that_stands_out_is_shown_by_compare(file):
+    campaign = campaign_of(file, {}, 8)
+    more = [replace(r, name=f"lm{k}", replicate=k, values=np.array(r.values) * (8.0 if k == 5 else 1.0))
+            for k, r in zip((4, 5), [r for r in campaign.records if r.quantity == "lost_motion"])]
+    comparison = compare(file, replace(campaign, records=(*campaign.records, *more)))
+    (found,) = comparison.outlying
+    assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] < 0.5
+    assert any("run lm5" in text and "the model errs there by" in text and "arcmin" in text for text in comparison.warnings)
+
+
+def test_compare_doubts_a_scale_that_no_reducer_has(file):
+    campaign = campaign_of(file, {}, 9)
+    milli = [replace(r, values=1000.0 * np.array(r.values)) if r.quantity == "input_torque" else r for r in campaign.records]
+    warnings = compare(file, replace(campaign, records=tuple(milli))).warnings
+    assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1

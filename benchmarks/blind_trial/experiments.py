@@ -102,11 +102,11 @@ def one(result: dict[str, Any], folder: Path) -> dict[str, Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         proposed = next_run(load_model(MODEL), load_campaign(write("before", [])))
-    proposals = proposed.result.proposals if proposed.result else []
+    proposals, every = (proposed.result.proposals, proposed.result.every) if proposed.result else ([], [])
     if not proposals:
         return found | {"verdict": proposed.verdict}
     acceptable = Case(result).acceptable
-    for kind, proposal in (("proposed", proposals[0]), ("random", proposals[int(rng.integers(len(proposals)))])):
+    for kind, proposal in (("proposed", proposals[0]), ("random", every[int(rng.integers(len(every)))])):
         series = series_of(proposal.experiment, proposal.settings, made, rng)
         more = measure(rng, replace(design, series=[series], conditions={}, uneven=False), made.bench, made.truths)
         answer = answer_of(write(kind, more))

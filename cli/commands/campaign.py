@@ -35,9 +35,13 @@ def run_check(options: argparse.Namespace) -> int:
     from cli.show.campaign import show
     from discrepancy.campaign.check import check_campaign
     from discrepancy.campaign.load import load_campaign
+    from discrepancy.plausible import scale_doubts
 
     with task("reading the campaign"):
-        check = check_campaign(load_campaign(options.folder, options.data))
+        campaign = load_campaign(options.folder, options.data)
+    with task("holding its scales against the model"):
+        doubts = scale_doubts(campaign)
+    check = check_campaign(campaign, doubts)
     if options.json:
         json_text(check.as_json())
     else:

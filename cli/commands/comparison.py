@@ -1,6 +1,7 @@
 """``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``: the loop of model against measurement."""
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,11 @@ from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from discrepancy.campaign.model import Campaign
     from discrepancy.model_file import ModelFile
+    from discrepancy.verdict import Answer
 
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
@@ -92,8 +96,8 @@ def run_compare(options: argparse.Namespace) -> int:
 
 
 def run_localise(options: argparse.Namespace) -> int:
-    from cli.screen import json_text
-    from cli.show.comparison import console, show_localisation, show_warnings
+    from cli.screen import console, json_text
+    from cli.show.comparison import show_localisation, show_warnings
     from discrepancy.compare import compare
 
     with task("localising"):
@@ -132,7 +136,7 @@ def run_extend(options: argparse.Namespace) -> int:
     """Exit code 1 where the effect did not help on unused runs."""
     from cli.screen import json_text
     from cli.show.comparison import show_extension
-    from discrepancy.extend import DID_NOT_HELP, build_units, extend
+    from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
     from discrepancy.verdict import diagnose
@@ -143,13 +147,14 @@ def run_extend(options: argparse.Namespace) -> int:
         with task("diagnosing"):
             answer = diagnose(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
-            raise InputFault(
-                f"the diagnosis says {answer.verdict!r}: nothing to add by itself; name what you want with --effect"
-                + (f" ({', '.join(answer.confusable)} cannot be told apart)" if answer.confusable else "")
-            )
+            raise InputFault(refusal(options, answer))
         names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
     with task(f"adding {', '.join(names)}"):
-        extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
+        try:
+            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
+        except UnknownEffect as fault:
+            meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
+            raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
     target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
     save_model(extension.file, target)
     fmus = []
@@ -162,9 +167,38 @@ def run_extend(options: argparse.Namespace) -> int:
     else:
         show_extension(extension)
         print(f"model  {target}")
+        if not extension.step["kept"]:
+            print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
         for path in fmus:
             print(f"FMU    {path}")
     return 1 if extension.verdict == DID_NOT_HELP else 0
+
+
+def refusal(options: argparse.Namespace, answer: "Answer") -> str:
+    """Why nothing is added unasked, and the command lines that add what comes into question."""
+    found = answer.diagnosis
+    start = f"the diagnosis says {answer.verdict!r} ({found.reason}): nothing is added by itself"
+    if answer.confusable:
+        lines = [extend_line(options, effect["candidates"][:1]) for effect in answer.effects]
+        return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
+    named = [candidate for effect in answer.effects for candidate in effect["candidates"]]
+    nearest = named or [rival["name"] for rival in found.rejected[:1]]
+    if not nearest:
+        return f"{start}; no effect of the catalogue shows in what was measured"
+    what = "what is named all the same" if named else "what comes nearest all the same"
+    return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}"
+
+
+def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: bool = False) -> str:
+    """The command as it was given, with these effects."""
+    words = ["rvwear", "extend", options.model, options.campaign]
+    for name in names:
+        words += ["--effect", name]
+    for key in ("data", "output", "fmus", "html"):
+        if (given := getattr(options, key)) is not None:
+            words += [f"--{key}", given]
+    words += [f"--{key}" for key in ("json",) if getattr(options, key)]
+    return shlex.join(words + ["--anyway"] * (anyway or options.anyway))
 
 
 def run_ladder(options: argparse.Namespace) -> int:

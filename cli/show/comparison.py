@@ -3,48 +3,54 @@
 from rich.console import Console
 from rich.table import Table
 
+from cli.screen import console, styled
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
-from discrepancy.scales import shown
+from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
+from discrepancy.wording import error_text, left_text, share_text
 
 LONGEST = 12
-
-
-def console() -> Console:
-    return Console(width=max(Console().width, 120), highlight=False)
+WIDTH = 120
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
     for text in warnings:
-        out.print(f"[yellow]note[/] {text}", markup=True)
+        out.print(styled(("note", "yellow"), f" {text}"))
+
+
+def ratio_colour(ratio: float, held_out: bool) -> str:
+    """Green is kept for what runs show that were not fitted."""
+    return "red" if ratio > 2.0 else "yellow" if ratio > 1.3 else "green" if held_out else ""
 
 
 def show_comparison(comparison: Comparison) -> None:
-    out = console()
+    out = console(WIDTH)
     table = Table(title=f"{comparison.model.file.name} against {comparison.model.campaign.name}", title_justify="left")
     for name in ("signal", "runs", "", "error", "noise", "error/noise"):
         table.add_column(name, justify="left" if name in ("signal", "") else "right")
     for row in comparison.signals:
-        colour = "red" if row["ratio"] > 2.0 else "yellow" if row["ratio"] > 1.3 else "green"
-        table.add_row(row["signal"], str(row["runs"]), "held out" if row["held_out"] else "fitted", shown(row["error"], row["unit"]),
-                      shown(row["noise_floor"], row["unit"]), f"[{colour}]{row['ratio']:.2f}[/]")
+        table.add_row(row["signal"], str(row["runs"]), "held out" if row["held_out"] else "fitted",
+                      shown(row["error"], row["unit"], row["signal"]), shown(row["noise_floor"], row["unit"], row["signal"]),
+                      styled((f"{row['ratio']:.2f}", ratio_colour(row["ratio"], row["held_out"]))))
     out.print(table)
     if comparison.nuisances:
-        out.print("calibrated  " + ", ".join(f"{k} = {v:.6g}" for k, v in comparison.nuisances.items()))
+        units = {p.name: p.unit for p in comparison.model.nuisances}
+        texts = (f"{k} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
+        out.print("calibrated  " + ", ".join(texts))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
     """Where the misfit is; all tests together at the stated level."""
-    out = out or console()
+    out = out or console(WIDTH)
     findings = localisation.findings
     if not findings:
-        out.print("[green]no place, order or dependence carries a significant misfit[/]")
+        out.print("no place, order or dependence carries a significant misfit")
         return
     table = Table(title="where the model fails (significant over all tests together)", title_justify="left")
     for name in ("signal", "what", "depends on", "share", "p"):
@@ -57,18 +63,20 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
 
 
 def show_answer(answer: Answer) -> None:
-    out = console()
-    out.print(f"verdict  [bold]{answer.verdict}[/]: {answer.diagnosis.reason}")
+    out = console(WIDTH)
+    out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.diagnosis.reason}"))
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
-        out.print(f"\n[bold]{effect['name']}[/]{variant}  explains {100 * effect['share_explained']:.0f} % of the misfit")
+        out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
         for name, number in effect["parameters"].items():
-            low, high = number["interval"]
-            unit = "" if number["unit"] == "1" else f" {number['unit']}"
-            out.print(f"  {name} = {number['value']:.4g}{unit}   95 %: {low:.4g} to {high:.4g}")
-        before, after = effect["held_out_error_before"], effect["held_out_error_after"]
-        if before is not None:
-            out.print(f"  error on unused conditions {before:.2f} -> {after:.2f} times the noise")
+            value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
+            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}")
+        error = error_text(answer, effect)
+        if error:
+            out.print(f"  {error}")
+    left = left_text(answer)
+    if left:
+        out.print(f"\nnot explained: {left}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
     for name, others in answer.diagnosis.alternatives.items():
@@ -84,18 +92,18 @@ def show_answer(answer: Answer) -> None:
 
 
 def show_extension(extension: Extension) -> None:
-    out = console()
+    out = console(WIDTH)
     step = extension.step
     colour = "green" if extension.verdict == HELPED else "yellow"
-    out.print(f"{' + '.join(step['effects'])}: [bold {colour}]{extension.verdict}[/]; {step['reason']}")
+    out.print(styled(f"{' + '.join(step['effects'])}: ", (extension.verdict, f"bold {colour}"), f"; {step['reason']}"))
     for row in step["signals"]:
         where = "held out" if row["held_out"] else "fitted"
-        out.print(f"  {row['signal']} ({where}): {shown(row['before'], row['unit'])} -> {shown(row['after'], row['unit'])},"
-                  f" noise {shown(row['noise_floor'], row['unit'])}")
+        before, after, noise = (shown(row[k], row["unit"], row["signal"]) for k in ("before", "after", "noise_floor"))
+        out.print(f"  {row['signal']} ({where}): {before} -> {after}, noise {noise}")
 
 
 def show_ladder(file: ModelFile) -> None:
-    out = console()
+    out = console(WIDTH)
     if not file.steps:
         out.print(f"{file.name} has no steps yet: rvwear extend adds them")
         return
@@ -110,8 +118,10 @@ def show_ladder(file: ModelFile) -> None:
 
 
 def show_next(run: NextRun) -> None:
-    out = console()
+    out = console(WIDTH)
     out.print(run.verdict)
+    for text in run.open:
+        out.print(f"  {text}")
     if run.result is None:
         return
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
@@ -120,5 +130,5 @@ def show_next(run: NextRun) -> None:
     for p in run.result.proposals[:LONGEST]:
         table.add_row(p.experiment, f"{p.cost:g}", f"{p.least:.1f}", f"{p.score:.1f}")
     out.print(table)
-    for name, size in run.result.at_stake.items():
-        out.print(f"what it costs not to know: at {name} the rivals differ by up to {size:.3g} (SI unit)")
+    for name, text in run.stakes().items():
+        out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")

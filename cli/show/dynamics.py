@@ -1,8 +1,8 @@
 """Wear in motion against wear in equilibrium on the screen."""
 
-from rich.console import Console
 from rich.table import Table
 
+from cli.screen import console
 from studies.dynamics_wear import MAPS, VOLUMES, Comparison
 
 
@@ -17,5 +17,5 @@ def show_dynamics(found: Comparison) -> None:
     for p in found.points:
         cells = [f"{v:+.2f}" for v in p.volume_change.values()] + [f"{v:.2f}" for v in p.map_difference.values()]
         table.add_row(p.name, f"{p.passing_Hz:.1f}", *cells, "matters" if p.largest > found.limit else "no matter")
-    Console(width=max(Console().width, 130)).print(table)
+    console(130).print(table)
     print(found.sentence())

@@ -2,21 +2,22 @@
 
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
+
+from cli.screen import console
 
 # Of a console: wide enough for all columns, also where the output goes to a file.
 WIDTH = 130
 
 
 def show(found: dict[str, Any]) -> None:
-    console = Console(width=max(Console().width, WIDTH))
-    console.print(f"{found['reducer']}: {found['lives_done']} of {found['lives_planned']} lives of {found['hours']:g} h, "
-                  f"{found['lives_failed']} failed", highlight=False)
+    out = console(WIDTH)
+    out.print(f"{found['reducer']}: {found['lives_done']} of {found['lives_planned']} lives of {found['hours']:g} h, "
+              f"{found['lives_failed']} failed")
     for fault in found["faults"]:
-        console.print(f"  {fault}", highlight=False, markup=False)
+        out.print(f"  {fault}")
     if "distributions" not in found:
-        console.print("too few lives for a distribution")
+        out.print("too few lives for a distribution")
         return
     table = Table(title="at the end, with 95 % intervals", title_justify="left")
     for head in ("figure", "mean", "5 %", "50 %", "95 %"):
@@ -25,9 +26,9 @@ def show(found: dict[str, Any]) -> None:
         table.add_row(name, *(cell(value) for value in values.values()))
     if "life_hours" in found:
         table.add_row("life_hours", "", *(cell(value, found["hours"]) for value in found["life_hours"].values()))
-    console.print(table)
+    out.print(table)
     for name, share in found.get("beyond_limits", {}).items():
-        console.print(f"share of reducers with {name} beyond {found['limits'][name]:g}: {cell(share)}", highlight=False)
+        out.print(f"share of reducers with {name} beyond {found['limits'][name]:g}: {cell(share)}")
     shown = {name: rows for name, rows in found.get("sensitivity", {}).items() if rows}
     if not shown:
         return
@@ -37,7 +38,7 @@ def show(found: dict[str, Any]) -> None:
         table.add_column(name.rpartition("_")[0].replace("_", "\n"), justify="right")
     for parameter in sorted(next(iter(shown.values()))):
         table.add_row(parameter, *(f"{rows[parameter]['alone']:.2f} / {rows[parameter]['total']:.2f}" for rows in shown.values()))
-    console.print(table)
+    out.print(table)
 
 
 def cell(value: dict[str, float | None], most: float | None = None) -> str:

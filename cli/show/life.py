@@ -1,9 +1,9 @@
 """Lives on the screen."""
 
 import xarray as xr
-from rich.console import Console
 from rich.table import Table
 
+from cli.screen import console
 from studies.life import Life
 
 
@@ -37,4 +37,4 @@ def life_table(dataset: xr.Dataset) -> None:
         cells = [f"{float(dataset[name][i]):.{digits}f}" for name, _, digits in LIFE_COLUMNS]
         table.add_row(f"{hours:.0f}", *cells)
     # Wide enough for all columns, also where the output goes to a file.
-    Console(width=max(Console().width, 130)).print(table)
+    console(130).print(table)

@@ -1,8 +1,8 @@
 """Natural frequencies and mode shapes on the screen."""
 
-from rich.console import Console
 from rich.table import Table
 
+from cli.screen import console
 from studies.modes import Mode
 
 
@@ -15,4 +15,4 @@ def show_modes(title: str, found: list[Mode]) -> None:
         shares = sorted(mode.energy_share.items(), key=lambda item: -item[1])
         bodies = ", ".join(f"{body} {100 * share:.0f} %" for body, share in shares if share > 0.02)
         table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", bodies)
-    Console().print(table)
+    console().print(table)

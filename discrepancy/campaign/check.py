@@ -1,9 +1,11 @@
 """What is missing in a campaign, and which effects it cannot tell apart."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from discrepancy.campaign.design import Design
+from discrepancy.campaign.doubts import DOUBTS
 from discrepancy.campaign.findings import PROBLEM, SEARCHES, WARNING, Finding
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.pairs import PAIRS, Verdict, judge
@@ -37,10 +39,11 @@ class Check:
         }  # fmt: skip
 
 
-def check_campaign(campaign: Campaign) -> Check:
-    """Judge a loaded campaign; everything is counted on runs that are not held out."""
+def check_campaign(campaign: Campaign, more: Sequence[Finding] = ()) -> Check:
+    """Judge a loaded campaign; everything is counted on runs that are not held out.  ``more``: what a model finds doubtful."""
     design = Design(campaign)
-    findings = [finding for search in SEARCHES for finding in search(design)]
+    findings = [finding for search in (*SEARCHES, *DOUBTS) for finding in search(design)]
+    findings += more
     findings.sort(key=lambda finding: finding.level != PROBLEM)
     verdicts = tuple(judge(pair, design) for pair in PAIRS)
     return Check(campaign, tuple(findings), verdicts, tuple(summarise(design, q) for q in campaign.quantities))

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from pydantic import Field, ValidationError, ValidationInfo, field_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
+from discrepancy.problem import FREE_ZERO
 from fmu_src.faults import InputFault
 from reducers.reducer import NAME, Strict
 
@@ -91,6 +92,7 @@ class Run(Strict):
     actual: dict[str, Stated] = {}
     tags: dict[str, str | int] = {}
     noise: Stated | None = None
+    zero: Literal["free", "absolute"] | None = None
     notes: str = ""
     # Where the numbers are: a file's columns, a table written here, or one value.
     file: str | None = None
@@ -119,6 +121,12 @@ class Run(Strict):
             hint = f"did you mean {close[0]}?" if close else f"choose from {', '.join(QUANTITIES)}"
             raise ValueError(f"{name!r} is not a quantity; {hint}")
         return name
+
+
+class QuantityEntry(Strict):
+    """What holds for all runs of a quantity that do not state it themselves."""
+
+    zero: Literal["free", "absolute"] = "free"
 
 
 class NuisanceEntry(Strict):
@@ -162,6 +170,15 @@ class CampaignFile(Strict):
     nuisances: dict[str, NuisanceEntry] = {}
     rig: RigEntry | None = None
     orders: dict[str, list[float]] = {}
+    quantities: dict[str, QuantityEntry] = {}
+
+    @field_validator("quantities")
+    @classmethod
+    def with_a_zero(cls, entries: dict[str, QuantityEntry]) -> dict[str, QuantityEntry]:
+        for name in entries:
+            if name not in FREE_ZERO:
+                raise ValueError(f"{name!r} has no zero to declare; {' and '.join(FREE_ZERO)} have")
+        return entries
 
 
 def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
@@ -236,6 +253,6 @@ def key_path(location: tuple[int | str, ...], content: dict[str, Any]) -> str:
 
 # The keys below a key, for the hints of ``describe``.
 SECTIONS: dict[str, type[Strict]] = {
-    "campaign": Head, "conditions": ConditionEntry, "runs": Run, "nuisances": NuisanceEntry, "rig": RigEntry,
+    "campaign": Head, "quantities": QuantityEntry, "conditions": ConditionEntry, "runs": Run, "nuisances": NuisanceEntry, "rig": RigEntry,
     "columns": Column, "table": Inline, "average": Average, "where": Range,
 }  # fmt: skip

@@ -6,7 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
-from discrepancy.campaign.quantities import QUANTITIES, keys_for
+from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
+from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.zeros import unused_means
+from discrepancy.repetitions import outlying
 
 PROBLEM, WARNING = "problem", "warning"
 
@@ -184,15 +187,31 @@ def rows(design: Design) -> Iterator[Finding]:
                     "state unwrap = true in its column",
                 )  # fmt: skip
             elif name == "time" and np.any(np.diff(axis) < 0.0):
+                back = np.flatnonzero(np.diff(axis) < 0.0)
                 yield Finding(
-                    WARNING, "time runs back", f"run {record.name}: time falls {int(np.sum(np.diff(axis) < 0.0))} times",
-                    "split repetitions by where = { ... } into runs of their own",
+                    WARNING, "time runs back",
+                    f"run {record.name}: time{design.campaign.place(record.name, 'time')} falls {len(back)} times, first from {axis[back[0]]:.6g}"
+                    f" to {axis[back[0] + 1]:.6g} s at sample {back[0] + 2}",
+                    "split repetitions by where = { ... } into runs of their own; put shuffled rows into the order of time",
                 )  # fmt: skip
             elif worst_gap(axis) > 10.0:
                 yield Finding(
                     WARNING, "uneven sampling", f"run {record.name}: the largest step of {name} is {worst_gap(axis):.0f}"
                     " times the usual one", "close the gap, or split the run there",
                 )  # fmt: skip
+
+
+def repetitions(design: Design) -> Iterator[Finding]:
+    for found in outlying(design.campaign.records):
+        yield Finding(
+            WARNING, "outlying repetition", words(found) + design.campaign.place(found.run, VALUE),
+            "look at it: clamping, a slip, a wrong file or unit; leave it out or measure it again",
+        )  # fmt: skip
+
+
+def zeros(design: Design) -> Iterator[Finding]:
+    for text, remedy in unused_means(design.campaign.records):
+        yield Finding(WARNING, "means not used", text, remedy)
 
 
 def statements(design: Design) -> Iterator[Finding]:
@@ -217,4 +236,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, zeros, statements)

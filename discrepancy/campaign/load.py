@@ -1,17 +1,18 @@
 """``load_campaign``: a folder with campaign.toml becomes records."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from discrepancy.campaign.amount import split, to_si
-from discrepancy.campaign.file_format import FILE, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
-from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows
+from discrepancy.campaign.file_format import FILE, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
+from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
 from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
-from discrepancy.problem import Parameter, Record
+from discrepancy.problem import FREE_ZERO, Parameter, Record
 from fmu_src.faults import InputFault
 from fmu_src.units import parse, registry
 
@@ -31,20 +32,58 @@ def load_campaign(folder: str | Path, data: str | Path | None = None) -> Campaig
     files = Files(Path(data) if data is not None else folder / content.campaign.data)
     places = [f"{path}: runs[{i + 1}] ({run.id})" for i, run in enumerate(content.runs)]
     require_distinct(content.runs, conditions, places)
+    sources = {}
     for run, place in zip(content.runs, places):
         series, rows[run.id] = measured(run, scales, files, place)
+        sources[run.id] = sources_of(run, scales, place)
         if rows[run.id].used == 0:
             unfilled[run.id] = run.file or "table"
         else:
-            records.append(record_of(run, conditions[run.condition], series, scales, place))
+            record = record_of(run, conditions[run.condition], series, scales, place)
+            records.append(replace(record, zero_known=zero_known(run, content, place)))
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
         conditions, tuple(records), rows, unfilled,
         tuple(nuisance_of(name, entry, scales, f"{path}: nuisances.{name}") for name, entry in content.nuisances.items()),
         rig_of(content.rig, scales, f"{path}: rig") if content.rig else None,
         text, content.campaign.seal, tuple(dict.fromkeys(run.quantity for run in content.runs)),
-        {name: tuple(family) for name, family in content.orders.items()},
+        {name: tuple(family) for name, family in content.orders.items()}, speed_at(content), sources,
     )  # fmt: skip
+
+
+def speed_at(content: CampaignFile) -> str:
+    """Where speeds are stated: by the rig, else by most conditions and columns."""
+    if content.rig is not None and (content.rig.output_speed or content.rig.input_speed):
+        return "output" if content.rig.output_speed else "input"
+    stated = [key for entry in content.conditions.values() for key in ("input_speed", "output_speed") if getattr(entry, key) is not None]
+    stated += [role for run in content.runs for role in (*run.columns, *run.table)]
+    return "output" if stated.count("output_speed") > stated.count("input_speed") else "input"
+
+
+def zero_known(run: Run, content: CampaignFile, place: str) -> bool:
+    """Whether the mean of a quantity with a free zero counts all the same."""
+    if run.zero is not None and run.quantity not in FREE_ZERO:
+        raise InputFault(f"{place}.zero = {run.zero!r}: {run.quantity} has no zero to declare; {' and '.join(FREE_ZERO)} have; leave it out")
+    general = content.quantities.get(run.quantity)
+    return (run.zero or (general.zero if general else "free")) == "absolute"
+
+
+def sources_of(run: Run, scales: Scales, place: str) -> dict[str, Source]:
+    """By axis, and "value" for the quantity itself, where the run's numbers stand."""
+    roles = roles_of(QUANTITIES[run.quantity])
+    found: dict[str, Source] = {}
+    for role, key in roles.items():
+        if role in run.columns:
+            column = run.columns[role]
+            factor = scales.conversion(key, column.unit, f"{place}.columns.{role}.unit = {column.unit!r}")[0]
+            found.setdefault(key.name, Source(run.file or "", f"column {column.column}", column.unit, factor * column.scale))
+        elif role in run.table:
+            unit = run.table[role].unit
+            found[key.name] = Source(FILE, f"table.{role}", unit, scales.conversion(key, unit, f"{place}.table.{role}.unit = {unit!r}")[0])
+    if run.value is not None:
+        unit = split(run.value, roles[VALUE].unit, f"{place}.value")[1]
+        found[VALUE] = Source(FILE, "value", unit, scales.conversion(roles[VALUE], unit, f"{place}.value = {run.value!r}")[0])
+    return found
 
 
 class Files:

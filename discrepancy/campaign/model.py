@@ -21,6 +21,19 @@ class Condition:
 
 
 @dataclass(frozen=True)
+class Source:
+    """Where numbers of a run come from; ``factor`` leads from the stated unit to that of the record."""
+
+    file: str
+    column: str
+    unit: str
+    factor: float
+
+    def __str__(self) -> str:
+        return f"{self.file}, {self.column} [{self.unit}]"
+
+
+@dataclass(frozen=True)
 class Rows:
     """How many rows of a run's file came into its record."""
 
@@ -80,6 +93,10 @@ class Campaign:
     quantities: tuple[str, ...] = field(default=())
     # Further families of orders per output turn to look for: of motor, coupling, bench.
     orders: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    # Where its file states speeds: at "input" or "output"; records have them at the input.
+    speed_at: str = "input"
+    # By run and axis ("value" for the quantity itself) what the file says.
+    sources: Mapping[str, Mapping[str, Source]] = field(default_factory=dict)
 
     @property
     def training(self) -> tuple[Record, ...]:
@@ -88,6 +105,11 @@ class Campaign:
     @property
     def held_out(self) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.held_out)
+
+    def place(self, run: str, axis: str) -> str:
+        """Where the numbers of a run's axis (or ``value``) stand, in brackets; empty for records of no file."""
+        source = self.sources.get(run, {}).get(axis)
+        return f" ({source})" if source else ""
 
     def of(self, quantity: str) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.quantity == quantity)

@@ -6,7 +6,7 @@ terms experiments are proposed whose difference the parameters would swallow.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any, TypeVar
 
@@ -17,17 +17,23 @@ from fmu_src.arrays import Floats
 
 ENOUGH = 6.0
 """Separation (chi-square) from which two rivals count as told apart."""
+ALIKE = 0.1
+"""Experiments whose separations differ by less than this share (or this share of ENOUGH) are one (assumed: no rig repeats better)."""
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """A possible experiment.  ``deviation`` of its noise by sample, or ``covariance``; ``cost`` in any one unit."""
+    """A possible experiment.  ``deviation`` of its noise by sample, or ``covariance``; ``cost`` in any one unit.
+
+    ``kind`` says what is measured at the ``settings``; only experiments of one kind can be alike.
+    """
 
     name: str
     cost: float
     deviation: Floats | float = 1.0
     covariance: Floats | None = None
     settings: Mapping[str, float] = field(default_factory=dict)
+    kind: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,7 +50,10 @@ class RivalLaw:
 
 @dataclass(frozen=True)
 class Proposal:
-    """An experiment with its worth: ``separation`` of each pair, the least and the weighted mean."""
+    """An experiment with its worth: ``separation`` of each pair, the least and the weighted mean.
+
+    ``spans``: settings that make no difference, with their lowest and highest value; ``settings`` has one of them.
+    """
 
     experiment: str
     settings: dict[str, float]
@@ -52,6 +61,8 @@ class Proposal:
     score: float
     least: float
     separation: dict[str, float]
+    kind: str = ""
+    spans: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
         return dict(self.__dict__)
@@ -59,12 +70,13 @@ class Proposal:
 
 @dataclass(frozen=True)
 class NextExperiment:
-    """``separable`` says whether any experiment is enough; ``proposals`` best first (enough ones by cost)."""
+    """``separable`` says whether any experiment is enough; ``proposals`` best first (enough ones by cost); ``every`` one that was tried."""
 
     separable: bool
     verdict: str
     proposals: list[Proposal]
     at_stake: dict[str, float]
+    every: list[Proposal] = field(default_factory=list, repr=False)
 
     def to_dict(self) -> dict[str, Any]:
         return {"separable": self.separable, "verdict": self.verdict, "proposals": [p.to_dict() for p in self.proposals], "at_stake": self.at_stake}
@@ -73,6 +85,8 @@ class NextExperiment:
 E = TypeVar("E", bound=Experiment)
 Predict = Callable[[RivalLaw, Mapping[str, float], E], Floats]
 """Prediction of an experiment by a rival with given parameter values."""
+Naming = Callable[[Proposal], str]
+"""What a proposal is called, settings that make no difference included."""
 
 
 def separation(predict: Predict[E], experiment: E, rivals: Sequence[RivalLaw]) -> dict[tuple[str, str], float]:
@@ -105,8 +119,8 @@ def separation(predict: Predict[E], experiment: E, rivals: Sequence[RivalLaw]) -
 
 
 def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Sequence[RivalLaw],
-                    interests: Sequence[E] = (), enough: float = ENOUGH) -> NextExperiment:
-    """The cheapest experiment that separates all pairs, or the best there is.
+                    interests: Sequence[E] = (), enough: float = ENOUGH, naming: Naming = lambda p: p.experiment) -> NextExperiment:
+    """The cheapest experiment that separates all pairs, or the best there is; those that differ by nothing useful are one.
 
     ``interests`` are conditions whose outcome matters: the difference of the rivals there is what
     it would cost not to know.
@@ -119,7 +133,9 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
         score = sum(weight[a] * weight[b] * v for (a, b), v in pairs.items()) / total
         least = min(pairs.values(), default=0.0)
         proposals.append(Proposal(experiment.name, dict(experiment.settings), experiment.cost, score, least,
-                                  {f"{a} ~ {b}": v for (a, b), v in pairs.items()}))
+                                  {f"{a} ~ {b}": v for (a, b), v in pairs.items()}, experiment.kind))
+    every = proposals
+    proposals = [replace(p, experiment=naming(p)) if p.spans else p for p in alike_together(every, enough)]
     good = sorted((p for p in proposals if p.least >= enough), key=lambda p: (p.cost, -p.score))
     rest = sorted((p for p in proposals if p.least < enough), key=lambda p: -p.score)
     stake = {}
@@ -132,7 +148,33 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
         verdict = f"no experiment separates every pair; {rest[0].experiment} separates most"
     else:
         verdict = "cannot be separated on this rig: no setting within the limits reaches " + f"{enough:g}"
-    return NextExperiment(bool(good), verdict, good + rest, stake)
+    return NextExperiment(bool(good), verdict, good + rest, stake, every)
+
+
+def alike_together(proposals: Sequence[Proposal], enough: float = ENOUGH) -> list[Proposal]:
+    """Proposals of one kind and cost that do the same at every value of a setting become one; the best of them speaks."""
+    current = list(proposals)
+    for name in dict.fromkeys(name for p in proposals for name in p.settings):
+        groups: dict[Any, list[Proposal]] = {}
+        for p in current:
+            rest = tuple(sorted((k, v) for k, v in p.settings.items() if k != name and k not in p.spans))
+            groups.setdefault((p.kind, p.cost, rest, tuple(sorted(p.spans.items())), name in p.settings), []).append(p)
+        current = [p for members in groups.values() for p in _one_or_all(members, name, enough)]
+    return current
+
+
+def _one_or_all(members: list[Proposal], name: str, enough: float) -> list[Proposal]:
+    """The best with the span of the setting, if all are alike."""
+    if len(members) < 2 or not members[0].kind or name not in members[0].settings:
+        return members
+    for pair in members[0].separation:
+        values = [p.separation[pair] for p in members]
+        # One that is enough and one that is not are never alike.
+        if max(values) - min(values) > ALIKE * max(*values, enough) or (max(values) >= enough) != (min(values) >= enough):
+            return members
+    numbers = [p.settings[name] for p in members]
+    best = max(members, key=lambda p: (p.least, p.score))
+    return [replace(best, spans=best.spans | {name: (min(numbers), max(numbers))})]
 
 
 def rival_of(refit: Refit, weight: float | None = None, least: float | None = None) -> RivalLaw:

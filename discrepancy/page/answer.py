@@ -1,20 +1,22 @@
 """The page of a diagnosis: the verdict, what it rests on, and what was turned down."""
 
+from typing import Any
+
+from discrepancy import wording
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
 from discrepancy.page import amounts, comparison, response
 from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
+from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from pages.content import Card, Page
 from pages.words import number
-
-TONES = {ONE: "good", NONE: "good", SEVERAL: "good", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
 
 def page(answer: Answer) -> Page:
     diagnosis = answer.diagnosis
     space = diagnosis.fits.space
-    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records)))))
+    runs = runs_of(space, space.predictions(space.base.values, list(range(len(space.records)))), of_axis("speed", answer.model.campaign))
     place = diagnosis.localisation
     localised = comparison.localisation_section(place.get("map", []), place.get("conditions", {}), place.get("level", 0.0))
     laws_found = [recovered(answer)] if answer.verdict in (UNKNOWN, INCOMPLETE) or answer.laws else []
@@ -46,21 +48,18 @@ def sentence(answer: Answer) -> str:
     """The verdict as one would say it."""
     names = [named(e) for e in answer.effects]
     best = answer.effects[0] if answer.effects else None
-    share = f" It explains {100.0 * best['share_explained']:.0f} % of the misfit" if best else ""
-    if best and best["held_out_error_before"] is not None:
-        share += (
-            f", and takes the error on unused conditions from {number(best['held_out_error_before'])} to "
-            f"{number(best['held_out_error_after'])} times the noise"
-        )
+    share = f" It {wording.share_text(answer, best['share_explained'])}" if best else ""
+    error = wording.error_text(answer, best).replace("->", "→") if best else ""
+    share += f"; {error}" if error else ""
+    left = wording.left_text(answer)
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
         ONE: f"The model lacks {listed(names)}.{share}.",
         SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: (
-            f"{listed(names).capitalize()} explain{'s' if len(names) == 1 else ''} "
-            f"{100.0 * answer.diagnosis.captured:.0f} % of the misfit, but something else is left that no effect of the "
-            "catalogue explains."
+            f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
+            f"that no effect of the catalogue explains{f': {left}' if left else ''}."
         ),
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
@@ -70,24 +69,30 @@ def sentence(answer: Answer) -> str:
     )
 
 
+def unused(answer: Answer, best: dict[str, Any]) -> Card:
+    """Error on what was not fitted; green only if runs that were held out show that it fell."""
+    worse = best["held_out_error_after"] >= best["held_out_error_before"]
+    by_runs, drowned = wording.by_unused_runs(answer, best), wording.below_noise(answer, best)
+    return Card(
+        "Error on unused conditions" if by_runs else "Error on conditions left out in turn",
+        number(best["held_out_error_after"]),
+        f"with {named(best)}" + ("; the samples are off by less than their noise" if drowned else ""),
+        number(best["held_out_error_before"]),
+        "in the patterns that matter" if drowned else "times noise",
+        "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
+    )
+
+
 def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, diagnosis.reason, tone=TONES.get(answer.verdict, "plain"))]
+    made = [Card("Verdict", answer.verdict, diagnosis.reason, tone=wording.tone(answer))]
     if answer.effects:
         best = answer.effects[0]
-        made.append(Card("Share of the misfit explained", f"{100.0 * diagnosis.captured:.0f} %", f"best: {named(best)}"))
+        most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
+        share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
+        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}"))
         if best["held_out_error_before"] is not None:
-            better = best["held_out_error_after"] < best["held_out_error_before"]
-            made.append(
-                Card(
-                    "Error on unused conditions",
-                    number(best["held_out_error_after"]),
-                    f"with {named(best)}",
-                    number(best["held_out_error_before"]),
-                    "times noise",
-                    "good" if better else "bad",
-                )
-            )
+            made.append(unused(answer, best))
     made.append(
         Card(
             "Findings of the localisation",

@@ -6,6 +6,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.page import amounts, maps, numbers, panels, series
 from discrepancy.page.runs import Run, by_signal, runs_of
+from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -17,7 +18,7 @@ MOST_CARDS = 6
 
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
-    runs = runs_of(space, result.predictions)
+    runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
     sections = [
         errors(result),
         localisation_section(
@@ -81,8 +82,9 @@ def place(row: dict[str, Any]) -> str:
     return f"{amounts.signal_title(row['signal'])} ({HELD if row['held_out'] else FITTED})"
 
 
-def tone(ratio: float) -> str:
-    return "bad" if ratio > 2.0 else "fair" if ratio > 1.3 else "good"
+def tone(ratio: float, held_out: bool) -> str:
+    """Good is kept for runs that were not fitted."""
+    return "bad" if ratio > 2.0 else "fair" if ratio > 1.3 else "good" if held_out else "plain"
 
 
 def cards(result: Comparison) -> list[Card]:
@@ -94,9 +96,9 @@ def cards(result: Comparison) -> list[Card]:
         Card(
             place(row)[:1].upper() + place(row)[1:],
             number(row["ratio"]),
-            f"{amounts.text(row['error'], row['unit'])}, noise {amounts.text(row['noise_floor'], row['unit'])}",
+            f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
             unit="times noise",
-            tone=tone(row["ratio"]),
+            tone=tone(row["ratio"], row["held_out"]),
         )
         for row in rows
     ]
@@ -110,7 +112,7 @@ def errors(result: Comparison) -> Section:
     held = {run["condition"] for run in result.runs if run["held_out"]}
     heat = maps.grid(
         "Error over noise by signal and condition",
-        "Root mean square over the replicates; green is as good as the noise allows, white was not measured.",
+        "Root mean square over the replicates; pale is as good as the noise allows, white was not measured.",
         "error_map",
         {k: series.rms(v) for k, v in cells.items()},
         held,
@@ -120,8 +122,8 @@ def errors(result: Comparison) -> Section:
             amounts.signal_title(s["signal"]),
             HELD if s["held_out"] else FITTED,
             str(s["runs"]),
-            amounts.text(s["error"], s["unit"]),
-            amounts.text(s["noise_floor"], s["unit"]),
+            amounts.text(s["error"], s["unit"], s["signal"]),
+            amounts.text(s["noise_floor"], s["unit"], s["signal"]),
             number(s["ratio"]),
         ]
         for s in result.signals
@@ -177,9 +179,9 @@ def nuisances(result: Comparison) -> Section:
     for name, value in result.nuisances.items():
         parameter = known.get(name)
         unit = parameter.unit if parameter else "1"
-        factor, unit_name = amounts.fitting(abs(value), unit)
-        prior = f"{number(factor * parameter.off)} ± {number(factor * parameter.prior)}" if parameter and parameter.prior else ""
-        rows.append([name, number(factor * value, 4), unit_name, prior, parameter.description if parameter else ""])
+        scale = of_parameter(abs(value), unit)
+        prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
+        rows.append([name, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
         "Fitted to the campaign before anything was compared."
         if rows

@@ -6,7 +6,9 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
+from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
+from discrepancy.wording import NEARLY_ALL
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -46,7 +48,7 @@ def effects(answer: Answer) -> Section:
         shares,
         "share [%]",
         [look.NOW] * len(names),
-        [f"{s:.0f} %" for s in shares],
+        ["most" if answer.verdict == INCOMPLETE and s >= 100.0 * NEARLY_ALL else f"{s:.0f} %" for s in shares],
         12,
         range=[0.0, 112.0],
     )
@@ -75,7 +77,7 @@ def held_out(answer: Answer) -> Section:
         # Fitted together, judged together.
         names, measured = [" + ".join(names)], measured[:1]
     before, after = [e["held_out_error_before"] for e in measured], [e["held_out_error_after"] for e in measured]
-    hover = [f"{number(v)} times the noise" for v in before], [f"{number(v)} times the noise" for v in after]
+    hover = [f"{number(v)}, 1 is what noise leaves there" for v in before], [f"{number(v)}, 1 is what noise leaves there" for v in after]
     figures = [bars.pairs("held_out", "Error before and after", "In the patterns that matter.", names, before, after, hover)]
     signals: dict[str, dict[str, float]] = next((v["rms"] for v in rows.values() if v.get("rms")), {})
     if signals:
@@ -89,7 +91,7 @@ def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
     names = list(signals)
     ratio = {k: [signals[n][k] / signals[n]["floor"] if signals[n]["floor"] > 0.0 else None for n in names] for k in ("before", "after")}
     before, after = (
-        [f"{amounts.text(signals[n][k], units.get(n, '1'))}, noise {amounts.text(signals[n]['floor'], units.get(n, '1'))}" for n in names]
+        [f"{amounts.text(signals[n][k], units.get(n, '1'), n)}, noise {amounts.text(signals[n]['floor'], units.get(n, '1'), n)}" for n in names]
         for k in ("before", "after")
     )
     return bars.pairs(
@@ -176,9 +178,9 @@ def rivals(answer: Answer) -> Section:
 def recovered(answer: Answer) -> Section:
     """Laws without a name."""
     if not answer.laws:
-        return Section("laws", "The law without a name", "The campaign has too few points or conditions to recover a law.")
-    units = {stream_of(r): r.unit for r in answer.diagnosis.fits.space.records}
-    figures = [f for law in answer.laws for f in laws.figures(law, units.get(law.signal, "1"))]
+        lead = "No law was recovered: the campaign has too few points or conditions, or what is left depends on none of them."
+        return Section("laws", "The law without a name", lead)
+    figures = [f for law in answer.laws for f in laws.figures(law, of_axis("speed", answer.model.campaign))]
     lead = "How what is missing depends on the conditions, as curves with 95 % bands and as closed forms. " + " ".join(
         laws.sentence(law) for law in answer.laws
     )

@@ -81,8 +81,9 @@ def cards(step: dict[str, Any]) -> list[Card]:
     ):
         before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
         if before is not None and after is not None:
-            tone = "plain" if key == "training" else "good" if after < before else "bad"
-            made.append(Card(text, number(after), note, number(before), "times noise", tone))
+            shown = key != "training" and step["verdict"] == HELPED
+            tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
+            made.append(Card(text, number(after), note, number(before), "1: noise alone" if key == "held_out_error" else "times noise", tone))
     return made
 
 
@@ -90,7 +91,8 @@ def signal_figure(step: dict[str, Any], place: int = 0) -> Figure:
     rows = step["signals"]
     ratio = {k: [r[k] / r["noise_floor"] if r["noise_floor"] > 0.0 else None for r in rows] for k in ("before", "after")}
     before, after = (
-        [f"{amounts.text(r[k], r['unit'])}, noise {amounts.text(r['noise_floor'], r['unit'])}" for r in rows] for k in ("before", "after")
+        [f"{amounts.text(r[k], r['unit'], r['signal'])}, noise {amounts.text(r['noise_floor'], r['unit'], r['signal'])}" for r in rows]
+        for k in ("before", "after")
     )
     title = f"Step {place}: {ladder.label(step)}" if place else "Error over noise per signal"
     caption = (
@@ -108,7 +110,7 @@ def signals_section(step: dict[str, Any]) -> Section:
         [
             amounts.signal_title(r["signal"]),
             "held out" if r["held_out"] else "fitted",
-            *(amounts.text(r[k], r["unit"]) for k in ("before", "after", "noise_floor")),
+            *(amounts.text(r[k], r["unit"], r["signal"]) for k in ("before", "after", "noise_floor")),
         ]
         for r in step["signals"]
     ]

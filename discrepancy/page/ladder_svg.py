@@ -13,7 +13,7 @@ from pages.look import FONT, GRID, INK, QUIET
 LEFT, RIGHT, TOP, BOTTOM, STEP, HEIGHT = 64.0, 40.0, 62.0, 74.0, 190.0, 250.0
 # The names of fonts stand inside an attribute.
 QUOTES = {'"': "'"}
-NOISE, POOR = "#00705a", "#b3401b"
+HELPED, POOR = "#00705a", "#b3401b"
 TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 
 
@@ -69,7 +69,7 @@ def svg(name: str, steps: Sequence[dict[str, Any]]) -> str:
     for tick in scale.ticks():
         y = scale.y(tick)
         parts += [line(LEFT, y, right, y, GRID), text(LEFT - 8, y + 4, f"{tick:g}", QUIET, "end")]
-    parts += [line(LEFT, scale.y(1.0), right, scale.y(1.0), NOISE, 1.4, "3 4"), text(right + 4, scale.y(1.0) + 4, "noise", NOISE)]
+    parts += [line(LEFT, scale.y(1.0), right, scale.y(1.0), QUIET, 1.4, "3 4"), text(right + 4, scale.y(1.0) + 4, "noise", QUIET)]
     place = LEFT
     for kind, title, colour, thick in KINDS:
         if any(v is not None for v in drawn[kind][1]):
@@ -120,7 +120,7 @@ def caption(k: int, step: dict[str, Any], scale: Scale) -> list[str]:
             x,
             base + 60,
             verdict,
-            NOISE if step["verdict"] == "helped" else POOR if step["verdict"] == "did not help" else QUIET,
+            HELPED if step["verdict"] == "helped" else POOR if step["verdict"] == "did not help" else QUIET,
             "middle",
             style="italic",
         )

@@ -7,6 +7,7 @@ from discrepancy.inference.law.recover import Recovered
 from discrepancy.inference.law.splines import Curve
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
+from discrepancy.scales import Scale
 from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Table
@@ -18,23 +19,23 @@ MOST_SHARE_HIDDEN = 0.02
 FORM_COLOUR = "#d55e00"
 
 
-def figures(law: Recovered, unit: str) -> list[Figure]:
+def figures(law: Recovered, speed: Scale) -> list[Figure]:
     """The leading curve over its points, and the other curves that matter."""
-    factor, title = (
-        (1.0, f"misfit / {law.factor}") if law.factor else (amounts.scale(unit)[0], amounts.signal_axis(f"misfit of {law.signal}", unit))
-    )
+    factor, y_unit = law.y_told
+    title = f"misfit / {law.factor}" if law.factor else f"misfit of {amounts.signal_title(law.signal.partition('[')[0])}"
+    title += f" [{amounts.pretty(y_unit)}]" if y_unit else ""
     name = f"law_{slug(law.signal)}"
     lead = next(c for c in law.curves if c.name == law.leading)
     others = [c for c in law.curves if c.name != law.leading and c.share > MOST_SHARE_HIDDEN]
     made = [leading(name, law, lead, factor, title, 12 if not others else 8)]
     for curve in others:
-        x = amounts.axis_values(curve.name, curve.x)
+        x = amounts.axis_values(curve.name, curve.x, speed)
         half = 1.96 * factor * curve.deviation
         traces = [
             panels.band(x, factor * curve.y - half, factor * curve.y + half, ""),
             look.line(short(x, 5), short(factor * curve.y, 4), look.NOW, hover="%{y} at %{x}"),
         ]
-        layout = look.layout(xaxis=look.axis(amounts.axis_title(curve.name)), yaxis=look.axis(title))
+        layout = look.layout(xaxis=look.axis(amounts.axis_title(curve.name, speed)), yaxis=look.axis(title))
         made.append(
             Figure(
                 f"{name}_{slug(curve.name)}",
@@ -50,10 +51,15 @@ def figures(law: Recovered, unit: str) -> list[Figure]:
 
 
 def sentence(law: Recovered) -> str:
-    """The best form in words; a constant is no law."""
+    """The best form in words."""
     text = law.text.replace(law.signal, amounts.signal_title(law.signal))
-    more = " (no closed form is more credible than a constant)" if law.forms and law.forms[0].name == "constant" else ""
-    return text[:1].upper() + text[1:] + more + "."
+    return text[:1].upper() + text[1:] + "."
+
+
+def told(law: Recovered, x: Floats) -> Floats:
+    """Values of the leading axis in the unit of the law."""
+    factor, offset, _ = law.x_told
+    return factor * np.asarray(x, float) + offset
 
 
 def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, columns: int) -> Figure:
@@ -61,13 +67,13 @@ def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, 
     # Curves are centred; the points carry the level.
     weight = 1.0 / np.maximum(deviation, 1e-300) ** 2
     level = float(np.average(y - np.interp(x, curve.x, curve.y), weights=weight)) if x.size else 0.0
-    grid = amounts.axis_values(law.leading, curve.x)
+    grid = told(law, curve.x)
     middle, half = factor * (curve.y + level), 1.96 * factor * curve.deviation
     dots = {
         "type": "scatter",
         "mode": "markers",
         "name": "measured, averaged",
-        "x": short(amounts.axis_values(law.leading, x), 5),
+        "x": short(told(law, x), 5),
         "y": short(factor * y, 4),
         "marker": {"color": panels.MEASURED, "size": 5, "opacity": 0.7},
         "hovertemplate": "%{y} at %{x}<extra></extra>",
@@ -79,10 +85,10 @@ def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, 
         look.line(short(grid, 5), short(middle, 4), look.NOW, 2.2, hover="curve: %{y} at %{x}") | {"name": "curve"},
     ]
     best = law.forms[0] if law.forms else None
-    drawn = evaluated(best, x, curve.x) if best else None
+    drawn = evaluated(best, told(law, x), grid) if best else None
     if best is not None and drawn is not None:
         traces.append(
-            look.line(short(grid, 5), short(factor * drawn, 4), FORM_COLOUR, 1.8, "dash", hover="closed form: %{y} at %{x}")
+            look.line(short(grid, 5), short(drawn, 4), FORM_COLOUR, 1.8, "dash", hover="closed form: %{y} at %{x}")
             | {"name": f"{best.name}: {best.text}"}
         )
     held = ""
@@ -93,7 +99,7 @@ def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, 
         )
     legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}
     layout = look.layout(
-        xaxis=look.axis(amounts.axis_title(law.leading)),
+        xaxis=look.axis(law.leading.replace("_", " ") + (f" [{amounts.pretty(law.x_told[2])}]" if law.x_told[2] else "")),
         yaxis=look.axis(title),
         showlegend=True,
         legend=legend,
@@ -120,6 +126,10 @@ def evaluated(form: Form, x: Floats, grid: Floats) -> Floats | None:
     return y if np.all(np.isfinite(y)) else None
 
 
+def in_unit(unit: str) -> str:
+    return f" in {amounts.pretty(unit)}" if unit else ""
+
+
 def table(law: Recovered) -> Table:
     """Closed forms, most credible first."""
     rows = []
@@ -129,8 +139,8 @@ def table(law: Recovered) -> Table:
         )
         rows.append([form.name, form.text, intervals, number(form.error), f"{100 * form.confidence:.0f} %"])
     note = (
-        f"x: {law.leading.replace('_', ' ')} in its SI unit, y: misfit{' / ' + law.factor if law.factor else ''} in "
-        "SI units; 95 % intervals. Errors are on points left out, in times the noise."
+        f"x: {law.leading.replace('_', ' ')}{in_unit(law.x_told[2])}, y: misfit{' / ' + law.factor if law.factor else ''}"
+        f"{in_unit(law.y_told[1])}; 95 % intervals. Errors are on points left out, in times the noise."
     )
     return Table(
         f"Closed forms for {amounts.signal_title(law.signal)}", ["form", "law", "parameters", "error", "confidence"], rows, (3, 4), note

@@ -13,14 +13,14 @@ from pages import look
 from pages.look import Figure, short
 from pages.words import number
 
-# Ratios from 1 (green) to this are told apart by colour.
+# Ratios from 1 (pale) to this are told apart by colour.
 MOST_RATIO = 10.0
 # p down to ten to the power of minus this.
 MOST_DIGITS = 12.0
 MOST_ROWS = 48
 TESTED = "#eef1f4"
-# As good as the noise; white is left for what was not measured.
-GOOD = "#e6f3ec"
+# As good as the noise; white is left for what was not measured, green for what unused runs show.
+WITHIN = "#e3e9f0"
 
 
 def heat(
@@ -33,7 +33,7 @@ def heat(
     low: float,
     high: float,
     ticks: Mapping[float, str] | None = None,
-    colours: tuple[str, ...] = (GOOD, *look.DEPTH),
+    colours: tuple[str, ...] = (WITHIN, *look.DEPTH),
 ) -> dict[str, Any]:
     """A heat map trace with its numbers in the cells."""
     bar = {

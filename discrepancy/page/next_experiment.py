@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 
-from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps
@@ -15,16 +14,21 @@ from pages.look import Figure, short
 from pages.words import number
 
 MOST = 12
-GOOD, POOR = "#00705a", "#98a3af"
+# What an experiment is expected to do is shown by nothing yet: no green.
+ENOUGH_COLOUR, POOR = look.NOW, "#98a3af"
 
 
 def page(run: NextRun) -> Page:
     currency = run.answer.model.campaign.rig.currency if run.answer.model.campaign.rig else ""
     sections = (
-        [proposals(run.result, currency), stake(run.result)]
+        [proposals(run.result, currency), stake(run)]
         if run.result
-        else [Section("proposals", "Proposals", "There is nothing to separate, so nothing to propose.")]
+        else [Section("proposals", "Proposals", "There are no two effects to separate.")]
     )
+    if run.open:
+        rows = [[readable(text)] for text in run.open]
+        lead = "No effect of the catalogue explains what is left: measure where it would show its law."
+        sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", ["measure"], rows)]))
     rivals = listed([effect_title(r) for r in run.rivals])
     verdict = readable(run.verdict) if run.result else effect_title(run.verdict)
     finding = verdict[:1].upper() + verdict[1:] + "."
@@ -38,7 +42,7 @@ def cards(run: NextRun, currency: str) -> list[Card]:
     if not run.result or not run.result.proposals:
         return [Card("Diagnosis", run.answer.verdict, run.answer.diagnosis.reason)]
     best = run.result.proposals[0]
-    tone = "good" if best.least >= ENOUGH else "bad"
+    tone = "plain" if best.least >= ENOUGH else "bad"
     return [
         Card(
             "Proposed" if best.least >= ENOUGH else "Best of those possible",
@@ -84,7 +88,7 @@ def title(proposal: Proposal) -> str:
 
 
 def readable(name: str) -> str:
-    return name.replace("_", " ").replace("degC", "°C").replace("N m", "N·m")
+    return name.replace("_", " ").replace("degC", "°C").replace("N.m", "N·m")
 
 
 def size(separation: float) -> str:
@@ -129,7 +133,7 @@ def separations(best: Sequence[Proposal]) -> Figure:
 def ranking(best: Sequence[Proposal], currency: str) -> Figure:
     """Cost to the left, separation to the right."""
     names = [title(p) for p in best]
-    colours = [GOOD if p.least >= ENOUGH else POOR for p in best]
+    colours = [ENOUGH_COLOUR if p.least >= ENOUGH else POOR for p in best]
     most = max([p.least for p in best] + [ENOUGH])
     wide = most > 30.0 * ENOUGH
     both = {"type": "bar", "orientation": "h", "y": names}
@@ -162,7 +166,7 @@ def ranking(best: Sequence[Proposal], currency: str) -> Figure:
         "x1": ENOUGH,
         "y0": 0,
         "y1": 1,
-        "line": {"color": GOOD, "width": 1.2, "dash": "dot"},
+        "line": {"color": ENOUGH_COLOUR, "width": 1.2, "dash": "dot"},
     }
     layout = look.layout(
         xaxis=look.axis(
@@ -194,7 +198,7 @@ def cloud(best: Sequence[Proposal], currency: str) -> Figure:
         "x": short([p.cost for p in best], 5),
         "y": short(least, 4),
         "customdata": [title(p) for p in best],
-        "marker": {"color": [GOOD if p.least >= ENOUGH else POOR for p in best], "size": 8, "opacity": 0.7},
+        "marker": {"color": [ENOUGH_COLOUR if p.least >= ENOUGH else POOR for p in best], "size": 8, "opacity": 0.7},
         "hovertemplate": "%{customdata}<br>cost %{x}, least separation %{y}<extra></extra>",
     }
     line = {
@@ -204,7 +208,7 @@ def cloud(best: Sequence[Proposal], currency: str) -> Figure:
         "x1": 1,
         "y0": ENOUGH,
         "y1": ENOUGH,
-        "line": {"color": GOOD, "width": 1.2, "dash": "dot"},
+        "line": {"color": ENOUGH_COLOUR, "width": 1.2, "dash": "dot"},
     }
     layout = look.layout(
         xaxis=look.axis(f"cost{f' [{currency}]' if currency else ''}", rangemode="tozero"),
@@ -214,12 +218,9 @@ def cloud(best: Sequence[Proposal], currency: str) -> Figure:
     return Figure("cloud", "All experiments within the rig's limits", "Separations below 0.01 are drawn there.", [dots], layout, 12, 300)
 
 
-def stake(result: NextExperiment) -> Section:
+def stake(run: NextRun) -> Section:
     """What is unknown as long as the rivals are not told apart."""
-    rows = []
-    for name, size in result.at_stake.items():
-        quantity = QUANTITIES.get(name.partition(" at ")[0].partition("[")[0])
-        rows.append([readable(name), amounts.text(size, quantity.unit) if quantity else f"{number(size)} (SI unit)"])
+    rows = [[readable(name), amounts.pretty(text)] for name, text in run.stakes().items()]
     lead = (
         "Largest difference of the rivals' predictions: the error that remains if nobody measures."
         if rows

@@ -26,7 +26,7 @@ def figure(
     names = [*varying(runs), CONDITION]
     choices = []
     for name in names:
-        axis = panels.x_axis(CONDITION, type="category") if name == CONDITION else panels.x_axis(amounts.axis_title(name), type="linear")
+        axis = panels.x_axis(CONDITION, type="category") if name == CONDITION else panels.x_axis(amounts.axis_title(name, runs[0].speed), type="linear")
         choices.append(
             Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis})
         )
@@ -97,7 +97,7 @@ def template(words: tuple[str, str, str]) -> list[dict[str, Any]]:
 
 
 def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
-    factor, _ = amounts.scale(unit)
+    factor, _ = amounts.scale(unit, runs[0].record.quantity)
     found = []
     for held in (False, True):
         members = [r for r in runs if r.record.held_out == held]
@@ -121,7 +121,9 @@ def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
 def where(runs: Sequence[Run], name: str) -> list[Any]:
     if name == CONDITION:
         return [r.record.condition for r in runs for _ in r.measured]
-    found: list[float | None] = short(amounts.axis_values(name, joined(runs, lambda r: placed(r, name))), 5)
+    if not runs:
+        return []
+    found: list[float | None] = short(amounts.axis_values(name, joined(runs, lambda r: placed(r, name)), runs[0].speed), 5)
     return found
 
 

@@ -8,6 +8,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.page import comparison, spectra
 from discrepancy.page.amounts import effect_title
 from discrepancy.page.runs import Run, axis_of, by_signal, runs_of
+from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from pages.content import Section
 
@@ -20,7 +21,7 @@ def section(answer: Answer) -> Section:
     every = list(range(len(space.records)))
     base = space.predictions(space.base.values, every)
     full = space.predictions(best.fit.values, every)
-    runs = runs_of(space, [a - b for a, b in zip(full, base)], base)
+    runs = runs_of(space, [a - b for a, b in zip(full, base)], of_axis("speed", answer.model.campaign), base)
     touched = {
         signal
         for signal, members in by_signal(runs).items()

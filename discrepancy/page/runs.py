@@ -9,6 +9,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.problem import Record
+from discrepancy.scales import AXES, Scale
 from fmu_src.arrays import Floats, Mask
 
 
@@ -21,6 +22,8 @@ class Run:
     measured: Floats
     predicted: Floats
     noise: Floats
+    # How the campaign tells a speed.
+    speed: Scale = AXES["speed"]
 
     @property
     def series(self) -> bool:
@@ -44,14 +47,14 @@ def axis_of(run: Run) -> str:
     return name
 
 
-def runs_of(space: Workspace, predicted: list[Floats], minus: list[Floats] | None = None) -> list[Run]:
-    """All runs; ``minus`` is taken off the measured values."""
+def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list[Floats] | None = None) -> list[Run]:
+    """All runs; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
         kept = whitener.kept
         measured = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0)
         between = sum(space.noise.streams[whitener.quantity].patterns.values())
-        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + between)))
+        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + between), speed))
     return found
 
 

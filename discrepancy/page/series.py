@@ -98,7 +98,7 @@ def template(words: tuple[str, str, str], width: int) -> list[dict[str, Any]]:
 
 def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[dict[str, Any]]:
     """What the traces show at one condition."""
-    factor, _ = amounts.scale(unit)
+    factor, _ = amounts.scale(unit, members[0].record.quantity)
     first = thinned(members[0], most)
     x, predicted, noise = first[0], factor * first[2], 2.0 * factor * rms(members[0].noise)
     ends = np.array([x.min(), x.max()])

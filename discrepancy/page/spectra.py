@@ -47,7 +47,7 @@ def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str]
     if not cells:
         return None
     unit = runs[0].record.unit
-    factor, _ = amounts.scale(unit)
+    factor, _ = amounts.scale(unit, signal)
     spectra = {}
     for label, members in cells.items():
         alike = [r for r in members if turns(r) == turns(members[0]) and r.kept.size == members[0].kept.size]

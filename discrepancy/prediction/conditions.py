@@ -38,7 +38,8 @@ def condition_of(bench: Bench, record: Record) -> Condition:
 def identity(record: Record) -> tuple[Hashable, ...]:
     """What a prediction depends on in a record: equal for runs that repeat each other."""
     axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
-    return record.quantity, record.mounting, axes, tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items())), len(record.values)
+    stated = tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items()))
+    return record.quantity, record.mounting, axes, *stated, len(record.values), record.zero_known
 
 
 def angles_of(bench: Bench, record: Record, zero: float) -> Floats:

@@ -32,13 +32,18 @@ def centred(values: Floats) -> Floats:
     return values - float(values.mean())
 
 
+def from_zero(record: Record, values: Floats) -> Floats:
+    """As counted by the record: from its own mean unless its zero is known."""
+    return centred(values) if record.free_zero else values
+
+
 def transmission_error(bench: Bench, record: Record, values: Values) -> Floats:
-    return centred(signal(OverAngle(bench, record, "transmission_error"), values))
+    return from_zero(record, signal(OverAngle(bench, record, "transmission_error"), values))
 
 
 def transmission_error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
     change = error_change(bench, record, values, base)
-    return None if change is None else centred(change)
+    return None if change is None else from_zero(record, change)
 
 
 def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:

@@ -22,8 +22,6 @@ from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.threads import Threads
 
-# Free zeros: the mean of the prediction is that of the measurement.
-ZEROED = ("transmission_error", "hysteresis")
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
@@ -194,7 +192,8 @@ class PhysicalModel:
                 predicted = module.change(predicted, record, at, self.sizes[record.quantity])
         if record.name in self.ripples:
             predicted = predicted + self.ripples[record.name]
-        if record.quantity in ZEROED:
+        if record.free_zero:
+            # The mean of the prediction is that of the measurement.
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())
         return predicted
 

@@ -15,11 +15,24 @@ from discrepancy.inference.noise.series import order_axis, stream_of
 from fmu_src.arrays import Floats
 
 BINS = 24
+# Of the variance of a misfit: a curve with less is no dependence to speak of (assumed).
+TELLING_SHARE = 0.5
+
+# How an axis, a factor or the misfit of a signal is told: (factor, offset, unit) of SI values, by its name.
+Told = Callable[[str], tuple[float, float, str]]
+
+
+def in_si(_: str) -> tuple[float, float, str]:
+    return 1.0, 0.0, ""
 
 
 @dataclass(frozen=True)
 class Recovered:
-    """The law of one signal.  ``relative``: the misfit as a share of the prediction.  ``forms`` of the leading curve, best first."""
+    """The law of one signal.  ``relative``: the misfit as a share of the prediction.  ``forms`` of the leading curve, best first.
+
+    Curves and points are in SI units; forms are laws of ``x_told`` (factor, offset, unit) of the leading axis and ``y_told``
+    (factor, unit) of the misfit, as the text is.
+    """
 
     signal: str
     relative: bool
@@ -31,6 +44,8 @@ class Recovered:
     held_out_error_before: float | None
     held_out_error_after: float | None
     text: str
+    x_told: tuple[float, float, str] = (1.0, 0.0, "")
+    y_told: tuple[float, str] = (1.0, "")
 
     def to_dict(self) -> dict[str, Any]:
         plain = dict(self.__dict__)
@@ -39,12 +54,12 @@ class Recovered:
         return plain
 
 
-def recover(space: Workspace, fit: Fit, signals: list[str] | None = None) -> list[Recovered]:
-    """Laws of the misfit that ``fit`` leaves, for ``signals`` (all by default)."""
+def recover(space: Workspace, fit: Fit, signals: list[str] | None = None, told: Told = in_si) -> list[Recovered]:
+    """Laws of the misfit that ``fit`` leaves, for ``signals`` (all by default), in the units of ``told``; a constant is no law."""
     streams: dict[str, list[int]] = {}
     for i, record in enumerate(space.records):
         streams.setdefault(stream_of(record), []).append(i)
-    return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices)) is not None]
+    return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices, told)) is not None]
 
 
 @dataclass(frozen=True)
@@ -104,7 +119,7 @@ def _table(space: Workspace, fit: Fit, indices: Sequence[int]) -> list[_Bin]:
     return rows
 
 
-def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int]) -> Recovered | None:
+def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told: Told) -> Recovered | None:
     rows = _table(space, fit, indices)
     training = [r for r in rows if not r.held]
     if len(training) < 5:
@@ -136,10 +151,10 @@ def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int]) -> 
         loss = float(np.sum(w * (y - fitted) ** 2)) + 2 * sum(c.effective_dof for c in curves) + 2 * (name != "none")
         if best is None or loss < best[0]:
             best = (loss, _Smooth(name, way, y, w, axes, curves, fitted))
-    return None if best is None else _law(signal, best[1], rows, training)
+    return None if best is None else _law(signal, best[1], rows, training, told)
 
 
-def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin]) -> Recovered:
+def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin], told: Told) -> Recovered | None:
     name, way, y, w, axes, curves = found.name, found.way, found.y, found.weights, found.axes, found.curves
     lead = curves[0].name
     # partial residual of the leading axis
@@ -148,7 +163,14 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
     for c in curves[1:]:
         rest = rest + np.interp(_monotone(c.name, axes[c.name]), c.x, c.y)
     partial = y - rest
-    forms = propose(x, partial, 1 / np.sqrt(w), [r.condition for r in training] if np.unique(x).size < 8 else None)
+    x_told, y_told = told(lead.split(":")[1]), _told(signal, name, told)
+    forms = propose(x_told[0] * x + x_told[1], y_told[0] * partial, y_told[0] / np.sqrt(w),
+                    [r.condition for r in training] if np.unique(x).size < 8 else None)
+    if forms and forms[0].name == "constant" and name == "none":
+        if np.unique(x).size > 2 or curves[0].share < TELLING_SHARE:
+            return None
+        # Two levels differ, and no form can be told from two.
+        forms = []
     shown = [Curve(c.name.split(":")[1], _back(c.name, c.x, axes[c.name]), c.y, c.deviation, c.share, c.effective_dof) for c in curves]
     held = [r for r in rows if r.held]
     before = after = None
@@ -162,9 +184,36 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
         predicted = np.array([way(r) for r in held]) * (level + shape)
         before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
     lead_name = lead.split(":")[1]
-    text = f"{'misfit' if name == 'none' else 'misfit / ' + name} of {signal} over {lead_name}: " + (forms[0].text if forms else "no form")
-    return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name,
-                     {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}, forms, before, after, text)
+    text = _text(signal, name, lead_name, forms, x_told[2], y_told[1])
+    points = {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}
+    return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name, points, forms, before, after, text,
+                     x_told, y_told)
+
+
+def _told(signal: str, way: str, told: Told) -> tuple[float, str]:
+    """(factor, unit) of the misfit as it is written."""
+    factor, _, unit = told(signal)
+    if way == "prediction":
+        return 1.0, ""
+    if "load" not in way:
+        return factor, unit
+    load, _, load_unit = told("load")
+    return factor / load, f"{unit or '1'}/({load_unit})" if load_unit else unit
+
+
+def _text(signal: str, way: str, lead: str, forms: Sequence[Form], x_unit: str, y_unit: str) -> str:
+    """The best form with its numbers."""
+    def of(what: str, unit: str) -> str:
+        return f"{what} [{unit}]" if unit else what
+
+    misfit = f"{'misfit' if way == 'none' else 'misfit / ' + way} of {signal}"
+    if not forms:
+        return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: too few levels for a form"
+    best = forms[0]
+    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items())
+    if best.name == "constant":
+        return f"misfit of {signal} in proportion to {way}: {of('share', y_unit)} {numbers}"
+    return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: {best.text}, {numbers}"
 
 
 def _logarithmic(name: str, reference: Floats) -> bool:

@@ -1,0 +1,165 @@
+"""Numbers of a campaign that cannot be, or that no diagnosis needs; what only a model can doubt is in ``discrepancy.plausible``."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from discrepancy.campaign.design import Design, turns
+from discrepancy.campaign.findings import WARNING, Finding
+from discrepancy.campaign.model import Campaign, Source
+from discrepancy.campaign.quantities import VALUE
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+from fmu_src.units import conversion
+
+# Torque over the rated one that no RV reducer survives: catalogues allow 2.5 times at starts and 5 times once in an emergency stop
+# (Nabtesco, RV-E and RV-N series: momentary maximum torque).
+MOST_RATED = 5.0
+# Share of the rated torque that a loop reaches at least if its unit is right, and the most that benches apply.
+USUAL_REACH = (0.1, 2.5)
+TORQUE_UNITS = ("N.m", "N.mm", "N.cm", "kgf.cm", "lbf.in", "kN.m")
+# Of the whole range: a step that is a jump; and how many times the usual step it must be.
+JUMP, MANY_STEPS = 0.1, 10.0
+# Samples below which nothing is said of their order, and torques that a loop may stop at.
+FEW, STAIRS = 16, 6
+# Samples of the shortest wave that show it, with a margin above the two that are needed at least.
+SAMPLES_PER_WAVE = 2.5
+# Of the largest torque: steps that show play (from -3 % to +3 %), curvature and the loop's width.
+TORQUE_STEP = 0.01
+# Samples are more than enough from so many times on.
+NEEDLESS = 2.0
+NOWHERE = Source("", "", "", 1.0)
+
+
+def source_of(campaign: Campaign, record: Record, axis: str) -> Source:
+    """Where the numbers stand; nowhere of a record that no file was read for."""
+    return campaign.sources.get(record.name, {}).get(axis, NOWHERE)
+
+
+def torques(design: Design) -> Iterator[Finding]:
+    campaign = design.campaign
+    rated = campaign.rated_torque
+    if not rated:
+        return
+    for record in campaign.records:
+        torque = record.axes.get("torque", np.zeros(0))
+        largest = float(np.abs(torque).max(initial=0.0))
+        if largest <= MOST_RATED * rated:
+            continue
+        source = source_of(campaign, record, "torque")
+        fits = fitting_unit(largest, rated, source)
+        remedy = f'state unit = "{fits}" in its column if that is what it holds' if fits else "correct unit or scale of the column"
+        yield Finding(
+            WARNING, "impossible torque",
+            f"run {record.name}: the torque reaches {largest:.6g} N.m{campaign.place(record.name, 'torque')},"
+            f" {largest / rated:.3g} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times", remedy,
+        )  # fmt: skip
+
+
+def fitting_unit(largest: float, rated: float, source: Source) -> str:
+    """A unit in which the same numbers would be a loop of this reducer; empty if none."""
+    for unit in TORQUE_UNITS:
+        reach = largest * conversion(unit, "N.m")[0] / (source.factor * rated)
+        if unit != source.unit and USUAL_REACH[0] <= abs(reach) <= USUAL_REACH[1]:
+            return unit
+    return ""
+
+
+def order_of_rows(design: Design) -> Iterator[Finding]:
+    for record in design.campaign.records:
+        for name in ("angle", "torque", "order", "depth_angle"):
+            at = jumps(np.asarray(record.axes.get(name, np.zeros(0)), float), name)
+            if not len(at):
+                continue
+            source = source_of(design.campaign, record, name)
+            first = int(at[0])
+            before, after = (float(v) / source.factor for v in record.axes[name][first : first + 2])
+            unit = f" {source.unit}" if source.column else ""
+            yield Finding(
+                WARNING, "rows out of order",
+                f"run {record.name}: {name}{design.campaign.place(record.name, name)} jumps back and forth {len(at)} times,"
+                f" first from {before:.6g} to {after:.6g}{unit} at sample {first + 2}",
+                "export the rows in the order in which they were measured (sort by time); split repetitions by where = { ... }",
+            )  # fmt: skip
+
+
+def jumps(axis: Floats, name: str) -> np.ndarray:
+    """Steps that leap back and forth; empty for an axis that is passed in order, loops and stairs of torque included."""
+    steps, size = np.diff(axis), float(np.ptp(axis)) if len(axis) else 0.0
+    if len(axis) < FEW or size == 0.0:
+        return np.zeros(0, int)
+    lengths = np.abs(steps)
+    turned = float(np.mean(steps[1:] * steps[:-1] < 0.0))
+    if turned > 0.5 and float(lengths.mean()) > JUMP * size:
+        return np.flatnonzero(lengths > JUMP * size)
+    at = np.flatnonzero(lengths > max(JUMP * size, MANY_STEPS * float(np.median(lengths))))
+    # An encoder that starts anew at each turn is another fault, and a bench may hold a few torques in turn.
+    wraps = name == "angle" and abs(float(lengths.max()) - 2.0 * math.pi) < 0.05 * math.pi
+    levels = len(np.unique(np.round(axis[at + 1] / (0.02 * size))))
+    if len(at) < 3 or wraps or (name == "torque" and levels < STAIRS):
+        return np.zeros(0, int)
+    back_and_forth = np.mean(steps[at][1:] * steps[at][:-1] < 0.0) >= 0.4
+    return at if back_and_forth else np.zeros(0, int)
+
+
+def needless_samples(design: Design) -> Iterator[Finding]:
+    campaign = design.campaign
+    found: dict[tuple[str, str], list[tuple[Record, int]]] = defaultdict(list)
+    for record in campaign.records:
+        enough, why = suffices(record, campaign)
+        if enough and len(record.values) >= NEEDLESS * enough:
+            found[record.quantity, why].append((record, enough))
+    for (quantity, why), runs in found.items():
+        record, enough = max(runs, key=lambda r: len(r[0].values) / r[1])
+        points = min(len(r.values) // e for r, e in runs)
+        yield Finding(
+            WARNING, "needless samples",
+            f"{quantity}: {len(record.values)} samples in run {record.name}{campaign.place(record.name, VALUE)}"
+            + (f" and more than enough in {len(runs) - 1} others" if len(runs) > 1 else "") + f", {enough} suffice: {why}",
+            f"average = {{ points = {points} }} gives the same answer sooner: means keep what the samples say of these",
+        )  # fmt: skip
+
+
+def suffices(record: Record, campaign: Campaign) -> tuple[int, str]:
+    """How many samples show all that a diagnosis looks at, and why; 0 where nothing is known of it."""
+    if record.quantity == "hysteresis" and "torque" in record.axes:
+        torque = np.asarray(record.axes["torque"], float)
+        # The way of a noiseless torque: jitter of the sensor is no way.
+        way = path(torque)
+        largest = float(np.abs(torque).max(initial=0.0))
+        count = math.ceil(way / (TORQUE_STEP * largest)) if largest > 0.0 else 0
+        return count, f"steps of {100 * TORQUE_STEP:g} % of the largest torque show play, curvature and width of the loop"
+    if "angle" in record.axes and campaign.reducer is not None:
+        order, what = highest_order_of_parts(campaign)
+        count = math.ceil(SAMPLES_PER_WAVE * order * turns(record))
+        return count, f"no part makes a higher order than {order:g} per output turn ({what}), which {SAMPLES_PER_WAVE:g} samples a wave show"
+    return 0, ""
+
+
+def path(torque: Floats) -> float:
+    """Way from end to end through all reversals that are larger than a twentieth of the range."""
+    least, turned, last = 0.05 * float(np.ptp(torque)), [float(torque[0])], float(torque[0])
+    for value in map(float, torque):
+        if len(turned) > 1 and (value - last) * (last - turned[-2]) >= 0.0:
+            last = turned[-1] = value
+        elif abs(value - last) > least:
+            turned.append(value)
+            last = value
+    return float(np.abs(np.diff(turned)).sum())
+
+
+def highest_order_of_parts(campaign: Campaign) -> tuple[float, str]:
+    """Of the pins, of the first stage, and of what the campaign names."""
+    assert campaign.reducer is not None
+    topology = campaign.reducer.topology
+    orders = [(float(topology.pins * topology.lobes), "lobes over pins")]
+    starts = campaign.reducer.plant.by_name
+    if float(starts["first_stage_ratio"].start) > 0.0 and campaign.ratio:
+        orders.append(((campaign.ratio - 1.0) * float(starts["sun_teeth"].start), "teeth of the first stage"))
+    orders += [(max(family), name) for name, family in campaign.orders.items() if family]
+    return max(orders)
+
+
+DOUBTS = (torques, order_of_rows, needless_samples)

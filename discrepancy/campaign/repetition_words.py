@@ -1,0 +1,22 @@
+"""A repetition that stands out, in words and in the usual unit of its quantity."""
+
+from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.repetitions import Outlying
+from fmu_src.units import conversion
+
+WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
+
+
+def words(found: Outlying) -> str:
+    """``run r3 (repetition 3 of 5 of hysteresis at locked) spans 111 arcmin, the others 14 to 23``."""
+    q = QUANTITIES[found.quantity]
+    factor, offset = conversion(found.unit, q.usual_unit)
+    offset = offset if found.what in ("mean", "value") else 0.0
+    size, low, high = (f"{factor * v + offset:.3g}" for v in (found.size, found.low, found.high))
+    others = low if low == high else f"{low} to {high}"
+    verb = WORDS.get(found.what, found.what + " is {}")
+    unit = "" if q.usual_unit == "1" else f" {q.usual_unit}"
+    return (
+        f"run {found.run} (replicate {found.replicate}, of {found.count} repetitions of {found.signal} at {found.condition}) "
+        f"{verb.format(size + unit)}, the others {others}"
+    )

@@ -1,0 +1,98 @@
+"""What may be said of a diagnosis, in words that its numbers bear; for screen and page."""
+
+from typing import Any
+
+from discrepancy.extend import BETTER, WITHIN_NOISE
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.scales import shown
+from discrepancy.verdict import Answer
+
+# A share from here on would be rounded to all of it.
+NEARLY_ALL = 0.95
+MOST_NAMED = 3
+TONES = {SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+
+
+def share_text(answer: Answer, share: float) -> str:
+    """How much of the misfit an effect takes; what leaves something is never said to explain all of it."""
+    if answer.verdict in (INCOMPLETE, UNKNOWN) and share >= NEARLY_ALL:
+        return "explains most of the misfit, not all of it"
+    return f"explains {100.0 * share:.0f} % of the misfit"
+
+
+def left_text(answer: Answer) -> str:
+    """What is left beside that which is named; empty where nothing is said of it."""
+    found = answer.diagnosis.leftover.get("findings", [])
+    named = [f"{f['signal']}, {f['feature']}" + ("" if f["dependence"] == "everywhere" else f", changing with {f['dependence']}") for f in found]
+    if not named and "held_out" in answer.diagnosis.leftover:
+        named = ["runs that were not fitted are further off than noise allows"]
+    more = f", and {len(named) - MOST_NAMED} more" if len(named) > MOST_NAMED else ""
+    return "; ".join(named[:MOST_NAMED]) + more
+
+
+def judged(answer: Answer, effect: dict[str, Any]) -> dict[str, Any]:
+    """The held-out entry of the fit that an effect belongs to."""
+    entries = answer.diagnosis.held_out.items()
+    return next((entry for name, entry in entries if any(c in name for c in effect.get("candidates", [effect["name"]]))), {})
+
+
+def by_unused_runs(answer: Answer, effect: dict[str, Any]) -> bool:
+    """Whether its errors are those of runs that were held out, and not of conditions left out in turn."""
+    entry = judged(answer, effect)
+    return bool(answer.diagnosis.fits.space.held_out) and bool(entry) and not entry.get("kind")
+
+
+def below_noise(answer: Answer, effect: dict[str, Any]) -> bool:
+    """Whether the unused runs were off by less than the noise of their samples before anything was added."""
+    signals = judged(answer, effect).get("rms") or {}
+    return bool(signals) and all(row["before"] <= row["floor"] for row in signals.values())
+
+
+def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:
+    """Whether unused runs show that the effect helps."""
+    before, after = effect["held_out_error_before"], effect["held_out_error_after"]
+    return before is not None and by_unused_runs(answer, effect) and not below_noise(answer, effect) and before > WITHIN_NOISE and after < BETTER * before
+
+
+def error_text(answer: Answer, effect: dict[str, Any]) -> str:
+    """The error on what was not fitted, before and after, and what it is measured in; empty without one."""
+    before, after = effect["held_out_error_before"], effect["held_out_error_after"]
+    if before is None:
+        return ""
+    change = f"{before:.2f} -> {after:.2f}"
+    if not by_unused_runs(answer, effect):
+        return f"no run is held out; leaving out one condition at a time: error {change} times the noise"
+    if not below_noise(answer, effect):
+        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit"
+    units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}
+    rows = [
+        f"{name}: {shown(row['before'], units[name.partition('[')[0]], name)}, noise {shown(row['floor'], units[name.partition('[')[0]], name)}"
+        for name, row in judged(answer, effect)["rms"].items()
+    ]
+    return (
+        f"on unused conditions the samples are off by less than their noise ({'; '.join(rows)}), so that these runs prove little; in the"
+        f" patterns that carry the misfit {change}, with 1 for what noise leaves there"
+    )
+
+
+def tone(answer: Answer) -> str:
+    """Of the verdict: good only where unused runs show it."""
+    if answer.verdict in TONES:
+        return TONES[answer.verdict]
+    if answer.verdict in (ONE, SEVERAL):
+        return "good" if answer.effects and is_shown(answer, answer.effects[0]) else "fair"
+    return "good" if answer.verdict == NONE and unused_within_noise(answer) else "plain"
+
+
+def unused_within_noise(answer: Answer) -> bool:
+    """Whether there are held-out runs, and the base model errs there by the noise."""
+    space = answer.diagnosis.fits.space
+    predictions = space.predictions(space.base.values, space.held_out)
+    ratios = []
+    for i, predicted in zip(space.held_out, predictions):
+        whitener = space.noise.whiteners[i]
+        between = 1.0 + sum(space.noise.streams[whitener.quantity].patterns.values())
+        error = ((space.records[i].values - predicted)[whitener.kept] / whitener.scale) ** 2 / between
+        if error.size:
+            ratios.append(float(error.mean()) ** 0.5)
+    return bool(ratios) and max(ratios) <= WITHIN_NOISE

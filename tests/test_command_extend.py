@@ -1,0 +1,81 @@
+"""A refusal of ``rvwear extend`` ends with the command line that works."""
+
+import argparse
+import shlex
+from types import SimpleNamespace
+
+import pytest
+
+from cli.commands import comparison as commands
+from cli.main import main, parser
+from discrepancy import extend as extension
+from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
+from discrepancy.inference.held_out.held_out import HeldOut
+from discrepancy.inference.verdict import INCOMPLETE, NONE, SET
+from discrepancy.model_file import load_model
+from discrepancy.problem import Candidate
+from fmu_src.faults import InputFault
+
+
+def options(*arguments: str) -> argparse.Namespace:
+    return parser().parse_args(["extend", "RV20E-121", "my bench", *arguments])
+
+
+def answer_of(verdict, names, rejected=()):
+    effects = [{"name": n.partition(".")[0], "candidates": [n]} for n in names]
+    diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected])
+    return SimpleNamespace(verdict=verdict, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis)
+
+
+def lines(text: str) -> list[str]:
+    return [line.strip() for line in text.splitlines()[1:]]
+
+
+def test_each_member_of_a_set_has_its_line():
+    given = options("--output", "better model.toml", "--data", "d")
+    found = lines(commands.refusal(given, answer_of(SET, ["drag", "pin_ring.oval"])))
+    assert found == [f"rvwear extend RV20E-121 'my bench' --effect {name} --data d --output 'better model.toml'" for name in ("drag", "pin_ring.oval")]
+    # What is printed is understood, and asks for the same.
+    again = parser().parse_args(shlex.split(found[1])[1:])
+    assert again.effect == ["pin_ring.oval"] and (again.output, again.data, again.campaign) == (given.output, given.data, given.campaign)
+
+
+@pytest.mark.parametrize(("verdict", "names", "rejected", "asked"), [
+    (INCOMPLETE, ["drag", "backlash"], ["gain"], ["drag", "backlash"]), (NONE, [], ["gain", "drag"], ["gain"]),
+])  # fmt: skip
+def test_what_is_incomplete_or_nearest_has_its_line(verdict, names, rejected, asked):
+    (line,) = lines(commands.refusal(options("--json"), answer_of(verdict, names, rejected)))
+    again = parser().parse_args(shlex.split(line)[1:])
+    assert again.effect == asked and again.json
+    assert "no effect of the catalogue shows" in commands.refusal(options(), answer_of(NONE, []))
+
+
+def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
+    candidates = [Candidate("needle_clearance", "", ()), Candidate("pin_position_errors.scatter", "", ())]
+    with pytest.raises(UnknownEffect, match="did you mean needle_clearance"):
+        variants_of("needle_clearence", candidates)
+    with pytest.raises(InputFault) as fault:
+        variants_of("phlogiston", candidates)
+    assert "did you mean" not in str(fault.value)
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
+    monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates))
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
+    assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
+
+
+def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys, tmp_path):
+    file = load_model("RV20E-121")
+    step = {"effects": ["drag"], "reason": "no", "signals": [], "kept": False, "verdict": DID_NOT_HELP, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
+    monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
+    monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
+    target = str(tmp_path / "m.toml")
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 1
+    assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --anyway"
+
+
+@pytest.mark.parametrize(("floor", "said"), [(3.0, False), (300.0, True)])
+def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, said):
+    judged = HeldOut(28.0, 2.0, 1e-3, {"hysteresis": {"before": 10.0, "after": 1.0, "floor": floor}}, "held-out runs")
+    verdict, reason = verdict_of(judged)
+    assert verdict == HELPED and "28.00 to 2.00" in reason
+    assert ("times the noise" in reason) != said and ("less than their noise" in reason) == said

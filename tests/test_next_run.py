@@ -1,0 +1,105 @@
+"""What is proposed as next experiment: noise, speeds and rows as the campaign has them, and never nothing where something is left."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from discrepancy.campaign.model import Campaign, Rig
+from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
+from discrepancy.inference.noise.noise import estimate
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN
+from discrepancy.next_run import NextRun, describe, possible, proposal_for
+from discrepancy.problem import Record
+
+RIG = Rig({"speed": (52.36, 314.2), "load": (0.0, 167.0), "temperature": (293.15, 333.15), "hours": (3.6e5, 3.6e7)}, (1,), (), (), 100.0, 1.0, 0.0, "EUR")
+CAMPAIGN = Campaign(None, "bench", "", None, 121.0, 167.0, {}, (), {}, {}, (), RIG, "", speed_at="output")
+
+
+def weighed(part, replicate, value):
+    factors = {"speed": 190.0, "load": 167.0, "temperature": 293.15, "hours": 3.6e6, "direction": 1.0}
+    return Record(f"{part}{replicate}", "mass_loss", "kg", "test", replicate, np.array([value]), {}, factors, tags={"part": part})
+
+
+def model_of(records):
+    bench = SimpleNamespace(rated_speed=190.0, rated_load=167.0)
+    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=lambda record, values: np.full(len(record.values), 2e-6))
+
+
+def space_of(records):
+    blank = [np.zeros(1)] * len(records)
+    return SimpleNamespace(noise=estimate(records, [r.values - 2e-6 for r in records], [b + 2e-6 for b in blank]))
+
+
+def test_noise_of_a_tagged_number_is_that_of_its_quantity():
+    records = [weighed(part, k, 2e-6 + 1e-8 * (-1) ** k) for part in ("disc", "pin") for k in (1, 2)]
+    space = space_of(records)
+    found = possible(model_of(records), CAMPAIGN, space)
+    assert {e.kind for e in found} == {"mass_loss[part=disc]", "mass_loss[part=pin]"}
+    assert all(e.deviation == pytest.approx(space.noise.streams["mass_loss"].scale / np.sqrt(2.0)) for e in found)
+
+
+def test_noise_in_proportion_follows_the_prediction():
+    records = [weighed("disc", k, 2e-6) for k in (1, 2)]
+    space = space_of(records)
+    stream = replace(space.noise.streams["mass_loss"], proportional=True, scale=0.05, floor=0.0)
+    space.noise.streams["mass_loss"] = stream
+    found = possible(model_of(records), CAMPAIGN, space)
+    assert found[0].deviation == pytest.approx(0.05 * 2e-6 / np.sqrt(2.0))
+
+
+def test_speeds_stand_where_the_campaign_states_them():
+    rpm = np.pi / 30.0
+    assert describe({"speed": 1815.0 * rpm, "load": 167.0, "temperature": 313.15}, CAMPAIGN) == "15 rpm at the output, 167 N.m, 40 degC"
+    assert describe({"speed": 1815.0 * rpm}, replace(CAMPAIGN, speed_at="input")) == "1815 rpm at the input"
+
+
+def law(rival, values, experiment):
+    # Only the load tells the rivals apart.
+    return np.array([values["a"] * experiment.settings["load"] ** (1 if rival.name == "line" else 2)])
+
+
+def test_experiments_that_differ_by_nothing_useful_are_one_row():
+    rivals = [RivalLaw(name, {"a": 1.0}, ["a"], np.array([[1e-4]]), np.array([1.0])) for name in ("line", "square")]
+    choices = [Experiment(f"x{load}{t}", 1.0, settings={"load": load, "temperature": t}, kind="x") for load in (1.0, 4.0, 9.0) for t in (293.0, 313.0, 333.0)]
+    result = next_experiment(law, choices, rivals, naming=lambda p: f"{p.kind} {p.settings['load']:g} {p.spans}")
+    assert result.proposals[0].experiment.startswith("x 9") and len(result.proposals) == 3 and len(result.every) == 9
+    assert all(p.spans == {"temperature": (293.0, 333.0)} for p in result.proposals) and result.proposals[0].experiment in result.verdict
+    dearer = [replace(c, cost=2.0 if c.settings["temperature"] > 320.0 else 1.0) for c in choices]
+    assert len(next_experiment(law, dearer, rivals).proposals) == 6
+
+
+def test_span_is_said_in_words():
+    said = describe({"load": 50.0, "temperature": 300.0}, CAMPAIGN, {"temperature": (293.15, 333.15)})
+    assert said == "50 N.m, any temperature from 20 to 60 degC"
+
+
+def answer_of(verdict, members=(), findings=()):
+    fits = SimpleNamespace(members=[SimpleNamespace(name=m) for m in members], rivals=[], space=None)
+    local = {"findings": list(findings)}
+    records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
+    diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local)
+    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records))
+
+
+@pytest.mark.parametrize(("verdict", "members"), [(INCOMPLETE, ["drag"]), (UNKNOWN, [])])
+def test_after_incomplete_or_unknown_something_is_left(verdict, members):
+    finding = {"signal": "mass_loss[part=disc]", "feature": "value", "dependence": "load", "p": 1e-6}
+    run = proposal_for(answer_of(verdict, members, [finding]), CAMPAIGN)
+    assert "nothing is left" not in run.verdict and "something is left" in run.verdict
+    # The widest gap between the loads that were measured, 20 and 167 N m.
+    assert run.open == ["mass_loss[part=disc] at 94 N.m: what is left changes with load, measured at 20 N.m, 167 N.m"]
+    assert run.as_json()["open"] == run.open
+    assert proposal_for(answer_of(verdict, members), CAMPAIGN).open
+
+
+def test_nothing_is_left_after_one_effect_or_none():
+    assert proposal_for(answer_of(ONE, ["drag"]), CAMPAIGN).verdict == "nothing is left to separate: drag stands alone"
+    assert "no effect was found" in proposal_for(answer_of(NONE), CAMPAIGN).verdict
+
+
+def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():
+    stake = {"torsional_stiffness at 20 degC": 2e5, "hysteresis[locked=input] at 20 degC": 1e-3, "wear_depth[surface=pin] at 20 degC": 2e-6}
+    texts = NextRun(None, SimpleNamespace(at_stake=stake), [], "").stakes()
+    assert list(texts.values()) == ["58.2 N.m/arcmin", "3.44 arcmin", "2 um"]

@@ -1,0 +1,70 @@
+"""A law that was recovered stands in the campaign's units, and a constant is none."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.law.recover import recover
+from discrepancy.problem import Record
+from discrepancy.scales import AXES
+from discrepancy.verdict import told_in
+
+RPM = np.pi / 30.0
+
+
+class Model:
+    """Predicts a torque of 2 N m, whatever the speed."""
+
+    nuisances = candidates = ()
+
+    def __init__(self, misfit):
+        rng = np.random.default_rng(1)
+        self.records = []
+        for speed in np.linspace(200.0, 2000.0, 8):
+            for load in (80.0, 160.0):
+                for replicate in (1, 2):
+                    factors = {"speed": speed * RPM, "load": load, "direction": 1.0}
+                    value = 2.0 + misfit(speed, load) + 0.003 * rng.standard_normal()
+                    name = f"{speed:.0f} rpm, {load:g} N m"
+                    self.records.append(Record(f"{name} {replicate}", "input_torque", "N.m", name, replicate, np.array([value]), {}, factors))
+        self.campaign = Campaign(None, "", "", None, 100.0, 160.0, {}, (), {}, {}, (), None, "", speed_at="output")
+
+    def predict(self, values, which=None):
+        return [np.full(1, 2.0) for _ in (range(len(self.records)) if which is None else which)]
+
+
+def laws(misfit):
+    model = Model(misfit)
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    return recover(doctor.space, doctor.space.base, None, told_in(model))
+
+
+def test_constant_is_no_law():
+    assert laws(lambda speed, load: 0.3) == []
+
+
+def test_law_over_speed_has_the_speed_of_the_campaign():
+    (law,) = laws(lambda speed, load: 0.3 * (speed / 2000.0) ** 2)
+    assert law.leading == "speed" and "[rpm at the output]" in law.text and "[N.m" in law.text
+    assert law.x_told[:2] == (pytest.approx(1.0 / RPM / 100.0), 0.0)
+    # Points stay in SI, the form is over 2 to 20 rpm: the torque at 20 rpm is 0.3 N m more than at rest.
+    assert max(law.points["x"]) == pytest.approx(2000.0 * RPM)
+    form, factor = law.forms[0], 120.0 if law.factor == "load" else 1.0
+    if form.name == "quadratic":
+        assert factor * form.parameters["c"] == pytest.approx(0.3 / 400.0, rel=0.2)
+
+
+def test_two_levels_make_no_form():
+    (law,) = laws(lambda speed, load: 0.002 * load)
+    assert law.leading == "load" and law.forms == [] and law.text.endswith("over load [N.m]: too few levels for a form")
+
+
+def test_draft_and_page_take_the_law():
+    from discrepancy.page import laws as page
+
+    (law,) = laws(lambda speed, load: 0.3 * (speed / 2000.0) ** 2)
+    assert page.figures(law, AXES["speed"]) and "SI unit" not in str(page.table(law)) and SimpleNamespace(**law.to_dict())

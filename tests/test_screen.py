@@ -1,0 +1,115 @@
+"""What the screen shows: texts of the user as they stand, units of the field, no praise that no unused run bears."""
+
+import re
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from cli.bars import Bars
+from cli.screen import console, figures, styled
+from cli.show import comparison as shows
+from discrepancy.inference.misfit.localise import Group, Localisation
+from discrepancy.inference.next_experiment import NextExperiment, Proposal
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE
+from discrepancy.next_run import NextRun
+from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
+from discrepancy.wording import error_text, is_shown, left_text, share_text, tone
+from fmu_src.progress import Task
+
+CLI = Path(__file__).resolve().parents[1] / "cli"
+SIGNAL = "wear_depth[disc=1,surface=inner_race]"
+
+
+def test_texts_are_no_markup(capsys):
+    group = Group(SIGNAL, "place [bold]", "everywhere", 9.0, 1, 10.0, 1e-6, 1e-6, 0.5)
+    shows.show_localisation(Localisation([group], {}, 0.01))
+    shows.show_warnings(console(), [f"{SIGNAL}: [red]odd[/red]"])
+    proposal = Proposal(f"{SIGNAL} at 20 degC", {}, 1.0, 9.0, 9.0, {})
+    run = NextRun(None, NextExperiment(True, f"{SIGNAL} separates", [proposal], {f"{SIGNAL} at 20 degC": 2e-6}), ["a[disc=1]", "b"], f"{SIGNAL} separates")
+    shows.show_next(run)
+    figures("title [disc=2]", {"figure[crank=1]": "[disc=3]"})
+    shown = capsys.readouterr().out
+    assert shown.count("[disc=1") >= 5 and "[bold]" in shown and "[red]odd[/red]" in shown
+    assert all(text in shown for text in ("[disc=2]", "[crank=1]", "[disc=3]", "2 um"))
+
+
+def test_texts_beside_a_bar_are_no_markup():
+    bars = Bars()
+    task = Task("adding a[disc=1]", 3)
+    bars.begin(task)
+    (column, *_) = bars.drawn.columns
+    text = column.render(bars.drawn.tasks[0])
+    bars.end(task)
+    assert "[disc=1]" in text.plain
+
+
+def test_every_screen_is_made_in_one_place():
+    made = [path.name for path in CLI.rglob("*.py") if re.search(r"\bConsole\(", path.read_text())]
+    assert sorted(made) == ["bars.py", "screen.py"]
+    assert not [path.name for path in CLI.rglob("*.py") if re.search(r"\[/|\bescape\(|\[(bold|green|yellow|red)\b", path.read_text())]
+
+
+@pytest.mark.parametrize(("value", "unit", "said"), [
+    (2e-7, "rad/(N.m)", "0.0006875 arcmin/(N.m)"), (3e-6, "m", "3 um"), (4e-5, "rad", "8.251 arcsec"), (2e-3, "rad", "6.875 arcmin"), (1.0, "rad", "57.3 deg"),
+    (313.15, "K", "40 degC"), (5.0, "K", "5 K"), (7200.0, "s", "2 h"), (0.3, "N.m", "0.3 N.m"), (1e-5, "kg.m", "10 g.mm"), (20.0, "rad/s", "191 rpm"),
+])  # fmt: skip
+def test_parameters_have_the_units_of_the_field(value, unit, said):
+    text, _, name = parameter_texts(value, (value, value), unit)
+    assert f"{text} {name}" == said
+
+
+def test_signals_and_axes_have_the_units_of_the_field():
+    assert of_signal("hysteresis[locked=output]", "rad").unit == "arcmin" and of_signal("transmission_error", "rad").unit == "arcsec"
+    assert of_signal("torsional_stiffness", "N.m/rad").unit == "N.m/arcmin" and of_signal(SIGNAL, "m").text(2e-6) == "2 um"
+    assert of_signal("temperature", "K").text(2.0) == "2 K" and of_axis("hours").text(3.6e6) == "1e+03 h"
+    assert of_parameter(0.0, "rad").text(0.0) == "0 arcsec"
+
+
+def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None, kind=None):
+    """As much of an answer as its words need; one signal, of which the last run is held out."""
+    records = [SimpleNamespace(name=n, quantity="hysteresis", unit="rad", values=np.array([1e-3, -1e-3]), held_out=n == "b") for n in ("a", "b")]
+    whitener = SimpleNamespace(quantity="hysteresis", kept=np.array([True, True]), scale=np.full(2, 1e-3))
+    space = SimpleNamespace(records=records, held_out=[1] if held_out else [], base=SimpleNamespace(values={}),
+                            predictions=lambda values, which: [np.zeros(2) for _ in which],
+                            noise=SimpleNamespace(whiteners=[whitener, whitener], streams={"hysteresis": SimpleNamespace(patterns={})}))
+    entry = {"before": before, "after": after, "rms": rms} | ({"kind": kind} if kind else {})
+    diagnosis = SimpleNamespace(fits=SimpleNamespace(space=space), held_out={"play": entry}, leftover=leftover or {}, captured=1.0, reason="r",
+                                alternatives={}, rejected=[])
+    effect = {"name": "play", "variant": "", "candidates": ["play"], "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
+              "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
+    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[])
+
+
+def test_what_leaves_something_does_not_explain_all():
+    left = {"findings": [{"signal": SIGNAL, "feature": "value", "dependence": "hours", "p": 1e-9}]}
+    answer = answer_of(INCOMPLETE, True, leftover=left)
+    assert "100 %" not in share_text(answer, 1.0) and share_text(answer, 0.6) == "explains 60 % of the misfit"
+    assert left_text(answer) == f"{SIGNAL}, value, changing with hours"
+    assert share_text(answer_of(ONE, True), 1.0) == "explains 100 % of the misfit"
+
+
+def test_error_below_the_noise_is_not_many_times_the_noise(capsys):
+    rms = {"hysteresis": {"before": 2e-3, "after": 1e-3, "floor": 80e-3}}
+    answer = answer_of(ONE, True, rms)
+    said = error_text(answer, answer.effects[0])
+    assert "times the noise" not in said and "6.88 arcmin, noise 275 arcmin" in said
+    assert not is_shown(answer, answer.effects[0]) and tone(answer) == "fair"
+    shows.show_answer(answer)
+    assert "0.0006875 arcmin/(N.m)" in capsys.readouterr().out
+
+
+def test_only_what_unused_runs_show_is_good():
+    rms = {"hysteresis": {"before": 80e-3, "after": 3e-3, "floor": 3e-3}}
+    assert tone(answer_of(ONE, True, rms)) == "good"
+    # Without held-out runs, with conditions left out in turn, and where nothing fell.
+    alone = answer_of(ONE, False, kind="leave one condition out")
+    assert tone(alone) == "fair" and "no run is held out" in error_text(alone, alone.effects[0])
+    assert tone(answer_of(ONE, True, rms, after=27.9)) == "fair"
+    assert tone(answer_of(NONE, True)) == "good" and tone(answer_of(NONE, False)) == "plain"
+
+
+def test_green_is_kept_for_held_out_runs():
+    assert shows.ratio_colour(1.0, True) == "green" and shows.ratio_colour(1.0, False) == "" and shows.ratio_colour(3.0, True) == "red"
+    assert styled(("x", "bold")).plain == "x"
