@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.model import Campaign, Nuisance
-from discrepancy.effects import MODULES
+from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.crew import Crew
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, error_with_cages, identity, transmission_error_beside
+from discrepancy.prediction.observe import OBSERVED, Values, angle_zero, condition_of, error_with_cages, identity, transmission_error_beside
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
@@ -183,8 +183,10 @@ class PhysicalModel:
             place = places[module.PER]
 
             def at(parameter: str, place: str = place) -> float:
+                if parameter == OUTPUT_SPEED:
+                    return condition_of(self.bench, record).speed / abs(self.bench.ratio)
                 key = f"{parameter}[{place}]" if place else parameter
-                return values.get(key, self.chain_values.get(key, 0.0))
+                return values.get(key, self.chain_values.get(key, STARTS[parameter]))
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
                 predicted = module.change(predicted, record, at, self.sizes[record.quantity])

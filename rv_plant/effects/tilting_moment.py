@@ -41,7 +41,7 @@ EFFECT = Effect(
         shape("tilting_compliance", "rad/(N.m)", "tilt of the carrier per moment", 7.8e-7, 0.0, 1e-3, "assumed: 370 N m/arcmin"),
         shape("disc_spacing", "m", "distance of neighbouring discs along the axis", 10e-3, 0.0, 0.2, "assumed: width of a disc and a gap"),
         shape("tilting_friction", "1", "f: friction torque at the output over the moment", 4e-3, 0.0, 0.2,
-              "assumed: 2 mu r/L with mu 0.002 and bearings as far apart as they are wide"),
+              "assumed: 2 mu r/L with mu 0.002 and bearings as far apart as they are wide", grid=(4e-3,)),
     ),
     signals=("transmission_error", "vibration", "input_torque"),
 )  # fmt: skip

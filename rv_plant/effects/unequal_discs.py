@@ -5,10 +5,11 @@
     bearings radial clearance  + q w_d
     ring     off centre by     (x, y) w_d as disc d sees it
 
-The last is a ring whose axis stands askew to the carrier's, or discs with a runout of their own against it.  What is fixed to the ring comes once per
-turn of the cranks, order z_c: on equal discs it cancels between the two, here it does not.  Unequal teeth and
-clearances alone make no order z_c, because a ring without errors looks the same from all sides; with a ring that is
-off centre (``pin_ring_runout``) they let a part of it through, and by themselves they shift load from disc to disc.
+The last is a ring whose axis stands askew to the carrier's, or one that is bored off centre under one disc.  What is
+fixed to the ring comes once per turn of the cranks, order z_c: on equal discs it cancels between the two, here it does not.  Unequal teeth and
+clearances alone make no order z_c in the transmission error, because a ring without errors looks the same from all
+sides; with a ring that is off centre (``pin_ring_runout``) they let a part of it through.  By themselves they shift load from
+disc to disc, and what one disc carries more pushes the housing about at order z_c, in proportion to the torque.
 
 Source: geometry; discs ground in different clampings, 1 to 5 um.
 """
@@ -28,7 +29,7 @@ EFFECT = Effect(
     "disc d: w_d = d/(D - 1) - 1/2; teeth lack g w_d, stand off by p w_d, clearance + q w_d; ring off centre by (x, y) w_d",
     "geometry; discs ground in different clampings, 1 to 5 um",
     "misaligned with the ring: order 39 (z_c), which equal discs never show, at any load; unequal teeth and clearances: load goes"
-    " from one disc to the other, orders of the ring that cancelled come through in part",
+    " from one disc to the other, the force on the housing has order 39, orders of the ring that cancelled come through in part",
     (
         _difference("disc_offset_x", "ring off centre along x", "alignment"),
         _difference("disc_offset_y", "ring off centre along y", "alignment"),
@@ -36,7 +37,7 @@ EFFECT = Effect(
         _difference("disc_pitch_difference", "teeth along the pitch", "teeth"),
         _difference("disc_clearance_difference", "radial clearance of the bearings", "clearance"),
     ),
-    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "lost_motion", "hysteresis", "input_torque"),
+    signals=("transmission_error", "vibration", "lost_motion", "hysteresis", "input_torque"),
 )  # fmt: skip
 
 
