@@ -75,6 +75,18 @@ class Effect:
         return [p.variable for p in self.parameters] + list(self.states)
 
 
+@dataclass(frozen=True)
+class Guard:
+    """A condition before every effect's kernel of a hook: the kernel ``function`` of ``module``, asked with the
+    effect's parameter EFFECT_``suffix`` and with a further ``argument`` of the hook, which effects do not see.
+    """
+
+    argument: str
+    module: str
+    function: str
+    suffix: str
+
+
 def amplitude(
     name: str, unit: str, text: str, scale: float, low: float, high: float, off: float = 0.0, sign: int = 0, source: str = "off",
     group: str = "", **more: Any,
@@ -123,11 +135,12 @@ def effect_modules(package: str) -> dict[str, ModuleType]:
     return dict(sorted(modules.items()))
 
 
-def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:
+def compose(package: str, hooks: Mapping[str, tuple[str, str]], guards: Mapping[str, Guard] | None = None) -> ModuleType:
     """One module with a kernel per hook that calls every effect's kernel of that name.
 
     ``hooks`` maps the hook's name to (arguments, operation): operation ``""`` calls one after
-    the other, ``"*"`` gives the product of what they return.
+    the other, ``"*"`` gives the product of what they return.  ``guards`` maps it to a condition of each call, whose
+    argument comes last.
     """
     name = f"{package}.composed"
     if name in sys.modules:
@@ -139,9 +152,14 @@ def compose(package: str, hooks: Mapping[str, tuple[str, str]]) -> ModuleType:
         present = [name for name, module in modules.items() if hasattr(module, hook)]
         lines += [f"from {package}.{name} import {hook} as {hook}_{name}" for name in present]
         calls = [f"{hook}_{name}({arguments})" for name in present]
-        body += ["", "", "@kernel", f"def {hook}({arguments}):"]
+        calls = [f"value *= {call}" for call in calls] if operation == "*" else calls
+        guard = (guards or {}).get(hook)
+        if guard is not None:
+            lines.append(f"from {guard.module} import {guard.function}")
+            calls = [f"if {guard.function}(r.{name}_{guard.suffix}, {guard.argument}):\n        {call}" for name, call in zip(present, calls)]
+        body += ["", "", "@kernel", f"def {hook}({arguments}{', ' + guard.argument if guard else ''}):"]
         if operation == "*":
-            body += ["    value = 1.0", *(f"    value *= {call}" for call in calls), "    return value"]
+            body += ["    value = 1.0", *(f"    {call}" for call in calls), "    return value"]
         else:
             body += [f"    {call}" for call in calls] or ["    pass"]
     text = "\n".join(lines + body) + "\n"

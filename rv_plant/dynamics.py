@@ -182,13 +182,13 @@ def tooth_contact(r, c, rate_weight):
     index, gradient = r.joint_index, r.joint_gradient
     for flank in range(2):
         s = 1.0 if flank == 0 else -1.0
-        approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - 0.5 * r.backlash - error
+        approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - 0.5 * (r.backlash + r.tooth_play[c]) - error
         if approach <= 0.0:
             continue
         # By x and y the angle turned changes by -y and x over distance^2.
         along = -s * ca * (small + planet) / (distance * distance)
         index[0], index[1], index[2], index[3], index[4] = carrier, crank, crank + 1, crank + 2, sun
-        gap_slope = error_slope + s * r.tooth_gap_rate[c]
+        gap_slope = error_slope + s * r.tooth_gap_rate[c] + 0.5 * r.tooth_play_rate[c]
         gradient[0] = gap_slope
         gradient[1] = -along * y - sa * x / distance
         gradient[2] = along * x - sa * y / distance

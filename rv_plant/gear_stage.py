@@ -32,6 +32,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0),
         state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
         state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
+        state("tooth_play", "m", "play of sun and planet beyond that of all", **crank),
+        state("tooth_play_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
         state("crank_turn_added", "rad", "a crank's turning by what its teeth lack", **crank),
         state("crank_turn_rate", "1", "its growth with the sun's turning against the carrier", **crank),
         state("pressure_cosine", "1", "cosine of the first stage's pressure angle"),
@@ -43,6 +45,7 @@ def clear_teeth(r):
     """Teeth of sun and planets lack nothing."""
     for c in range(r.tooth_gap.shape[0]):
         r.tooth_gap[c] = r.tooth_gap_rate[c] = r.crank_turn_added[c] = r.crank_turn_rate[c] = 0.0
+        r.tooth_play[c] = r.tooth_play_rate[c] = 0.0
 
 
 @kernel

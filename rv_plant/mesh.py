@@ -44,6 +44,9 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("lobe_pitch_added", "m", "lobe displaced along the pitch", **lobe),
         state("profile_radius_added", "m", "added to the pin radius that generates the profile"),
         state("profile_circle_added", "m", "added to the circle radius that generates the profile"),
+        state("pin_stiffness", "1", "stiffness of a pin's contact and seat over that of the others", **pin),
+        state("ring_offset_x", "m", "pin ring out of its place as a disc sees it", **sizes.over("disc")),
+        state("ring_offset_y", "m", "pin ring out of its place as a disc sees it", **sizes.over("disc")),
         state("ring_scale", "1", "pin circle radius over that at the reference temperature"),
         state("pin_angle", "rad", "nominal direction of a pin", **pin),
         state("pin_x", "m", "centre of a pin", **pin),
@@ -68,7 +71,15 @@ def clear_flanks(r):
             r.lobe_gap_added[d, lobe] = r.lobe_pitch_added[d, lobe] = 0.0
     for j in range(r.pin_radius_added.shape[0]):
         r.pin_radius_added[j] = 0.0
+        r.pin_stiffness[j] = 1.0
     r.profile_radius_added = r.profile_circle_added = 0.0
+
+
+@kernel
+def clear_offsets(r):
+    """No effect moves the ring against a disc."""
+    for d in range(r.ring_offset_x.shape[0]):
+        r.ring_offset_x[d] = r.ring_offset_y[d] = 0.0
 
 
 @kernel
@@ -100,8 +111,9 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     ca, sa = math.cos(axes), math.sin(axes)
     zx, zy = r.z[3 * d], r.z[3 * d + 1]
     eccentric_cos, eccentric_sin = math.cos(eccentric), math.sin(eccentric)
-    disc_x = r.eccentricity * eccentric_cos + zx * ca - zy * sa
-    disc_y = r.eccentricity * eccentric_sin + zx * sa + zy * ca
+    # From the ring's centre as this disc sees it.
+    disc_x = r.eccentricity * eccentric_cos + zx * ca - zy * sa - r.ring_offset_x[d]
+    disc_y = r.eccentricity * eccentric_sin + zx * sa + zy * ca - r.ring_offset_y[d]
     disc_cos, disc_sin = math.cos(r.z[3 * d + 2]), math.sin(r.z[3 * d + 2])
     ring = ring_coordinate(r)
     ring_cos, ring_sin = r.ring_scale * math.cos(r.z[ring]), r.ring_scale * math.sin(r.z[ring])
@@ -156,12 +168,12 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gt = px * nhy - py * nhx
         gr = pin_y * nhx - pin_x * nhy
         if rate_weight == 0.0:
-            force, stiffness = contact_force(-gap, r.mesh_constant, r.mesh_exponent)
+            force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
         else:
             rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
             r.mesh_rate[d, j] = rate
             force, stiffness, by_rate, elastic = damped_force(
-                -gap, rate, r.mesh_constant, r.mesh_exponent, r.damping_law, r.mesh_damping_now,
+                -gap, rate, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent, r.damping_law, r.mesh_damping_now,
                 r.damping_depth, impact_speed(r.mesh_impact_speed[d, j], rate),
             )
             stiffness += rate_weight * by_rate

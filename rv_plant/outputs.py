@@ -6,6 +6,7 @@ from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.contact import hertz_peak_pressure
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import clear_teeth
+from rv_plant.mesh import clear_offsets
 from rv_plant.needle_bearing import take_clearances
 
 effects = compose("rv_plant.effects", HOOKS)
@@ -32,6 +33,7 @@ def prepare_position(r):
     r.ring_scale = r.grease_thinning = 1.0
     take_clearances(r)
     clear_teeth(r)
+    clear_offsets(r)
     before_effects(r)
 
 

@@ -46,7 +46,7 @@ def test_encoder_off_centre_is_order_1_at_any_load():
     for c in ("rated", "load 25 %", "speed 200 %", "40 K warmer"):
         at = conditions(bench)[c]
         series = turn(bench, at, {})
-        added = amplitudes(changed("encoder_eccentricity", case, "transmission_error", at, series) - series) * ARCSEC
+        added = amplitudes(changed(bench, "encoder_eccentricity", case, "transmission_error", at, series) - series) * ARCSEC
         assert added[1] == pytest.approx(41.25, rel=1e-3) and added[2] == pytest.approx(1e-5 * ARCSEC, rel=1e-6)
         assert np.delete(added, [1, 2]).max() < 1e-6
-    assert np.array_equal(changed("encoder_eccentricity", case, "input_torque", at, series), series)
+    assert np.array_equal(changed(bench, "encoder_eccentricity", case, "input_torque", at, series), series)

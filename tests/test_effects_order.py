@@ -79,7 +79,8 @@ def take(reverse) -> None:
     outputs.warm_effects, outputs.before_effects, outputs.after_effects = of_plant.warm, of_plant.before, of_plant.after
     assembly.hold_effects = of_plant.hold
     accumulator.prepare_effects, accumulator.advance_effects = of_wear.prepare, of_wear.advance
-    accumulator.effect_factor = of_wear.factor
+    # All surfaces are chosen, and effects are not told which is worn.
+    accumulator.effect_factor = lambda *arguments: of_wear.factor(*arguments[:-1])
 
 
 def results(reducer):

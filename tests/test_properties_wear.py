@@ -123,8 +123,8 @@ def test_a_flank_pass_adds_the_area_that_it_accounts_for(bins, lobes, start, end
     profile = (lobes, 52e-3, 2e-3, 0.5)
     slide, arc = (np.array([f(p, *profile) for p in phases]) for f in (sliding_per_crank_angle, flank_arc_per_phase))
     depth = np.zeros(bins * lobes)
-    _, _, area = add_flank_pass(depth, start, end, amount, slide, np.concatenate([[0.0], np.cumsum(slide)[:-1]]), arc)
-    assert (depth * np.tile(arc, lobes)).sum() == pytest.approx(area, rel=1e-7, abs=1e-12 * amount)
+    _, _, slid = add_flank_pass(depth, start, end, amount, slide, np.concatenate([[0.0], np.cumsum(slide)[:-1]]), arc)
+    assert (depth * np.tile(arc, lobes)).sum() == pytest.approx(amount * slid, rel=1e-7, abs=1e-12 * amount)
 
 
 @examples(4)

@@ -119,7 +119,8 @@ def test_worn_area_of_a_flank_pass_is_the_sum_over_its_bins(start, end):
     bins, lobes = 12, 5
     tables = lobe_tables(bins)
     depth = np.zeros(bins * lobes)
-    deepest, place, worn = add_flank_pass(depth, start, end, 3e-12, *tables)
+    deepest, place, slid = add_flank_pass(depth, start, end, 3e-12, *tables)
+    worn = 3e-12 * slid
     assert np.sum(depth.reshape(lobes, bins) * tables[2]) == pytest.approx(worn, rel=1e-13, abs=1e-30)
     share = covered(bins * lobes, start, end).reshape(lobes, bins)
     assert worn == pytest.approx(3e-12 * np.sum(share * tables[0]), rel=1e-12, abs=0)

@@ -10,6 +10,7 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
+from wear_fmu.chosen_surfaces import FLANK, GUARDS, INNER, OUTER, PIN
 from wear_fmu.contacts import first_roller, flank_position, pin_position, publish_profile_errors, shortening
 from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
@@ -23,9 +24,7 @@ from wear_fmu.kinematics import (
 from wear_fmu.surfaces import add_flank_pass, add_footprint, add_pass, interpolate_closed
 from wear_fmu.wear_laws import run_in_factor, wear_coefficient
 
-FLANK, INNER, OUTER = 0, 1, 2
-
-effects = compose("wear_fmu.effects", HOOKS)
+effects = compose("wear_fmu.effects", HOOKS, GUARDS)
 prepare_effects, advance_effects, effect_factor = effects.prepare, effects.advance, effects.factor
 
 PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
@@ -58,6 +57,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         parameter("pins", "1", "whether the pins turn in their grooves and wear all round, or stand", 0,
                   choices=("turn", "stand"), source="assumed: they turn, which agrees with ten times less wear than"
                   " the disc"),
+        parameter("pin_wear_share", "1", "wear of a pin over that of the flanks it meets; 0: pins do not wear", 1.0, 0.0, 100.0,
+                  source="assumed: as hard as the discs, either loses the same area"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
         parameter("contact_lead", "1", "profile errors are given for the contact this many communication steps"
@@ -147,23 +148,25 @@ def wear_meshes(r, modulus, viscosity, run_in):
                 r.mesh_wear_law, r.mesh_wear_coefficient, r.hardness, run_in, r.load_exponent,
                 r.reference_line_load, r.roughness, viscosity, modulus, line_load, 1.0 / curvature,
             )
-            amount = r.acceleration * k * line_load
+            of_flank = of_pin = r.acceleration * k * line_load
             if r.effects_on:
                 middle = 0.5 * (start + end)
                 speed = abs(r.crank_speed) * sliding_per_crank_angle(
                     2.0 * math.pi * middle / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
                 )
                 depth = interpolate_closed(r.disc_wear[d], middle)
-                amount *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth)
-            deepest, place, worn = add_flank_pass(
-                r.disc_wear[d], start, end, amount, r.slide, r.slide_before, r.arc
+                of_flank *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth, FLANK)
+                of_pin *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth, PIN)
+            deepest, place, slid = add_flank_pass(
+                r.disc_wear[d], start, end, of_flank, r.slide, r.slide_before, r.arc
             )
-            r.flank_volume += worn * r.mesh_width
+            r.flank_volume += of_flank * slid * r.mesh_width
             if deepest > r.flank_depth[d]:
                 r.flank_depth[d] = deepest
                 r.flank_lobe[d] = place // bins + 1
                 r.flank_phase[d] = 2.0 * math.pi * (place % bins + 0.5) / bins
-            # The pin loses the same area, all round or where it is touched.
+            # The pin loses its share of the same area, all round or where it is touched.
+            worn = r.pin_wear_share * of_pin * slid
             r.pin_volume += worn * r.mesh_width
             round_share = 1.0 - r.standing
             r.pin_even_wear[d, j] += round_share * worn / (2.0 * math.pi * r.pin_radius)
@@ -235,7 +238,7 @@ def wear_raceways(r, modulus, viscosity, run_in):
                 if r.effects_on:
                     speed = race_speed * r.slip_ratio_inner * r.inner_race_radius
                     depth = interpolate_closed(r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, INNER, line_load, inner_radius, speed, depth)
+                    amount *= effect_factor(r, INNER, line_load, inner_radius, speed, depth, INNER)
                 deepest, place = add_pass(
                     r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle, (inner_end + ahead) / bin_angle, amount
                 )
@@ -248,7 +251,7 @@ def wear_raceways(r, modulus, viscosity, run_in):
                 if r.effects_on:
                     speed = race_speed * r.slip_ratio_outer * r.outer_race_radius
                     depth = interpolate_closed(r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, OUTER, line_load, outer_radius, speed, depth)
+                    amount *= effect_factor(r, OUTER, line_load, outer_radius, speed, depth, OUTER)
                 deepest, place = add_pass(
                     r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle, (outer_end + ahead) / bin_angle, amount
                 )

@@ -139,8 +139,8 @@ def add_flank_pass(depth, start, end, amount, slide, slide_before, arc):
 
     ``amount`` is the area worn per slid length (k q, [m]); ``slide`` [bin of a lobe] is
     the sliding length within each bin, ``slide_before`` its sum up to the bin's start,
-    ``arc`` the flank length of a bin.  Returns (deepest depth touched, its bin, worn
-    area from the sliding length of the whole sweep, an account apart from the bins).
+    ``arc`` the flank length of a bin.  Returns (deepest depth touched, its bin, sliding
+    length of the whole sweep [m], an account apart from the bins).
     """
     n, bins = depth.shape[0], arc.shape[0]
     low, high = min(start, end), max(start, end)
@@ -153,8 +153,7 @@ def add_flank_pass(depth, start, end, amount, slide, slide_before, arc):
         depth[cell] += amount * swept * slide[cell % bins] / arc[cell % bins]
         if depth[cell] > deepest:
             deepest, place = depth[cell], cell
-    worn = amount * (slide_to(high, slide, slide_before) - slide_to(low, slide, slide_before))
-    return deepest, place, worn
+    return deepest, place, slide_to(high, slide, slide_before) - slide_to(low, slide, slide_before)
 
 
 @kernel

@@ -39,7 +39,7 @@ def one_round(rng: np.random.Generator) -> list[Entry]:
                 break
         found.append({"kind": "pair", "laws": (first.name, second.name), "strength": float(rng.choice([12.0, 20.0]))})
     for _ in range(WRONG_BASES):
-        laws = [law for law in CATALOGUE if law.blocks[0] in ("te", "loops")]
+        laws = [law for law in CATALOGUE if law.blocks[0] in ("te", "speeds", "loops")]
         found.append({"kind": "wrong base", "laws": (laws[int(rng.integers(len(laws)))].name,), "strength": float(rng.choice([12.0, 20.0]))})
     for _ in range(POOR_EFFECTS):
         law = CATALOGUE[int(rng.integers(len(CATALOGUE)))]

@@ -10,6 +10,7 @@ from discrepancy.campaign.documentation import table
 from discrepancy.catalogue.catalogue import Entry, entries
 from discrepancy.catalogue.examples import AUDITED
 from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_bench, number, signature
+from fmu_src.variables import Variable
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
 from rv_plant.effects import HOOKS as PLANT_HOOKS
 from wear_fmu.effects import ALLOWED as WEAR_ALLOWED
@@ -38,7 +39,8 @@ STAGES = {
     "after": "when the contact forces are known: losses, vibration",
     "advance": "at the end of a step of `duration` [s]: own states",
     "heat": "after that: the temperature reached",
-    "factor": "for every contact, if any effect added 1 to `effects_on`: returns the factor on the wear coefficient, 1.0 where it is off",
+    "factor": "for every contact, if any effect added 1 to `effects_on`: returns the factor on the wear coefficient, 1.0 where it is off;"
+    " for the surfaces that EFFECT`_surfaces` chooses, a parameter that every effect with a factor gets",
 }
 OWN = """## Your own effect
 
@@ -108,9 +110,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.name}`", p.kind, p.variable.unit, f"{float(p.variable.start):g}",
-         f"{p.variable.minimum:g} to {p.variable.maximum:g}", p.variable.description)
-        for p in e.parameters
+        (f"`{p.variable.name}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((
@@ -118,6 +118,13 @@ def static_part(entry: Entry) -> str:
         f"`{entry.name}`, acts in the {entry.part}.", "", f"**Law:** {e.law}", "", f"**Source:** {e.source}", "",
         f"**Expected:** {e.signature}", "", table(heads, parameters),
     ))  # fmt: skip
+
+
+def range_of(v: Variable) -> tuple[str, str]:
+    """Start and bounds, or the names that may be chosen."""
+    if v.choices:
+        return v.choices[int(v.start)], ", ".join(v.choices)
+    return f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}"
 
 
 def computed_part(entry: Entry, found: list[Signature]) -> str:

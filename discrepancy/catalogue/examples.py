@@ -100,6 +100,31 @@ CASES: dict[str, tuple[Case, ...]] = {
         Case("viscosity doubles, wear triples in 10,000 h; churning 0.2 N m",
              {"grease_ageing": 0.693, "grease_starvation": 2.0, "churning_torque": 0.2, "grease_life": 10_000 * HOUR}),
     ),
+    "arrhenius": (Case("30 kJ/mol", {"activation_energy": 3e4}),
+                  Case("30 kJ/mol, on the races alone", {"activation_energy": 3e4, "arrhenius_surfaces": 3})),
+    "pressure_threshold": (Case("no wear below 600 MPa", {"threshold_share": 1.0, "threshold_pressure": 6e8}),),
+    "starvation": (Case("3 times the wear from 500 h on", {"starvation_growth": 2.0, "starvation_onset": 500 * HOUR}),),
+    "wear_growth": (Case("half as much again each 1,000 h", {"wear_growth": 0.5}),),
+    "ring_stiffness": (Case("10 % softer and stiffer", {"ring_stiffness_cos": 0.1}),),
+    "unequal_discs": (
+        Case("ring 2 um off centre for one disc, 2 um the other way for the other", {"disc_offset_x": 4 * UM}),
+        Case("teeth of the second disc 4 um thinner", {"disc_gap_difference": 4 * UM}),
+        Case("the same in a ring 5 um off centre", {"disc_gap_difference": 4 * UM, "pin_ring_runout": 5 * UM}),
+        Case("clearance of the second disc's bearings 2 um larger", {"disc_clearance_difference": 2 * UM}),
+    ),
+    "tilting_moment": (
+        Case("twice the load torque", {"tilting_share_x": 2.0}),
+        Case("300 N m, whatever the load", {"tilting_moment_x": 300.0}),
+    ),
+    "first_stage_play": (Case("20 um more and less", {"first_stage_play_cos": 20 * UM}),),
+    "support_hysteresis": (
+        Case("100 N m/arcmin once it slips at 20 N m",
+             {"support_slip_compliance": 1.0 / (100.0 * 3437.75), "support_slip_torque": 20.0}),
+    ),
+    "torsional_resonance": (
+        Case("22 Hz, damping ratio 0.05", {"resonance_share": 1.0, "resonance_frequency": 22.0}),
+        Case("11 Hz, half of the error over the spring", {"resonance_share": 0.5, "resonance_frequency": 11.0}),
+    ),
     "encoder_eccentricity": (Case("5 um on 50 mm", {"encoder_cos1": 2e-4}),),
     "clock_slip": (Case("0.1 %", {"clock_slip": 1e-3}),),
     "sensor_gain": (Case("5 %", {"sensor_gain": 0.05}),),
@@ -130,6 +155,7 @@ PICTURES = {
     "stribeck_friction": "torque", "drag": "torque", "thermal_expansion": "loop", "profile_modification": "loop",
     "support_compliance": "loop", "raceway_wear": "loop", "load_exponent": "load_wear", "hardness_gradient": "hours",
     "edge_loading": "load_wear", "roller_skidding": "cage", "pin_rotation": "pin_print", "unbalance": "housing",
+    "support_hysteresis": "loop", "arrhenius": "warm_wear", "pressure_threshold": "load_wear", "starvation": "hours", "wear_growth": "hours",
     "race_spall": "burst", "sensor_gain": "trace", "sensor_offset": "trace", "sensor_drift": "trace",
 }  # fmt: skip
 

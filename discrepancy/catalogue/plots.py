@@ -52,7 +52,7 @@ def orders(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     if name in MODULES:
         series = turn(bench, at, {})
         spectra = [(WITHOUT, amplitudes(series) * ARCSEC)]
-        spectra += [(c.title, amplitudes(changed(name, c, "transmission_error", at, series)) * ARCSEC) for c in cases]
+        spectra += [(c.title, amplitudes(changed(bench, name, c, "transmission_error", at, series)) * ARCSEC) for c in cases]
     else:
         spectra = [(label, amplitudes(turn(bench, at, v) * ARCSEC)) for label, v in versions(name, cases)]
     data = [
@@ -136,6 +136,12 @@ def speed_wear(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
                         at.speed * 30.0 / math.pi)
 
 
+def warm_wear(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
+    at = rated(bench)
+    return wear_against(bench, name, cases, "After 1,000 h at rated speed and load.", "Wear against temperature", "temperature [degC]",
+                        [10.0, 20.0, 35.0, 50.0, 70.0], lambda t: replace(at, temperature=t + 273.15), 1.0)
+
+
 def hours(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     at, times = rated(bench), np.array([100.0, 200.0, 400.0, 700.0, 1000.0, 2000.0, 3000.0, 4000.0, 5000.0])
 
@@ -184,13 +190,13 @@ def trace(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     series = np.abs(turn(bench, at, {}, "drive_torque"))
     angle = np.linspace(0.0, 360.0, len(series), endpoint=False)
     curves = [Curve(WITHOUT, angle[::16], series[::16], GREY)]
-    curves += [Curve(c.title, angle[::16], changed(name, c, "input_torque", at, series)[::16], colour_of(i + 1)) for i, c in enumerate(cases)]
+    curves += [Curve(c.title, angle[::16], changed(bench, name, c, "input_torque", at, series)[::16], colour_of(i + 1)) for i, c in enumerate(cases)]
     return chart(name, "Input torque along a run", "Rated speed and load.", curves, "angle of the output [degrees]",
                  "input torque [N m]", 12, 320)
 
 
 PICTURE: dict[str, Callable[[Bench, str, tuple[Case, ...]], Figure]] = {
-    f.__name__: f for f in (orders, loop, torque, cage, load_wear, speed_wear, hours, pin_print, housing, burst, trace)
+    f.__name__: f for f in (orders, loop, torque, cage, load_wear, speed_wear, warm_wear, hours, pin_print, housing, burst, trace)
 }
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, part_of
-from discrepancy.effects import MODULES
+from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench, Condition
 from discrepancy.prediction.observe import OBSERVED
@@ -159,6 +159,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable[[Bench, Condition
     "temperature": ("K", ("rated", "speed 200 %"), 1.0, lambda b, c, v: b.averages(c, v)["reducer_temperature"]),
 }  # fmt: skip
 SPECTRUM_AT = ("rated", "load 25 %")
+# Further conditions of effects of the measuring chain that only other speeds show.
+SHOWN_BY_SPEED = {"torsional_resonance": ("speed 20 %", "speed 200 %")}
 WEAR_AT = ("load 10 %", "load 150 %", "speed 20 %", "speed 200 %", "40 K warmer")
 
 
@@ -212,23 +214,24 @@ def wear_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, floa
 def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
     """What a sensor makes of the transmission error and of the input torque."""
     rows, at = [], conditions(bench)
-    for c in SPECTRUM_AT:
+    for c in (*SPECTRUM_AT, *SHOWN_BY_SPEED.get(name, ())):
         series = turn(bench, at[c], {})
-        shown = changed(name, case, "transmission_error", at[c], series)
+        shown = changed(bench, name, case, "transmission_error", at[c], series)
         without, present = (ARCSEC * amplitudes(s) for s in (series, shown))
         rows += [Row(f"TE order {o}", "arcsec", c, without[o], present[o]) for o in ORDERS]
     for c in SPECTRUM_AT:
         torque = np.abs(turn(bench, at[c], {}, "drive_torque"))
-        shown = changed(name, case, "input_torque", at[c], torque)
+        shown = changed(bench, name, case, "input_torque", at[c], torque)
         rows.append(Row("input torque", "N m", c, torque.mean(), shown.mean()))
         rows.append(Row("rise of torque in a run", "N m", c, *(tilt(s) for s in (torque, shown))))
     return rows
 
 
-def changed(name: str, case: Case, quantity: str, condition: Condition, series: Floats) -> Floats:
+def changed(bench: Bench, name: str, case: Case, quantity: str, condition: Condition, series: Floats) -> Floats:
     """A series over one turn as the sensor shows it."""
+    at = {**STARTS, OUTPUT_SPEED: condition.speed / abs(bench.ratio), **case.values}
     record = record_of(quantity, condition, {"angle": np.linspace(0.0, 2.0 * math.pi, len(series), endpoint=False)})
-    return MODULES[name].change(series, record, lambda p: case.values.get(p, 0.0), max(abs(series.mean()), series.std()))
+    return MODULES[name].change(series, record, at.__getitem__, max(abs(series.mean()), series.std()))
 
 
 def tilt(series: Floats) -> float:

@@ -1,9 +1,9 @@
-"""Effects of the measuring chain, one a file: what the sensors add to what the reducer does.
+"""Effects of the measuring chain, one a file: what rig and sensors make of what the reducer does.
 
 ``EFFECT`` says what they are, as for the reducer's own effects; a parameter with ``{}`` in
 its name exists once per quantity (or mounting, where its ``per`` says so).
-``change(values, record, at)`` returns the changed values of a record; ``at(name)`` gives a
-parameter's present value for the record.  They act in the order of STAGES.
+``change(values, record, at, size)`` returns the changed values of a record; ``at(name)`` gives a
+parameter's present value for the record, and the ``output_speed`` [rad/s] that it ran at.  They act in the order of STAGES.
 """
 
 from collections.abc import Callable
@@ -23,6 +23,9 @@ class ChainModule(Protocol):
     def change(self, values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats: ...
 
 
-STAGES = ("clock_slip", "encoder_eccentricity", "sensor_gain", "sensor_offset", "sensor_drift")
+STAGES = ("torsional_resonance", "clock_slip", "encoder_eccentricity", "sensor_gain", "sensor_offset", "sensor_drift")
 MODULES = {name: cast(ChainModule, effect_modules(__name__)[name]) for name in STAGES}
 EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in MODULES.items()}
+# Values of the parameters that nobody has set.
+STARTS = {p.variable.name: float(p.variable.start) for effect in EFFECTS.values() for p in effect.parameters}
+OUTPUT_SPEED = "output_speed"

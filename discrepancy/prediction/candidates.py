@@ -93,6 +93,13 @@ def chain_candidates(
     def called(p: EffectParameter, place: str) -> str:
         return f"{p.variable.name}[{place}]" if place else p.variable.name
 
+    def shapes(place: str) -> tuple[tuple[Parameter, ...], tuple[dict[str, float], ...]]:
+        """Shapes that are estimated, with their grid, under the names that they have at a place."""
+        searched = [p for p in effect.parameters if p.kind == "shape" and p.grid and called(p, place) not in taken_names]
+        points = product(*(p.grid for p in searched))
+        grid = tuple(dict(zip((called(p, place) for p in searched), point)) for point in points) if searched else ()
+        return tuple(parameter_of(p, float(p.variable.start), called(p, place)) for p in searched), grid
+
     if per == "mounting":
         amplitudes = tuple(parameter_of(p, 0.0, called(p, m)) for m in places for p in effect.amplitudes())
         taken = any(a.name in taken_names for a in amplitudes)
@@ -100,7 +107,7 @@ def chain_candidates(
     return [
         Candidate(
             f"{name}.{place}" if place else name, f"{effect.title}: {place}" if place else effect.title,
-            tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), (), (),
+            tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), *shapes(place),
             (place,) if place else signals, "chain",
         )
         for place in places if not any(called(p, place) in taken_names for p in effect.amplitudes())

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.campaign.model import Campaign, Nuisance
-from discrepancy.effects import MODULES
+from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, identity
+from discrepancy.prediction.conditions import Values, angle_zero, condition_of, identity
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.observe import CHANGES, OBSERVED, error_with_cages
@@ -185,8 +185,10 @@ class PhysicalModel:
             place = places[module.PER]
 
             def at(parameter: str, place: str = place) -> float:
+                if parameter == OUTPUT_SPEED:
+                    return condition_of(self.bench, record).speed / abs(self.bench.ratio)
                 key = f"{parameter}[{place}]" if place else parameter
-                return values.get(key, self.chain_values.get(key, 0.0))
+                return values.get(key, self.chain_values.get(key, STARTS[parameter]))
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
                 predicted = module.change(predicted, record, at, self.sizes[record.quantity])

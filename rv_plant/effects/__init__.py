@@ -35,10 +35,11 @@ ALLOWED = {
     | added("pin_x", "pin_y", "pin_radius_added", "lobe_gap_added", "lobe_pitch_added", "profile_radius_added",
             "profile_circle_added", "roller_gap_added", "output_gap_added", "throw_added", "lobe_turn_added",
             "hole_tangential_added", "hole_radial_added", "seat_tangential_added", "seat_radial_added", "compliance")
-    | scaled("mesh_constant", "roller_constant", "output_constant", "mesh_damping_now", "roller_damping_now"),
+    | scaled("pin_stiffness", "mesh_constant", "roller_constant", "output_constant", "mesh_damping_now", "roller_damping_now"),
     "warm": OWN_STATES | added("reducer_temperature"),
     "before": OWN_STATES
-    | added("roller_gap_now", "tooth_gap", "tooth_gap_rate", "crank_turn_added", "crank_turn_rate")
+    | added("roller_gap_now", "ring_offset_x", "ring_offset_y", "tooth_gap", "tooth_gap_rate", "tooth_play", "tooth_play_rate",
+            "crank_turn_added", "crank_turn_rate")
     | scaled("ring_scale", "grease_thinning"),
     # Evaluated many times for one equilibrium: nothing may be kept.
     "hold": added("residual_vector", "tangent"),

@@ -97,6 +97,22 @@ def te(design: Design, rng: np.random.Generator, size: str) -> None:
         design.series.append(Series("transmission_error", name, setting, noise, {"angle": angles}))
 
 
+def speeds(design: Design, rng: np.random.Generator, size: str) -> None:
+    """Transmission error over one turn of the output at several speeds."""
+    noise = noise_for(rng, "transmission_error")
+    samples = {"small": 450, "poor": 450, "middle": 500, "rich": 720}[size]
+    grid = {"small": [5, 8, 11, 15, 13], "poor": [8, 15], "middle": [4, 6, 9, 12, 16, 14], "rich": [3, 4, 6, 8, 10, 13, 16, 7, 12]}[size]
+    held = {"small": 1, "poor": 0, "middle": 1, "rich": 2}[size]
+    for k, turns in enumerate(grid):
+        name = f"speed{k + 1}"
+        setting = Setting(121 * turns * RPM, 120.0, 298.15)
+        design.conditions[name] = setting
+        if k >= len(grid) - held:
+            design.held_out.add(name)
+        angles = np.linspace(0.0, TURN, samples, endpoint=False)
+        design.series.append(Series("transmission_error", name, setting, noise, {"angle": angles}))
+
+
 def loops(design: Design, rng: np.random.Generator, size: str) -> None:
     """Torque up and down with the input held, at some temperatures."""
     noise = noise_for(rng, "hysteresis")
@@ -208,7 +224,7 @@ def cage(design: Design, rng: np.random.Generator, size: str) -> None:
         design.series.append(Series("cage_speed", name, setting, noise, rows=rows, replicates=3))
 
 
-BLOCKS = {"te": te, "loops": loops, "torque": torque, "wear": wear, "prints": prints, "vibration": vibration, "cage": cage}
+BLOCKS = {"te": te, "speeds": speeds, "loops": loops, "torque": torque, "wear": wear, "prints": prints, "vibration": vibration, "cage": cage}
 
 
 def make_design(rng: np.random.Generator, blocks: list[str], size: str) -> Design:

@@ -86,6 +86,15 @@ class WarmRipple(Angular):
         return np.cos(29.0 * angle + self.phase) * (0.2 + ((s.temperature - 293.15) / 20.0) ** 2)
 
 
+class Beating(Angular):
+    """A belt's teeth, order 52, that come and go once per turn."""
+
+    name = "order 52 that beats once per turn"
+
+    def pattern(self, angle: Floats, s: Setting) -> Floats:
+        return np.cos(52.0 * angle + self.phase) * (1.0 + 0.8 * np.cos(angle))
+
+
 class OddPins(Truth):
     """Every pin out of place by its own normal number."""
 
@@ -109,6 +118,17 @@ class Cubic(Truth):
     def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         change = self.a * (series.axes["torque"] / 167.0) ** 3
         return y - change + float(change.mean())
+
+
+class LiftingFoot(Truth):
+    """A foot of the housing that lifts under torque of either sense, always to the same side: the square of the torque."""
+
+    name, blocks, quantities = "foot that lifts with the square of the torque", ("loops",), ("hysteresis",)
+    typical, low, high = 1 * ARCSEC, 0.01 * ARCSEC, 60 * ARCSEC
+
+    def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
+        change = self.a * (series.axes["torque"] / 167.0) ** 2
+        return y + change - float(change.mean())
 
 
 class Cycling(Truth):
@@ -173,27 +193,17 @@ class Humidity(Torque):
         return y + self.a * math.sin(self.way * day)
 
 
-class Threshold(Wearing):
-    """No wear to speak of below a load."""
+class Chatter(Wearing):
+    """Cranks that chatter at one speed: wear has a peak there."""
 
-    name = "wear threshold"
-    typical, low, high = 0.3, 0.005, 0.98
+    name = "wear peak at one speed"
+    typical, low, high = 0.3, 0.005, 20.0
 
     def draw(self, rng: np.random.Generator) -> None:
-        self.load = float(rng.uniform(95.0, 140.0))
+        self.middle = float(rng.uniform(130.0, 190.0))
 
     def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
-        return 1.0 - self.a / (1.0 + math.exp((setting.load - self.load) / 4.0))
-
-
-class Arrhenius(Wearing):
-    """Tribo-corrosion: wear rate exponential in temperature, on the races alone."""
-
-    name = "wear exponential in temperature"
-    typical, low, high = 0.1, 0.001, 2.0
-
-    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
-        return math.exp(self.a * (setting.temperature - 308.0) / 10.0) if surface == "race" else 1.0
+        return 1.0 + self.a * math.exp(-(((setting.speed - self.middle) / 25.0) ** 2))
 
 
 class Accident(Wearing):
@@ -234,6 +244,6 @@ class FastCage(Truth):
 
 
 OUTSIDE: tuple[type[Truth], ...] = (
-    Cogging, Belt, ThreeLobes, StickSlip, LoadedTurn, WarmRipple, OddPins, Cubic, Cycling, Ventilation, Bump, Humidity, Threshold,
-    Arrhenius, Accident, Resonance, FastCage,
+    Cogging, Belt, ThreeLobes, StickSlip, LoadedTurn, WarmRipple, Beating, OddPins, Cubic, LiftingFoot, Cycling, Ventilation, Bump,
+    Humidity, Chatter, Accident, Resonance, FastCage,
 )  # fmt: skip

@@ -28,6 +28,12 @@ FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
 # Changes records before a run; factor on the wear of a surface ("flank", "race") in the course of a life.
 Change = Callable[[np.ndarray], None]
 Rate = Callable[[str, Mapping[str, float]], float]
+# Further gaps of the pins (steps, discs, pins) [m] at output angles [rad] under forces [N] of that shape.
+Gaps = Callable[[Floats, Floats], Floats]
+# Gaps that follow the forces are found by so many runs, from none.
+PASSES = 4
+# No force is so small that it would not wear.
+ALL_WEAR = np.array([0.0, 1.0, 1.0])
 SURFACES = ("flank", "pin", "inner_race", "outer_race")
 
 
@@ -83,20 +89,39 @@ class Plain:
         return p, w
 
     def sweep(
-        self, setting: Setting, angles: Floats, cage: float, parts: Change | None = None, surfaces: Change | None = None
+        self, setting: Setting, angles: Floats, cage: float, parts: Change | None = None, surfaces: Change | None = None,
+        gaps: Gaps | None = None,
     ) -> Floats:
         """What turning through ``angles`` [rad] of the output shows; columns as COLUMNS."""
         order = np.argsort(angles, kind="stable")[:: setting.direction]
         way = angles[order]
+        if gaps is not None:
+            found = np.empty((len(way), len(COLUMNS)))
+            found[order] = self.sweep_with_gaps(setting, way, cage, gaps, parts)
+            return found
         p, w = self.start(setting, parts, surfaces, ideal_output=float(way[0]), cage=cage)
         series = np.zeros((len(way), len(COLUMNS)))
         if surfaces is not None:
-            require(stepping.run(p, w, 1, 0.0))
+            require(stepping.run(p, w, 1, 0.0, ALL_WEAR))
         durations = np.abs(np.diff(way, prepend=way[0])) * self.ratio / setting.speed
-        require(stepping.turn(p, w, durations, series, surfaces is not None))
+        require(stepping.turn(p, w, durations, series, surfaces is not None, ALL_WEAR))
         back = np.empty_like(series)
         back[order] = series
         return back
+
+    def sweep_with_gaps(self, setting: Setting, way: Floats, cage: float, gaps: Gaps, parts: Change | None) -> Floats:
+        """``sweep`` along a way of a new reducer; all columns but the rollers' load."""
+        series, forces = np.zeros((len(way), len(COLUMNS))), np.zeros((len(way), *self.plants["mesh_force"].shape[1:]))
+        durations = np.abs(np.diff(way, prepend=way[0])) * self.ratio / setting.speed
+        for _ in range(PASSES):
+            wanted = gaps(way, forces)
+
+            def first(p: np.ndarray, at: Floats = wanted[0]) -> None:
+                p["mesh_profile_error"][0] = at
+
+            p, _w = self.start(setting, both(parts, first), None, ideal_output=float(way[0]), cage=cage)
+            require(stepping.turn_with_gaps(p, durations, series, wanted, forces))
+        return series
 
     def means(self, setting: Setting, parts: Change | None = None) -> dict[str, float]:
         """Means over one turn of the cranks."""
@@ -110,7 +135,7 @@ class Plain:
             angle = 2.0 * math.pi * (k + 0.5) / (HELD_POSITIONS * self.lobes)
             p, w = self.start(setting, parts, surfaces, input_speed=0.0, load_torque=float(torques[0]), ideal_output=angle, cage=0.1 * k)
             if surfaces is not None:
-                require(stepping.run(p, w, 1, 0.0))
+                require(stepping.run(p, w, 1, 0.0, ALL_WEAR))
                 p["load_torque"] = torques[0]
             turning = np.zeros(len(torques))
             require(stepping.load(p, torques, turning))
@@ -118,11 +143,11 @@ class Plain:
         return total
 
     def live(
-        self, setting: Setting, inspections: list[float], rate: Rate | None = None, parts: Change | None = None
+        self, setting: Setting, inspections: list[float], rate: Rate | None = None, parts: Change | None = None, mild: Floats = ALL_WEAR
     ) -> list[np.ndarray]:
         """Wear records at operating times [s]; ``rate(surface, life) -> factor`` on the wear of flanks and races.
 
-        ``life`` has the keys hours, travel, depth (by surface), iron (kg).
+        ``mild`` as in ``stepping.run``; ``life`` has the keys hours, travel, depth (by surface), iron (kg).
         """
         p, w = self.start(setting, parts)
         w["contact_lead"] = 1.0  # profile errors for the next contact: second order in the step
@@ -130,7 +155,7 @@ class Plain:
         turns, positions = self.cycle
         step, steps = turn / positions, turns * positions
         mesh, rough = float(w["mesh_wear_coefficient"][0]), float(w["roughness"][0])
-        require(stepping.run(p, w, 3, step))
+        require(stepping.run(p, w, 3, step, mild))
         done, jump, found = 0.0, FIRST_JUMP, []
         for target in inspections:
             while target - done > 1.0:
@@ -141,11 +166,23 @@ class Plain:
                     w["mesh_wear_coefficient"] = mesh * rate("flank", life)
                     # The raceways' law grows with roughness^1.589.
                     w["roughness"] = rough * rate("race", life) ** (1.0 / 1.589)
-                require(stepping.run(p, w, steps, step))
+                require(stepping.run(p, w, steps, step, mild))
                 done += stretch
                 jump = min(LONGEST_JUMP, JUMP_GROWTH * jump)
             found.append(w.copy())
         return found
+
+
+def both(first: Change | None, second: Change | None) -> Change | None:
+    """Two hooks on the same record, one after the other."""
+    if first is None or second is None:
+        return first or second
+
+    def run(records: np.ndarray) -> None:
+        first(records)
+        second(records)
+
+    return run
 
 
 def life_of(w: np.void, hours: float) -> dict[str, float]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
-from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, Change, Plain, Setting
+from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, Change, Gaps, Plain, Setting, both
 from benchmarks.blind_trial.generator.stepping import COLUMNS
 from fmu_src.arrays import Floats
 
@@ -40,11 +40,15 @@ class Truth:
     def draw(self, rng: np.random.Generator) -> None:
         """Whatever else is random about it."""
 
-    # On the plant's and on the wear unit's records; factor of wear on "flank" or "race"; share of time in which pins stand.
+    # On the plant's and on the wear unit's records; further gaps of the pins at output angles under forces (transmission
+    # error and vibration); factor of wear on "flank" or "race"; share of time in which pins stand.
     parts: Callable[[np.ndarray, Setting], None] | None = None
     surfaces: Callable[[np.ndarray, Setting], None] | None = None
+    gaps: Callable[[Setting, Floats, Floats], Floats] | None = None
     rate: Callable[[str, Mapping[str, float], Setting], float] | None = None
     standing: Callable[[Setting], float] | None = None
+    # Share of wear that is missing below a force of disc on pin, and below one on a roller [N].
+    mild: Callable[[], Floats] | None = None
 
     def post(self, series: Series, y: Floats, rows: list[Setting]) -> Floats:
         """Changes the ideal values."""
@@ -66,18 +70,6 @@ class Truth:
             plain[key] = value
         return {"law": self.name, "effect": self.effect, "text": (self.__doc__ or "").strip(), "parameters": self.parameters(),
                 "numbers": {k: v for k, v in plain.items() if isinstance(v, (int, float, str, list, tuple))}}
-
-
-def both(first: Change | None, second: Change | None) -> Change | None:
-    """Two hooks on the same record, one after the other."""
-    if first is None or second is None:
-        return first or second
-
-    def run(records: np.ndarray) -> None:
-        first(records)
-        second(records)
-
-    return run
 
 
 class Bench:
@@ -114,7 +106,7 @@ class Bench:
     def transmission_error(
         self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
     ) -> Floats:
-        y = self.plain.sweep(series.setting, axes["angle"], cage, parts, surfaces)[:, TE]
+        y = self.plain.sweep(series.setting, axes["angle"], cage, parts, surfaces, gaps_of(truths, series.setting))[:, TE]
         return y - float(y.mean())
 
     def hysteresis(
@@ -141,10 +133,11 @@ class Bench:
         self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
     ) -> Floats:
         orders = axes["order"]
-        if parts is None and surfaces is None:
+        gaps = gaps_of(truths, series.setting)
+        if parts is None and surfaces is None and gaps is None:
             return np.zeros(len(orders))
         angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM, endpoint=False)
-        force = self.plain.sweep(series.setting, angles, cage, parts, surfaces)[:, FX]
+        force = self.plain.sweep(series.setting, angles, cage, parts, surfaces, gaps)[:, FX]
         amplitude = 2.0 * np.abs(np.fft.rfft(force - force.mean())) / SPECTRUM
         return np.interp(orders, np.arange(len(amplitude)), amplitude) / HOUSING_MASS
 
@@ -159,7 +152,8 @@ class Bench:
         if key not in self.kept:
             hours = [s.hours for s in rows]
             fresh = Setting(first.speed, first.load, first.temperature, 0.0, first.direction)
-            self.kept[key] = self.plain.live(fresh, hours, rate if rates else None, parts)
+            milds = [t.mild() for t in truths if t.mild is not None]
+            self.kept[key] = self.plain.live(fresh, hours, rate if rates else None, parts, *milds[:1])
         return self.kept[key]
 
     def wear_depth(
@@ -183,6 +177,14 @@ class Bench:
 
 def bound(hook: Callable[[np.ndarray, Setting], None] | None, setting: Setting) -> Change | None:
     return None if hook is None else lambda records: hook(records, setting)
+
+
+def gaps_of(truths: list[Truth], setting: Setting) -> Gaps | None:
+    """The sum of what laws let the pins miss; worn races and such gaps are never in one law."""
+    laws = [t.gaps for t in truths if t.gaps is not None]
+    if not laws:
+        return None
+    return lambda angles, forces: np.sum([gaps(setting, angles, forces) for gaps in laws], axis=0)
 
 
 @lru_cache(maxsize=50)

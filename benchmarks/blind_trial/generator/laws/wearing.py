@@ -8,6 +8,7 @@ import numpy as np
 from benchmarks.blind_trial.generator.laws.shared import UM, WEAR
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
 from benchmarks.blind_trial.generator.truth import Truth
+from fmu_src.arrays import Floats
 
 
 class Wearing(Truth):
@@ -127,3 +128,56 @@ class StuckPins(Wearing):
 
     def parameters(self) -> dict[str, float]:
         return {"pin_standing_share": self.a}
+
+
+class TenKelvin(Wearing):
+    """The rule of the ten kelvin: for each of them wear grows by the same factor."""
+
+    name, effect = "wear by the rule of ten kelvin", "arrhenius"
+    typical, low, high = 0.1, 0.001, 1.2
+
+    def draw(self, rng: np.random.Generator) -> None:
+        self.sign = float(rng.choice([-1.0, 1.0, 1.0]))
+
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
+        return math.exp(self.sign * self.a * (setting.temperature - 303.0) / 10.0)
+
+
+class MildWear(Wearing):
+    """Mild wear below a force, whatever the curvature of the contact."""
+
+    name, effect = "mild wear below a force", "pressure_threshold"
+    typical, low, high = 0.3, 0.005, 0.98
+
+    def draw(self, rng: np.random.Generator) -> None:
+        self.force = float(rng.uniform(90.0, 220.0))
+
+    def mild(self) -> Floats:
+        return np.array([self.a, self.force, 0.7 * self.force])
+
+
+class DryRun(Wearing):
+    """Grease that runs out: from an hour on wear grows along a straight line, until all of it has gone."""
+
+    name, effect = "grease that runs out", "starvation"
+    typical, low, high = 1.0, 0.01, 30.0
+
+    def draw(self, rng: np.random.Generator) -> None:
+        self.onset = float(rng.uniform(300.0, 1400.0))
+        self.width = float(rng.uniform(200.0, 700.0))
+
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
+        return 1.0 + self.a * min(1.0, max(0.0, (life["hours"] - self.onset) / self.width))
+
+
+class Ageing(Wearing):
+    """Surfaces that tire: wear grows as a power of the hours."""
+
+    name, effect = "surfaces that tire", "wear_growth"
+    typical, low, high = 0.2, 0.003, 10.0
+
+    def draw(self, rng: np.random.Generator) -> None:
+        self.power = float(rng.uniform(0.9, 1.25))
+
+    def rate(self, surface: str, life: Mapping[str, float], setting: Setting) -> float:
+        return 1.0 + self.a * math.pow(life["hours"] / 1000.0, self.power)
