@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
@@ -127,11 +128,11 @@ def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, 
     if off < LOOKED_AT or not (near or off >= (HARDLY_KNOWN if record.quantity in LOOSE else DOUBTED)):
         return None
     what = "varies by" if record.free_zero else "is about"
-    stated, expected = (size / abs(source.factor) for size in (measured, model))
+    stated, expected = (readable(size / abs(source.factor), 4) for size in (measured, model))
     place = f" ({source})" if source.column else ""
     text = (
-        f"run {record.name}: {record.quantity} {what} {stated:.4g} {source.unit}{place}, {readable(times)} what the model"
-        f" predicts, {expected:.4g} {source.unit}"
+        f"run {record.name}: {record.quantity} {what} {stated} {source.unit}{place}, {ratio(times)} what the model"
+        f" predicts, {expected} {source.unit}"
     )
     return Finding(WARNING, "implausible scale", text, remedy_of(best if near else None, fits, source.unit, q.unit))
 
@@ -157,13 +158,13 @@ def fitting(times: float, stated: str, si: str, usual: float = 1.0) -> list[Fit]
     return sorted((f for f in found if distance(f.times) < distance(times)), key=lambda f: distance(f.times))
 
 
-def readable(times: float) -> str:
-    return f"{times:.3g} times" if times >= 1.0 else f"1/{1.0 / times:.3g} of"
+def ratio(times: float) -> str:
+    return f"{readable(times)} times" if times >= 1.0 else f"1/{readable(1.0 / times)} of"
 
 
 def remedy_of(best: Fit | None, fits: Sequence[Fit], stated: str, si: str) -> str:
     if best is None:
-        nearest = ", ".join(f"in {f.unit} it would be {readable(f.times)} the prediction" for f in fits[:2])
+        nearest = ", ".join(f"in {f.unit} it would be {ratio(f.times)} the prediction" for f in fits[:2])
         return "look at unit and scale of the column" + (f" ({nearest})" if nearest else "")
     factor = conversion(stated, si)[0] / conversion(best.unit, si)[0]
     factor = max(factor, 1.0 / factor)

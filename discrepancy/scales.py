@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from fmu_src.units import UnitError, conversion, parse, registry
@@ -33,7 +34,7 @@ class Scale:
         return self.factor * value + self.offset
 
     def text(self, value: float, digits: int = 3) -> str:
-        return f"{self.number(value):.{digits}g} {'' if self.unit == '1' else self.unit}".rstrip()
+        return f"{readable(self.number(value), digits)} {'' if self.unit == '1' else self.unit}".rstrip()
 
 
 def of_signal(signal: str, unit: str) -> Scale:
@@ -97,8 +98,8 @@ def shown(value: float, unit: str, signal: str = "") -> str:
 def parameter_texts(value: float, interval: tuple[float, float], unit: str) -> tuple[str, str, str]:
     """(value, interval, unit) of an estimate, all in one unit."""
     scale = of_parameter(largest(value, *interval), unit)
-    low, high = (f"{scale.number(v):.4g}" for v in interval)
-    return f"{scale.number(value):.4g}", f"{low} to {high}", "" if scale.unit == "1" else scale.unit
+    low, high = (readable(scale.number(v), 4) for v in interval)
+    return readable(scale.number(value), 4), f"{low} to {high}", "" if scale.unit == "1" else scale.unit
 
 
 def largest(*values: float) -> float:

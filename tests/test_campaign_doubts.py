@@ -63,7 +63,7 @@ def test_factors_between_units():
 def test_torque_that_no_reducer_takes(tmp_path):
     check = campaign(tmp_path, {"a": condition()}, [loop_file(tmp_path, 1000.0 * LOOP)])
     found = next(f for f in check.findings if f.code == "impossible torque")
-    assert "167000 N.m (loop.csv, column T [N.m])" in found.text and "1e+03 times the rated 167" in found.text and 'unit = "N.mm"' in found.remedy
+    assert "167000 N.m (loop.csv, column T [N.m])" in found.text and "1000 times the rated 167" in found.text and 'unit = "N.mm"' in found.remedy
     kilo = campaign(tmp_path, {"a": condition()}, [loop_file(tmp_path, torque_unit="kN.m")])
     assert 'unit = "N.m"' in next(f for f in kilo.findings if f.code == "impossible torque").remedy
     assert not check.problems or {p.code for p in check.problems} == {"noise unknown"}

@@ -48,3 +48,8 @@ def amount(given: object, target: str, place: str) -> float:
     if not abs(value) < float("inf"):
         raise InputFault(f"{place} = {given!r}: not a finite number in {target}; give one")
     return value
+
+
+def readable(value: float, digits: int = 3) -> str:
+    """So many digits that mean something, and no exponent for numbers that people write without one."""
+    return f"{value:.0f}" if 10.0 ** (digits - 1) <= abs(value) < 1e7 else f"{value:.{digits}g}"

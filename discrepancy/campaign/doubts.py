@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign, Source
@@ -54,7 +55,7 @@ def torques(design: Design) -> Iterator[Finding]:
         yield Finding(
             WARNING, "impossible torque",
             f"run {record.name}: the torque reaches {largest:.6g} N.m{campaign.place(record.name, 'torque')},"
-            f" {largest / rated:.3g} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times", remedy,
+            f" {readable(largest / rated)} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times", remedy,
         )  # fmt: skip
 
 

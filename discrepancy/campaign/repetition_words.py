@@ -1,5 +1,6 @@
 """A repetition that stands out, in words and in the usual unit of its quantity."""
 
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.repetitions import Outlying
 from fmu_src.units import conversion
@@ -12,7 +13,7 @@ def words(found: Outlying) -> str:
     q = QUANTITIES[found.quantity]
     factor, offset = conversion(found.unit, q.usual_unit)
     offset = offset if found.what in ("mean", "value") else 0.0
-    size, low, high = (f"{factor * v + offset:.3g}" for v in (found.size, found.low, found.high))
+    size, low, high = (readable(factor * v + offset) for v in (found.size, found.low, found.high))
     others = low if low == high else f"{low} to {high}"
     verb = WORDS.get(found.what, found.what + " is {}")
     unit = "" if q.usual_unit == "1" else f" {q.usual_unit}"

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.problem import FREE_ZERO, Record
 from fmu_src.units import conversion
@@ -21,7 +22,7 @@ def unused_means(records: Sequence[Record]) -> Iterator[tuple[str, str]]:
             continue
         q = QUANTITIES[quantity]
         factor = conversion(q.unit, q.usual_unit)[0]
-        low, high = (f"{factor * mean:.3g}" for mean in (min(means), max(means)))
+        low, high = (readable(factor * mean) for mean in (min(means), max(means)))
         span = f"a mean of {low}" if low == high else f"means of {low} to {high}"
         yield (
             f"{quantity}: {span} {q.usual_unit} over a run {'is' if low == high else 'are'} not used, because its zero is free",

@@ -105,7 +105,7 @@ def leading(name: str, law: Recovered, curve: Curve, factor: float, title: str, 
         legend=legend,
         margin={"l": 64, "r": 16, "t": 30, "b": 46},
     )
-    heading = f"{amounts.signal_title(law.signal).capitalize()} over {amounts.TITLES.get(law.leading, law.leading.replace('_', ' '))}"
+    heading = f"{amounts.signal_title(law.signal).capitalize()} over {law.leading.replace('_', ' ')}"
     return Figure(
         name,
         heading,
