@@ -7,7 +7,7 @@ from twin import Twin, centre_curve, outward_normal
 
 from rv_plant.assembly import assemble
 from rv_plant.geometry import flank_curvature
-from wear_fmu import accumulator
+from wear_fmu import places
 from wear_fmu.kinematics import (
     equivalent_curvature,
     flank_arc_per_phase,
@@ -154,7 +154,7 @@ def test_place_on_the_disc_is_the_plants_phase_and_lobe(rv20e, crank):
             pin = circle * np.exp(2j * np.pi * j / 40)
             seen = (pin - centre) * np.exp(1j * (crank / LOBES + np.pi * d / LOBES))
             nearest = along[np.argmin(abs(whole_disc - seen))] / (2 * np.pi)
-            found = accumulator.flank_position(record, d, j, crank) / bins
+            found = places.flank_position(record, d, j, crank) / bins
             assert (found - nearest + LOBES / 2) % LOBES - LOBES / 2 == pytest.approx(0.0, abs=0.6 / 400)
             assert np.exp(2j * np.pi * found) == pytest.approx(np.exp(1j * machine.mesh_phase[d, j]), abs=1e-10)
 
@@ -167,7 +167,7 @@ def test_rollers_lie_on_the_raceways_where_the_plant_has_them(rv20e, crank, cage
     twin.place(np.zeros(len(twin.r.z)))
     for d in range(2):
         for c in range(2):
-            inner, outer = accumulator.first_roller(record, d, c, crank, -crank / LOBES, cage)
+            inner, outer = places.first_roller(record, d, c, crank, -crank / LOBES, cage)
             roller = twin.roller_direction[d, c, 0]
             assert np.exp(1j * inner) == pytest.approx(roller / (twin.throw[d, c] / abs(twin.throw[d, c])), abs=1e-10)
             assert np.exp(1j * outer) == pytest.approx(roller / twin.hole_direction[d, c], abs=1e-10)

@@ -17,10 +17,10 @@ from wear_fmu.kinematics import (
     PRINTED,
     equivalent_curvature,
     flank_arc_per_phase,
-    pin_contact_angle,
     printed_sliding_per_crank_angle,
     sliding_per_crank_angle,
 )
+from wear_fmu.places import first_roller, flank_position, pin_position, shortening
 from wear_fmu.surfaces import (
     add_flank_pass,
     add_footprint,
@@ -83,11 +83,6 @@ def variables(sizes: Sizes) -> list[Variable]:
 
 
 @kernel
-def shortening(r):
-    return r.eccentricity * r.mesh_force.shape[1] / r.pin_circle_radius
-
-
-@kernel
 def prepare(r):
     """Tables of one lobe: sliding length and arc of each bin, by Simpson's rule."""
     bins, lobes = r.arc.shape[0], r.mesh_force.shape[1] - 1
@@ -135,35 +130,6 @@ def initialise(records):
     r.standing = min(1.0, r.standing)
     r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
     return 0
-
-
-@kernel
-def flank_position(r, d, j, crank_angle):
-    """Place of pin j on the circumference of disc d, in bins; whole lobes apart it is the phase.
-
-    The phase is that of the disc's eccentric direction against the pin: 0 at the root.
-    """
-    pins = r.mesh_force.shape[1]
-    lobes = pins - 1
-    eccentric = crank_angle + 2.0 * math.pi * d / r.mesh_force.shape[0]
-    return (lobes * j / pins + eccentric / (2.0 * math.pi)) * r.arc.shape[0]
-
-
-@kernel
-def pin_position(r, phase_position):
-    """Place of a contact on a standing pin, in bins, from its place on the flank."""
-    bins, k1 = r.pin_wear.shape[2], shortening(r)
-    angle = pin_contact_angle(2.0 * math.pi * phase_position / r.arc.shape[0], k1)
-    return (angle / math.pi + 0.5) * bins
-
-
-@kernel
-def first_roller(r, d, c, crank_angle, output_angle, cage_angle):
-    """Angles of roller 1 on the inner and on the outer raceway [rad]."""
-    discs, cranks = r.inner_race_depth.shape
-    position = 2.0 * math.pi * c / cranks
-    eccentric = crank_angle + 2.0 * math.pi * d / discs
-    return output_angle + position + cage_angle - eccentric, cage_angle
 
 
 @kernel

@@ -96,7 +96,8 @@ def in_order(values: Floats, angle: Floats, transfer: Transfer) -> Floats:
     parts = inverse @ values
     middle = len(orders)
     waves = (parts[:middle] - 1j * parts[middle:]) * (transfer(orders) - 1.0)
-    return values + basis @ np.concatenate([waves.real, -waves.imag])
+    changed: Floats = values + basis @ np.concatenate([waves.real, -waves.imag])
+    return changed
 
 
 def even_turns(values: Floats, turns: float, transfer: Transfer) -> Floats:
