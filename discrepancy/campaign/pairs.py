@@ -1,4 +1,4 @@
-"""Pairs of effects that look alike, and the experiment that tells them apart (physics audit, section 6).
+"""Pairs of effects that look alike, and the experiment that tells them apart (to number 13: physics audit, section 6).
 
 Each experiment is a list of needs; a pair has one or several alternative experiments.
 """
@@ -131,6 +131,31 @@ PAIRS = (
          ("transmission_error", *PLAY),
          ((worn("flank"), worn(*RACES)),
           (intervention("load_reversed", *PLAY), measured("vibration", "vibration_order")))),
+    Pair(14, ("ring stiffness round the circle", "oval ring"),
+         "vary the load: stiffness shows in proportion to it, an oval ring at any load", ("transmission_error",),
+         ((levels("load", 2, "transmission_error"), full_turns(1)),)),
+    Pair(15, ("discs misaligned with the ring", "tilting moment of the load"),
+         "vary the load: misalignment stays, the moment of what makes the load goes with it", ("transmission_error",),
+         ((levels("load", 2, "transmission_error"), full_turns(1)),)),
+    Pair(16, ("play of the first stage over the angle", "planet run-out"),
+         "turn both ways under load: play changes its sign, a run-out does not", ("transmission_error",),
+         ((both_directions("transmission_error"), full_turns(1)),)),
+    Pair(17, ("support with memory", "friction of the contacts"),
+         "loops to small and large torques: a seat that slips holds the same torque at all, friction one in proportion",
+         ("hysteresis", "lost_motion"), ((WIDE_TORQUES,),)),
+    Pair(18, ("torsional resonance of the rig", "errors of parts"),
+         "vary the speed: a resonance keeps its frequency, a part its order", ("transmission_error",),
+         ((levels("speed", 2, "transmission_error"), full_turns(1)),)),
+    Pair(19, ("wear coefficient growing with time", "debris abrasion"),
+         "wear at two loads: iron comes with the wear, time does not; or change the grease", WEAR,
+         ((levels("load", 2, *WEAR), levels("hours", 3, *WEAR)),
+          (intervention("grease_changed", *WEAR), levels("hours", 3, *WEAR)))),
+    Pair(20, ("wear over temperature", "lubrication regime"),
+         "vary speed and temperature: a film goes with both, chemistry with the temperature alone", WEAR,
+         ((levels("temperature", 2, *WEAR), levels("speed", 2, *WEAR)),)),
+    Pair(21, ("wear threshold of pressure", "load-dependent wear exponent"),
+         "wear at three loads: a power is a straight line over the logarithm, a threshold is a step", WEAR,
+         ((levels("load", 3, *WEAR),),)),
 )  # fmt: skip
 
 

@@ -14,8 +14,9 @@ SHOWN_BY = {
     "vibration": ("vibration", "vibration_order"), "debris": ("debris_iron",),
     "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"),
 }  # fmt: skip
-# Searched by hand only: which pin stands out is a search of its own.
-NOT_SEARCHED = {"proud"}
+# Searched by hand only: which pin stands out is a search of its own; a constant moment on the flange shows as discs that are
+# misaligned with the ring, which stand for both.
+NOT_SEARCHED = {"proud", "constant moment"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
 PATTERNS = {"harmonics": ("transmission_error",)}
 MOST_CRANKS = 3

@@ -8,7 +8,8 @@ The main bearings yield by c, and the carrier tilts in the housing: its cranks a
 displaced against the ring, the first one way, the last the other way.  M is a vector that stands still in the housing, given by
 the way in which it moves the last disc, the one next to the flange.  m is the moment over the torque: lever of the
 arm's weight along the axis over that across it.  A loaded pair of bearings brakes with f = 2 mu r/L, r their
-radius, L their distance.
+radius, L their distance.  A diagnosis looks for m alone: M_0 shows as discs that are misaligned with the ring
+(``unequal_discs``), and only the drag would tell.
 
 What a planar model cannot carry: a tilted disc touches pins and rollers along their length unevenly (how that wears, but
 not how it is carried, is ``edge_loading``); forces along the axis; teeth of the first stage that are carried askew;
