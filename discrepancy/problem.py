@@ -122,8 +122,8 @@ class OnThreads(Protocol):
 class Cheaper(Protocol):
     """What a model may have besides: predictions next to others to first order, and rough ones."""
 
-    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
-        """``Model.predict`` for values next to ``base``."""
+    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], roughly: bool) -> list[Floats]:
+        """``Model.predict``, or ``predict_roughly``, for values next to ``base``."""
         ...
 
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:

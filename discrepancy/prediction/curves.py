@@ -19,6 +19,8 @@ from studies.hysteresis import LOST_MOTION_SHARE
 Nodes = TypeVar("Nodes", AngleNodes, TorqueNodes)
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
+# Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
+LEVEL_OF_SLOPES = 6
 
 
 class Curve(Protocol[Nodes]):
@@ -124,8 +126,11 @@ def signal(curve: Curve[Nodes], values: Values) -> Floats:
     return found
 
 
-def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
-    """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given."""
+def nodes_of(curve: Curve[Nodes], values: Values, slopes: bool = False) -> Nodes | None:
+    """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given.
+
+    ``slopes``: for derivatives, which jump where the signal has a kink.
+    """
     fineness, bench = curve.bench.fineness, curve.bench
     if fineness is None:
         return None
@@ -137,7 +142,8 @@ def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
         at = curve.run(more, nodes) - (curve.run({}, nodes) if more else 0.0)
         return nodes.error(at), float(np.std(at))
 
-    return curve.nodes(fineness.level(curve.record, bench.away(values), values, errs))
+    level = fineness.level(curve.record, bench.away(values), values, errs)
+    return curve.nodes(max(level, LEVEL_OF_SLOPES) if slopes and not fineness.rough else level)
 
 
 def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
@@ -146,7 +152,7 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     condition = curve.condition
     if condition.hours > 0.0:
         return None
-    nodes = nodes_of(curve, {**base, **values})
+    nodes = nodes_of(curve, {**base, **values}, slopes=True)
     if nodes is None:
         angles, place = as_turned(bench, record, values)
         before, place_before = as_turned(bench, record, base)
@@ -166,7 +172,7 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
     condition = curve.condition
     if condition.hours > 0.0 or bench.remembers(values) or bench.remembers(base):
         return None
-    nodes = nodes_of(curve, {**base, **values})
+    nodes = nodes_of(curve, {**base, **values}, slopes=True)
     path, lead = entered(bench, curve.places(values) if nodes is None else nodes.torques)
     high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
     return high - low if nodes is None else nodes.samples(high - low, curve.places(values))

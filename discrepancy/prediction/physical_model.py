@@ -152,9 +152,9 @@ class PhysicalModel:
         """See ``problem.Model``."""
         return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None, False))
 
-    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+    def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], roughly: bool = False) -> list[Floats]:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
-        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base), True))
+        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base), roughly))
 
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""

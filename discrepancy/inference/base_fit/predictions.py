@@ -20,7 +20,7 @@ class Predictions:
         for c in model.candidates:
             self.off.update({p.name: p.off for p in c.amplitudes})
         self.store: dict[Key, dict[int, Floats]] = {}
-        self.beside_store: dict[tuple[Key, Key], dict[int, Floats]] = {}
+        self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
         # Whether predictions may be rough for now: while something is searched for.
         self.rough = False
@@ -51,9 +51,9 @@ class Predictions:
         model = self.model
         if not isinstance(model, Cheaper):
             return self(values, which)
-        values, base = self.active(values), self.active(base)
-        known = self.beside_store.setdefault((tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
-        return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing))
+        values, base, rough = self.active(values), self.active(base), self.rough
+        known = self.beside_store.setdefault((rough, tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
+        return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing, rough))
 
     @contextmanager
     def roughly(self) -> Iterator[None]:

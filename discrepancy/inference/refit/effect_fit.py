@@ -10,21 +10,25 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, other_starts
 from discrepancy.problem import Candidate, Parameter
 from fmu_src.arrays import Floats
 
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
 JOINT_STEPS = 15
+# Descents from other starts than the score test's.
+OTHERS = 2
 
 
-def fit_effects(space: Workspace, candidates: Sequence[Candidate], start: Mapping[str, float]) -> Fit:
-    """Nuisances and the parameters of ``candidates``, from ``start``."""
+def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]]) -> Fit:
+    """Nuisances and the parameters of ``candidates``, from the best of ``starts`` and from wherever else it is better."""
     frozen = _Frozen(space, candidates)
     own, nuisances = frozen.own, space.model.nuisances
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
-    first = {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own}
-    values, converged, columns = _descend(frozen, first)
+    values, converged, columns = _search(frozen, candidates, [
+        {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own} for start in starts
+    ])  # fmt: skip
     promised, residual = frozen.cost(values)
     full = {**frozen.nuisances_with(residual), **values}
     if _cost(space, Box(parameters), full)[0] > space.base.chi2:
@@ -33,7 +37,7 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], start: Mappin
     found = _polish(space, parameters, full, np.column_stack([frozen.jacobian, columns]), names, converged, promised)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
-        anew = {**{p.name: p.off for p in nuisances}, **{p.name: start.get(p.name, p.off) for p in own}}
+        anew = {**{p.name: p.off for p in nuisances}, **{p.name: starts[0].get(p.name, p.off) for p in own}}
         found = min(found, _jointly(space, parameters, anew, names), key=lambda f: f.chi2)
     return found
 
@@ -88,6 +92,34 @@ class _Frozen:
         """The nuisances that go with what the effects leave."""
         shift = self.inverse @ self.nuisance_gradient(residual)
         return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
+
+
+def _search(frozen: _Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]]) -> tuple[dict[str, float], bool, Floats]:
+    """The best optimum (values, whether it converged, columns) from ``starts`` and, for one effect, from other sizes and along its valley."""
+    found = [_descend(frozen, start) for start in starts]
+    if len(candidates) == 1 and _may_mislead(candidates[0]):
+        best = min(found, key=lambda f: frozen.cost(f[0])[0])
+        others = other_starts(candidates[0].amplitudes, best[0])
+        if len(frozen.own) > 1:
+            others += along_valley(frozen.own, best[0], _information(frozen, best[2]))
+        costs = frozen.space.threads.map(lambda start: frozen.cost(start)[0], others)
+        # Those that are better at once, and the best of the rest: an optimum may lie behind a ridge.
+        chosen = sorted(range(len(others)), key=costs.__getitem__)[:OTHERS]
+        found += [_descend(frozen, others[k]) for k in chosen]
+    return min(found, key=lambda f: frozen.cost(f[0])[0])
+
+
+def _may_mislead(candidate: Candidate) -> bool:
+    """Whether the slope at the base model may lead to the wrong optimum: effects of one side, and parameters that do nearly the same."""
+    return 1 < len(candidate.amplitudes) <= MOST_AMPLITUDES or any(p.sign for p in candidate.amplitudes) or bool(candidate.shapes)
+
+
+def _information(frozen: _Frozen, columns: Floats) -> Floats:
+    """Information about the effect's own parameters, nuisances projected out, in units of their scale."""
+    cross = frozen.jacobian.T @ columns
+    scale = Box(frozen.own).scale
+    found: Floats = (columns.T @ columns - cross.T @ frozen.inverse @ cross) * np.outer(scale, scale)
+    return found
 
 
 def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:

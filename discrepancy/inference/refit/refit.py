@@ -63,8 +63,7 @@ def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Sc
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    fits = [fit_effects(space, candidates, start) for start in starts[:2]]
-    return finished(space, candidates, min(fits, key=lambda f: f.chi2))
+    return finished(space, candidates, fit_effects(space, candidates, starts[:2]))
 
 
 def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit) -> Refit:
@@ -160,7 +159,7 @@ def literal_leave_out(space: Workspace, result: Refit, conditions: Sequence[str]
             space.lay_out()
             keep = np.concatenate([np.arange(rows[i].start, rows[i].stop) for i in inside])
             space.base = fit_of(base.parameters, base.values, base.residual[keep], base.jacobian[keep])
-            fit = fit_effects(space, result.candidates, result.fit.values)
+            fit = fit_effects(space, result.candidates, [result.fit.values])
             ys = space.predictions(fit.values, outside)
             errors[condition] = float(sum(np.sum(space.noise.whiteners[i](space.records[i].values - y) ** 2) for i, y in zip(outside, ys)))
     finally:
