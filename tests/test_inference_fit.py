@@ -32,7 +32,7 @@ class Shaker:
 
     def __post_init__(self):
         self.nuisances = (self.mass,)
-        self.candidates = tuple(Candidate(n, n, (Parameter(n, "N", 0.0, -1e3, 1e3, 1e-3),)) for n in self.shapes)
+        self.candidates = tuple(Candidate(n, n, (Parameter(n, "N", 0.0, -1e3, 1e3, 1.0),)) for n in self.shapes)
 
     def predict(self, values, which=None):
         def one(r):
@@ -74,7 +74,7 @@ def test_a_rival_a_little_behind_that_leaves_nothing_stays_in_the_set():
     """The rival has a line that nobody measured: 8 of chi-square too much."""
 
     model = shaken(6.0 * LINES["unbalance"], {"unbalance": LINES["unbalance"], "other": line(39.0) + 0.075 * line(117.0)})
-    strict, mild = (diagnose(model, Settings(margin=0.5, adequate_margin=m, form_margin=0.0)) for m in (0.5, 12.0))
+    strict, mild = (diagnose(model, Settings(margin=0.5, adequate_margin=m)) for m in (0.5, 12.0))
     rivals = {r.name: r.fit.chi2 for r in strict.fits.rivals}
     assert 6.0 < rivals["other"] - rivals["unbalance"] < 12.0
     assert strict.verdict == "one effect" and strict.effects[0].name == "unbalance"

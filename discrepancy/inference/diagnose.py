@@ -9,10 +9,10 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.consistency import lack_of_fit
-from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation, Localiser
-from discrepancy.inference.refit.confusable import canonical_correlation, confusable_set, penalised
+from discrepancy.inference.refit.confusable import FORM, canonical_correlation, confusable_set, ends_at_a_bound, penalised
 from discrepancy.inference.refit.effect_fit import renew
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
@@ -42,6 +42,17 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
     return kept
 
 
+def against(judged: HeldOut | None) -> str:
+    """What runs that were not fitted say against what is named; empty if nothing."""
+    if judged is None:
+        return ""
+    if judged.after > max(judged.before, WITHIN_NOISE):
+        return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
+    if judged.p_after < 0.0005 and judged.after > 1.5:
+        return f"runs that were not used are not explained: their error is {judged.after:.2f} after {judged.before:.2f}, with 1 for noise alone"
+    return ""
+
+
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
     """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
     return Diagnostician(model, settings, orders).run()
@@ -57,6 +68,7 @@ class Diagnostician:
         self.candidates = list(model.candidates)
         self.by_name = {c.name: c for c in self.candidates}
         self.fitted: dict[frozenset[str], Refit] = {}
+        self.final_fits: dict[frozenset[str], Refit] = {}
 
     # steps --------------------------------------------------------------------------------
     def prepare(self) -> Localisation:
@@ -103,21 +115,27 @@ class Diagnostician:
         fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
         return sorted(fits, key=penalised)
 
+    def final(self, names: Sequence[str]) -> Refit:
+        """The fit of the named effects as it is reported, wherever."""
+        return self.renewed(self.fit(names))
+
     def renewed(self, result: Refit) -> Refit:
-        """The refit with its sensitivities taken anew, remembered in place of the first."""
+        """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
+        key = frozenset(c.name for c in result.candidates)
+        if key in self.final_fits:
+            return self.final_fits[key]
         better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
-        self.fitted[frozenset(c.name for c in result.candidates)] = better
+        self.fitted[key] = self.final_fits[key] = better
         return better
 
     def several(self, best: Refit) -> Refit:
-        """Forward selection with a backward check."""
+        """Forward selection with a backward check; what counts is what a further effect gains of that which is left."""
         settings, current = self.settings, best
-        first = best.gain
         while len(current.candidates) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:4]
-            least = max(settings.second_gain * first, 12.0)
+            least, lenient = self.least_gain(current, best)
             promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
             if not promising:
                 break
@@ -132,28 +150,48 @@ class Diagnostician:
                         continue
                     if joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * challenger.gain:
                         trials.append(self.fit([other.name, newest]))
-            challenger = min(trials, key=penalised)
+            challenger = self.renewed(min(trials, key=penalised))
             extra = current.fit.chi2 - challenger.fit.chi2
-            if extra < settings.second_gain * first or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
+            if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
                 break
-            current = self._backward(challenger, first)
+            if lenient and not self.foretells(challenger, current):
+                break
+            current = self._backward(challenger, least)
             if len(current.candidates) <= len(names):
                 break
-        return current if current is best else self.renewed(current)
+        return current
 
-    def _backward(self, joint: Refit, first: float) -> Refit:
+    def least_gain(self, current: Refit, first: Refit) -> tuple[float, bool]:
+        """What a further effect must gain, and whether that is less than a fixed part of the first: then it must be seen elsewhere too."""
+        fixed = max(self.settings.second_gain * first.gain, 12.0)
+        over, left, _, _ = self.leftover(current)
+        if not over:
+            return fixed, False
+        needed = max(self.settings.needed * left, 12.0)
+        return min(fixed, needed), needed < fixed
+
+    def foretells(self, joint: Refit, current: Refit) -> bool:
+        """Whether runs that were not fitted, or conditions left out in turn, are nearer to ``joint`` than to what there is already."""
+        if self.space.held_out:
+            judge = HeldOutJudge(self.space, self.localisation, [joint, current], self.orders)
+            after, before = judge.judge(joint), judge.judge(current)
+            if after is not None and before is not None:
+                return after.after < before.after
+        left = [sum(leave_condition_out(self.space, r.fit).values()) for r in (joint, current)]
+        return left[0] < left[1]
+
+    def _backward(self, joint: Refit, least: float) -> Refit:
         """Drops members without which the fit is hardly worse."""
         names = [c.name for c in joint.candidates]
         for name in names:
             rest = [n for n in names if n != name]
             if not rest:
                 continue
-            least = max(self.settings.second_gain * first, 12.0)
             if drop_cost(joint, self.by_name[name]) > SURELY * least:
                 continue
-            without = self.fit(rest)
+            without = self.renewed(self.fit(rest))
             if without.fit.chi2 - joint.fit.chi2 < least:
-                return self._backward(without, first)
+                return self._backward(without, least)
         return joint
 
     # judgement ----------------------------------------------------------------------------
@@ -205,12 +243,12 @@ class Diagnostician:
                     alternatives[c.name] = stand_ins
         judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
         judged = judge.judge(final)
-        if judged is not None and ((judged.p_after < 0.0005 and judged.after > 1.5) or (judged.p_after < 0.05 and judged.after > judged.before)):
-            # Runs that were not fitted are not explained, or are further off than before.
+        unproved = against(judged)
+        if unproved:
             over = True
-            text["held_out"] = {"error": judged.after, "p": judged.p_after}
+            text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
         one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
-        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor)
+        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
@@ -220,8 +258,8 @@ class Diagnostician:
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
-        margin = max(self.settings.adequate_margin, self.settings.form_margin * members[0].gain)
-        near = [r for r in rivals if r not in members and penalised(r) - least <= margin]
+        margin = self.settings.adequate_margin + FORM * max(members[0].gain, 0.0)
+        near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and penalised(r) - least <= margin]
         return [r for r in near if not self.leftover(r)[0]]
 
     def _dof(self, result: Refit) -> float:
@@ -292,7 +330,7 @@ class Diagnostician:
         confusable = [m.name for m in members] if not several and len(members) > 1 else []
         base = self.space.base
         return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
-                         float(captured), float(p_screen), float(p_local), held_out, {p.name: base.values[p.name] for p in base.parameters},
+                         float(captured), float(p_screen), float(p_local), held_out, {p.name: (members[0].fit if members else base).values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
                          Fits(self.space, list(members), list(rivals)))

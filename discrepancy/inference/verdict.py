@@ -16,7 +16,11 @@ UNKNOWN = "unknown"
 
 @dataclass(frozen=True)
 class Settings:
-    """Thresholds.  Levels are for all tests of one kind together."""
+    """Thresholds.  Levels are for all tests of one kind together.
+
+    ``second_gain``: what a further effect must gain of the first where nothing else is left to explain; ``needed``: what it must
+    gain of that which is left.
+    """
 
     screen_level: float = 0.002
     localise_level: float = 0.0008
@@ -25,9 +29,9 @@ class Settings:
     second_level: float = 0.001
     captured: float = 0.70
     second_gain: float = 0.10
+    needed: float = 0.3
     margin: float = 6.0
     adequate_margin: float = 10.0
-    form_margin: float = 0.05
     shortlist: int = 7
     most_effects: int = 3
     draws: int = 2000
@@ -99,14 +103,19 @@ class Diagnosis:
 
 
 def decide(significant_candidate: bool, significant_place: bool, named: int, members: int, captured: float, leftover: bool,
-           settings: Settings, one_sensor: bool = False) -> tuple[str, str]:
-    """Verdict and the reason for it.  ``one_sensor``: what is named are several errors of one signal's sensor."""
+           settings: Settings, one_sensor: bool = False, unproved: str = "") -> tuple[str, str]:
+    """Verdict and the reason for it.
+
+    ``one_sensor``: what is named are several errors of one signal's sensor; ``unproved``: what runs that were not fitted say against it.
+    """
     if not significant_candidate and not significant_place:
         return NONE, "no effect and no generic function is significant against the noise of the replicates"
     if not significant_candidate or named == 0:
         return UNKNOWN, "the misfit is significant but no effect of the catalogue explains it"
     if captured < settings.captured:
         return UNKNOWN, f"the best effect captures only {100 * captured:.0f} % of the misfit"
+    if unproved:
+        return INCOMPLETE, unproved
     if leftover:
         return INCOMPLETE, "what is named leaves a significant misfit"
     if named > 1 and one_sensor:

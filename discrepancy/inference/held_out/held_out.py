@@ -21,6 +21,10 @@ from discrepancy.inference.refit.refit import Refit
 from fmu_src.arrays import Floats
 
 
+# Error over noise that noise alone makes now and then.
+WITHIN_NOISE = 1.3
+
+
 @dataclass(frozen=True)
 class HeldOut:
     """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left."""

@@ -14,15 +14,30 @@ MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""
 PER_PARAMETER = 2.0
 """Price of a further parameter, in chi-square (Akaike)."""
+PLAUSIBLE = 10.0
+"""Amplitudes up to this many times their typical size cost nothing (assumed); beyond, the price grows with the square."""
+FORM = 5e-4
+"""Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
+
+
+def implausible(rival: Refit) -> float:
+    """Chi-square of the amplitudes' disagreement with their plausible range."""
+    amplitudes = [p for c in rival.candidates for p in c.amplitudes]
+    sizes = (abs(rival.fit.values[p.name] - p.off) / (PLAUSIBLE * p.scale) for p in amplitudes)
+    return float(sum(max(size - 1.0, 0.0) ** 2 for size in sizes))
 
 
 def penalised(rival: Refit) -> float:
-    """Chi-square with a price for parameters: a flexible effect imitates a stiff one, not the other way round."""
-    return rival.fit.chi2 + PER_PARAMETER * len(rival.own)
+    """Chi-square with a price for parameters (a flexible effect imitates a stiff one, not the other way round) and for implausible sizes."""
+    return rival.fit.chi2 + PER_PARAMETER * len(rival.own) + implausible(rival)
+
+
+def ends_at_a_bound(rival: Refit) -> bool:
+    return any(p.name in rival.fit.at_bounds for p in rival.own)
 
 
 def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float = 1e6, margin: float = MARGIN) -> list[Refit]:
-    """Effects whose fit is as good as the best but for ``margin``, best first.
+    """Effects whose fit is as good as the best but for ``margin``, best first; nothing that ends at a bound stands beside others.
 
     ``inflation`` is the leftover misfit per degree of freedom; few replicates widen the margin to
     what Student's law asks for the same probability.
@@ -30,10 +45,12 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
     if not rivals:
         return []
     ordered = sorted(rivals, key=penalised)
-    least = penalised(ordered[0])
+    inside = [r for r in ordered if not ends_at_a_bound(r)] or ordered[:1]
+    best = ordered[0] if penalised(inside[0]) - penalised(ordered[0]) > margin * max(1.0, inflation) else inside[0]
     if dof < 200:
         margin = student.isf(norm.sf(np.sqrt(margin)), max(dof, 2.0)) ** 2
-    return [r for r in ordered if (penalised(r) - least) / max(1.0, inflation) <= margin]
+    near = [r for r in inside if penalised(r) - penalised(best) <= margin * max(1.0, inflation)]
+    return near if best in near else [best, *near]
 
 
 def canonical_correlation(space: Workspace, a: Refit, b: Refit) -> float:
