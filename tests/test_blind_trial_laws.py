@@ -1,0 +1,121 @@
+"""Laws of the blind trial against the effects that they hide: other computations of the same physics."""
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from benchmarks.blind_trial.generator.designs import Series  # noqa: E402
+from benchmarks.blind_trial.generator.laws.rig import SoftCoupling  # noqa: E402
+from benchmarks.blind_trial.generator.laws.supports import AskewRing, HangingWeight, SlippingSeat, SoftSeat  # noqa: E402
+from benchmarks.blind_trial.generator.laws.wearing import MildWear  # noqa: E402
+from benchmarks.blind_trial.generator.noise import Noise  # noqa: E402
+from benchmarks.blind_trial.generator.reducer import HOUR, Setting  # noqa: E402
+from benchmarks.blind_trial.generator.truth import TE, Bench  # noqa: E402
+from discrepancy.effects.torsional_resonance import filtered, transfer_of  # noqa: E402
+
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)
+SPEED = 121 * 8 * math.pi / 30.0
+LOADS = ((167.0, 1), (100.0, 1), (167.0, -1))
+
+
+@pytest.fixture(scope="module")
+def bench():
+    return Bench({})
+
+
+def law_of(kind, **numbers):
+    law = kind(np.random.default_rng(0))
+    law.__dict__.update(numbers)
+    return law
+
+
+def by_law(bench, law, load, direction):
+    series = Series("transmission_error", "a", Setting(SPEED, load, 293.15, 0.0, direction), Noise(1e-6), {"angle": ANGLES})
+    return bench.values(series, [law]) - bench.values(series, [])
+
+
+def by_effect(bench, load, direction, **values):
+    def set_all(p):
+        for name, value in values.items():
+            p[name] = value
+
+    at = Setting(SPEED, load, 293.15, 0.0, direction)
+    change = bench.plain.sweep(at, ANGLES, 0.3, set_all)[:, TE] - bench.plain.sweep(at, ANGLES, 0.3)[:, TE]
+    return change - change.mean()
+
+
+def left(found, expected):
+    """What of ``expected`` is not found, in proportion."""
+    return np.linalg.norm(found - expected) / np.linalg.norm(expected)
+
+
+@pytest.mark.parametrize("load, direction", LOADS)
+def test_ring_that_discs_see_off_centre(bench, load, direction):
+    """Gaps by Camus' theorem against pins that are moved."""
+    law = law_of(AskewRing, a=1e-6, phase=0.7, oval=0.0)
+    effect = by_effect(bench, load, direction, disc_offset_x=1e-6 * math.cos(0.7), disc_offset_y=1e-6 * math.sin(0.7))
+    assert left(effect, by_law(bench, law, load, direction)) < 0.02
+
+
+@pytest.mark.parametrize("load, direction", LOADS)
+def test_weight_that_tilts_the_carrier(bench, load, direction):
+    rigidity, half, size = 1.3e6, 5e-3, 1.5
+    law = law_of(HangingWeight, a=size, phase=0.7, rigidity=rigidity, half=half)
+    # The law's bearings stiffen by 5 % at rated load.
+    share = size * (1.0 - 0.05 * load / 167.0)
+    effect = by_effect(bench, load, direction, tilting_compliance=1.0 / rigidity, disc_spacing=2.0 * half,
+                       tilting_share_x=share * math.cos(0.7), tilting_share_y=share * math.sin(0.7))
+    assert left(effect, by_law(bench, law, load, direction)) < 0.02
+
+
+def test_soft_seat_is_a_softer_contact(bench):
+    """Linear springs behind the contacts against contacts of another stiffness, with one size for all loads."""
+    law = law_of(SoftSeat, a=3e-10, phase=0.7, fourth=0.0)
+    cosine, sine = (np.concatenate([by_effect(bench, *at, **{f"ring_stiffness_{part}": 0.02}) for at in LOADS]) for part in ("cos", "sin"))
+    expected = np.concatenate([by_law(bench, law, *at) for at in LOADS])
+    size = np.linalg.lstsq(np.stack([cosine, sine], axis=1), expected, rcond=None)[0]
+    assert left(size[0] * cosine + size[1] * sine, expected) < 0.06
+    # Softer where the stiffness is less: the same direction, and about a c F/depth.
+    assert math.atan2(-size[1], -size[0]) == pytest.approx(0.7, abs=0.05)
+
+
+def test_stepped_flywheel_is_the_transfer_function():
+    """Half of the law's damping stands against the ground: at these orders that moves 2 z r/2 at most."""
+    series = Series("transmission_error", "a", Setting(SPEED, 100.0), Noise(1e-6), {"angle": ANGLES})
+    y = 1e-5 * (np.cos(40.0 * ANGLES + 0.3) + np.cos(78.0 * ANGLES) + 2.0 * np.cos(80.0 * ANGLES + 1.0))
+    law = law_of(SoftCoupling, a=1.0, frequency=9.0, damping=0.05)
+    expected = filtered(y, ANGLES, transfer_of(1.0, 9.0, 0.05, SPEED / 121.0 / (2.0 * math.pi)))
+    found = law.post(series, y, [series.setting])
+    assert left(found, expected) < 0.08
+    backwards = Series("transmission_error", "a", Setting(SPEED, 100.0, direction=-1), Noise(1e-6), {"angle": ANGLES})
+    expected = filtered(y, ANGLES, transfer_of(1.0, 9.0, 0.05, -SPEED / 121.0 / (2.0 * math.pi)))
+    assert left(law.post(backwards, y, [backwards.setting]), expected) < 0.08
+
+
+def test_seat_after_bouc_and_wen_with_power_one_is_dahls(bench):
+    torque = np.concatenate([np.linspace(8.0, 160.0, 20), np.linspace(152.0, -160.0, 40), np.linspace(-152.0, 160.0, 40)])
+    series = Series("hysteresis", "a", Setting(SPEED, 167.0), Noise(1e-6), {"torque": torque})
+    law = law_of(SlippingSeat, a=1e-7, most=20.0, stuck=4.0, power=1.0)
+
+    def set_seat(p):
+        p["support_slip_compliance"], p["support_slip_torque"], p["support_stick_ratio"] = 1e-7, 20.0, 4.0
+
+    at = series.setting
+    effect = bench.plain.held(at, torque, set_seat) - bench.plain.held(at, torque)
+    assert left(effect - effect.mean(), law.post(series, np.zeros(len(torque)), [at])) < 0.03
+
+
+def test_mild_wear_spares_what_is_loaded_little(bench):
+    at = Setting(209.4, 80.0)
+    whole = bench.plain.live(at, [50.0 * HOUR])[0]
+    law = law_of(MildWear, a=0.9, force=150.0)
+    mild = bench.plain.live(at, [50.0 * HOUR], mild=law.mild())[0]
+    flank = float(mild["flank_volume"][0] / whole["flank_volume"][0])
+    race = float(mild["inner_race_volume"][0] / whole["inner_race_volume"][0])
+    assert 0.1 < flank < 0.8 and race > flank
