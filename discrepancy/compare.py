@@ -1,7 +1,7 @@
 """Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import words
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
@@ -62,6 +63,15 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     space = diagnostician.space
     every = list(range(len(space.records)))
     predictions = space.predictions(space.base.values, every)
+    runs = runs_of(space, predictions)
+    found = outlying(space.records)
+    doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
+    warnings = doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found)
+
+
+def runs_of(space: Workspace, predictions: Sequence[Floats]) -> list[dict[str, Any]]:
+    """Error and noise floor of every run, root mean square in SI units, for the predicted values of all records."""
     runs = []
     for record, predicted, whitener in zip(space.records, predictions, space.noise.whiteners):
         kept = whitener.kept
@@ -73,10 +83,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
             "held_out": record.held_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),
             "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
         })  # fmt: skip
-    found = outlying(space.records)
-    doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
-    warnings = doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found)
+    return runs
 
 
 def outlier_text(found: Outlying, runs: list[dict[str, Any]]) -> str:

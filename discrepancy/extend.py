@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import Comparison, by_signal, compare
+from discrepancy.compare import by_signal, compare, runs_of
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.held_out.held_out import HeldOut, HeldOutJudge
-from discrepancy.inference.refit.refit import estimates
+from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
+from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -25,8 +25,6 @@ from studies import building
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
 BETTER = 0.97
-# Error over noise that noise alone makes now and then.
-WITHIN_NOISE = 1.3
 
 
 class UnknownEffect(InputFault):
@@ -63,30 +61,30 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     # Where a fit starts is known from the candidate's own score.
     diagnostician.screened([candidate for variants in asked for candidate in variants])
     chosen = [best_of(variants, diagnostician) for variants in asked]
-    fit = diagnostician.fit([c.name for c in chosen])
+    fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
+    numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
     for candidate in chosen:
-        numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage)}
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
                      "low": float(numbers[p.name].interval[0]), "high": float(numbers[p.name].interval[1])}
             for p in candidate.parameters
         })  # fmt: skip
     extended = replace(file, effects=effects)
-    # From here on the new model stands alone: the effect is part of it and no longer fitted.
-    after = compare(extended, campaign, settings, PhysicalModel(extended, campaign, zeros=before.model.zeros))
-    judge = HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders)
-    judged = judge.judge(fit) if diagnostician.space.held_out else None
+    judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
+    fitted = judgement(diagnostician, fit, diagnostician.space.training)
     outcome, reason = verdict_of(judged)
+    every = list(range(len(diagnostician.space.records)))
+    after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
-        "training_before": total(before, False), "training_after": total(after, False),
-        "held_out_before": total(before, True), "held_out_after": total(after, True),
-        "held_out_error_before": judged.before if judged else None, "held_out_error_after": judged.after if judged else None,
+        "training_before": fitted.before if fitted else None, "training_after": fitted.after if fitted else None,
+        "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
+        "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters},
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}
-            for b, a in zip(by_signal(before.runs), by_signal(after.runs))
+            for b, a in zip(before.signals, by_signal(after))
         ],
     }  # fmt: skip
     # What was tested on unused runs and not seen there stays out.
@@ -112,10 +110,9 @@ def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidat
     return variants[0] if len(variants) == 1 else min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)
 
 
-def total(comparison: Comparison, held_out: bool) -> float | None:
-    """Error over noise, root mean square over the signals of training or held-out runs."""
-    cells = [s["ratio"] for s in comparison.signals if s["held_out"] == held_out]
-    return float((sum(r * r for r in cells) / len(cells)) ** 0.5) if cells else None
+def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:
+    """Error over noise before and after, on the held-out runs or on those of ``indices``: the one that a diagnosis gives, too."""
+    return HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders, indices=indices).judge(fit)
 
 
 def verdict_of(judged: HeldOut | None) -> tuple[str, str]:

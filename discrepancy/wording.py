@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from discrepancy.extend import BETTER, WITHIN_NOISE
+from discrepancy.extend import BETTER
+from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
 from discrepancy.scales import shown
 from discrepancy.verdict import Answer

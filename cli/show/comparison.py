@@ -107,13 +107,15 @@ def show_ladder(file: ModelFile) -> None:
     if not file.steps:
         out.print(f"{file.name} has no steps yet: rvwear extend adds them")
         return
-    table = Table(title=f"{file.name}: error over noise, step by step", title_justify="left")
+    table = Table(title=f"{file.name}: error over noise in the patterns that carry the misfit, step by step", title_justify="left")
     for name in ("step", "campaign", "fitted runs", "unused runs", "verdict"):
         table.add_column(name, justify="left")
     for step in file.steps:
-        unused = "-" if step.get("held_out_before") is None else f"{step['held_out_before']:.2f} -> {step['held_out_after']:.2f}"
-        table.add_row(" + ".join(step["effects"]), step["campaign"], f"{step['training_before']:.2f} -> {step['training_after']:.2f}",
-                      unused, step["verdict"] + ("" if step.get("kept", True) else ", not kept"))
+        fitted, unused = (
+            "-" if step.get(f"{runs}_before") is None else f"{step[f'{runs}_before']:.2f} -> {step[f'{runs}_after']:.2f}"
+            for runs in ("training", "held_out")
+        )
+        table.add_row(" + ".join(step["effects"]), step["campaign"], fitted, unused, step["verdict"] + ("" if step.get("kept", True) else ", not kept"))
     out.print(table)
 
 

@@ -255,6 +255,11 @@ class Diagnostician:
         shown = judge if len(members) > 1 else HeldOutJudge(self.space, local, members, self.orders)
         return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown, inflation if over else 1.0)
 
+    def inflation(self, result: Refit) -> float:
+        """By how much the intervals of ``result`` widen for a misfit that it leaves."""
+        over, _, _, inflation = self.leftover(result)
+        return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
@@ -329,8 +334,9 @@ class Diagnostician:
                     correlations[f"{a.name} ~ {b.name}"] = canonical_correlation(self.space, a, b)
         confusable = [m.name for m in members] if not several and len(members) > 1 else []
         base = self.space.base
+        fit = members[0].fit if members else base
         return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
-                         float(captured), float(p_screen), float(p_local), held_out, {p.name: (members[0].fit if members else base).values[p.name] for p in base.parameters},
+                         float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
                          Fits(self.space, list(members), list(rivals)))

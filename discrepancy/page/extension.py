@@ -75,15 +75,14 @@ def cards(step: dict[str, Any]) -> list[Card]:
         Card(ladder.label(step), step["verdict"], "kept" if step.get("kept", True) else "not kept", tone=TONES.get(step["verdict"], "fair"))
     ]
     for key, text, note in (
-        ("held_out", "Error on unused runs", "all samples"),
-        ("training", "Error on fitted runs", "all samples; any effect can lower it"),
-        ("held_out_error", "Unused runs, in the patterns that matter", "what the verdict rests on"),
+        ("held_out", "Error on unused runs", "in the patterns that carry the misfit; what the verdict rests on"),
+        ("training", "Error on fitted runs", "in the same patterns; any effect can lower it"),
     ):
         before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
         if before is not None and after is not None:
             shown = key != "training" and step["verdict"] == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "1: noise alone" if key == "held_out_error" else "times noise", tone))
+            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone))
     return made
 
 
@@ -118,7 +117,7 @@ def signals_section(step: dict[str, Any]) -> Section:
     return Section(
         "signals",
         "Signal by signal",
-        "The new model alone, its parameters as estimated and no longer fitted.",
+        "The new model with its parameters as estimated.",
         [signal_figure(step)] if rows else [],
         [table] if rows else [],
     )
@@ -134,19 +133,18 @@ def ladder_section(file: ModelFile) -> Section:
             s["campaign"],
             change(s, "training"),
             change(s, "held_out"),
-            change(s, "held_out_error"),
             s["verdict"] + ("" if s.get("kept", True) else ", not kept"),
             s["reason"],
         ]
         for k, s in enumerate(file.steps, start=1)
     ]
-    head = ["step", "effect", "campaign", "fitted runs", "unused runs", "unused, patterns that matter", "verdict", "why"]
+    head = ["step", "effect", "campaign", "fitted runs", "unused runs", "verdict", "why"]
     return Section(
         "ladder",
         "Ladder",
-        "Every attempt, those that did not help too. What counts are the unused runs.",
+        "Every attempt, those that did not help too. What counts are the unused runs; errors in the patterns that carry the misfit, over noise.",
         [ladder.figure(file.steps)],
-        [Table("", head, rows, (3, 4, 5))],
+        [Table("", head, rows, (3, 4))],
     )
 
 

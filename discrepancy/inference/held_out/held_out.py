@@ -20,7 +20,6 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
 from fmu_src.arrays import Floats
 
-
 # Error over noise that noise alone makes now and then.
 WITHIN_NOISE = 1.3
 
@@ -37,12 +36,12 @@ class HeldOut:
 
 
 class HeldOutJudge:
-    """Judges fits on the held-out records over one common set of directions."""
+    """Judges fits on the held-out records (or on ``indices``) over one common set of directions."""
 
     def __init__(self, space: Workspace, localisation: Localisation, rivals: Sequence[Refit],
-                 orders: Mapping[str, Sequence[float]] = ORDERS, most: int = 3):  # fmt: skip
+                 orders: Mapping[str, Sequence[float]] = ORDERS, most: int = 3, indices: Sequence[int] | None = None):  # fmt: skip
         self.space = space
-        self.indices = space.held_out
+        self.indices = space.held_out if indices is None else list(indices)
         if not self.indices:
             return
         self.rows, self.size = rows_of(space.noise, self.indices)
