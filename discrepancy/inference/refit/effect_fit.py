@@ -96,22 +96,27 @@ class _Frozen:
 
 def _search(frozen: _Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]]) -> tuple[dict[str, float], bool, Floats]:
     """The best optimum (values, whether it converged, columns) from ``starts`` and, for one effect, from other sizes and along its valley."""
+
+    def cost(values: Mapping[str, float]) -> float:
+        return frozen.cost(values)[0]
+
+    def costs(others: Sequence[dict[str, float]]) -> list[float]:
+        return frozen.space.threads.map(cost, others)
+
+    alone = candidates[0] if len(candidates) == 1 else None
+    several = alone is not None and 1 < len(alone.amplitudes) <= MOST_AMPLITUDES
+    if alone is not None and not several and alone.amplitudes[0].sign:
+        # Acts on one side, perhaps from a threshold on: what is best at once is where to start.
+        others = [*starts, *other_starts(alone.amplitudes, starts[0])]
+        starts = [others[int(np.argmin(costs(others)))]]
     found = [_descend(frozen, start) for start in starts]
-    if len(candidates) == 1 and _may_mislead(candidates[0]):
-        best = min(found, key=lambda f: frozen.cost(f[0])[0])
-        others = other_starts(candidates[0].amplitudes, best[0])
-        if len(frozen.own) > 1:
-            others += along_valley(frozen.own, best[0], _information(frozen, best[2]))
-        costs = frozen.space.threads.map(lambda start: frozen.cost(start)[0], others)
-        # Those that are better at once, and the best of the rest: an optimum may lie behind a ridge.
-        chosen = sorted(range(len(others)), key=costs.__getitem__)[:OTHERS]
-        found += [_descend(frozen, others[k]) for k in chosen]
-    return min(found, key=lambda f: frozen.cost(f[0])[0])
-
-
-def _may_mislead(candidate: Candidate) -> bool:
-    """Whether the slope at the base model may lead to the wrong optimum: effects of one side, and parameters that do nearly the same."""
-    return 1 < len(candidate.amplitudes) <= MOST_AMPLITUDES or any(p.sign for p in candidate.amplitudes) or bool(candidate.shapes)
+    if alone is not None and several:
+        # An optimum may lie behind a ridge, or further along a valley.
+        best = min(found, key=lambda f: cost(f[0]))
+        others = other_starts(alone.amplitudes, best[0]) + along_valley(frozen.own, best[0], _information(frozen, best[2]))
+        by_cost = costs(others)
+        found += [_descend(frozen, others[k]) for k in np.argsort(by_cost)[:OTHERS]]
+    return min(found, key=lambda f: cost(f[0]))
 
 
 def _information(frozen: _Frozen, columns: Floats) -> Floats:
