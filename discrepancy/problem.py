@@ -119,6 +119,15 @@ class OnThreads(Protocol):
 
 
 @runtime_checkable
+class Settling(Protocol):
+    """What a model may be besides: one with corrections of its own that depend on what is fitted."""
+
+    def settle(self, values: Mapping[str, float]) -> bool:
+        """Find the corrections for the effects that are on in ``values``; False if there are none."""
+        ...
+
+
+@runtime_checkable
 class Cheaper(Protocol):
     """What a model may have besides: predictions next to others to first order, and rough ones."""
 

@@ -148,5 +148,5 @@ def test_model_of_a_campaign_looks_for_it_at_several_frequencies(tmp_path):
         r = 80 * record.factors["speed"] / 121.0 / (2.0 * math.pi) / 14.0
         lift = math.hypot(1.0, 0.1 * r) / math.hypot(1.0 - r * r, 0.1 * r)
         # The rollers' ripple is a correction of its own, which comes last.
-        ripple = model.ripples[record.name]
+        ripple = model.cages.ripple(record, {})
         assert amplitudes(b - ripple)[80] == pytest.approx(lift * amplitudes(a - ripple)[80], rel=1e-6)

@@ -54,7 +54,7 @@ def file():
 
 @pytest.fixture(scope="module")
 def wide(file):
-    return campaign_of(file, {CLEARANCE: 0.6e-6}, 1)
+    return campaign_of(file, {CLEARANCE: 0.6e-6}, 3)
 
 
 def test_model_that_is_right_errs_by_the_noise(file):

@@ -19,6 +19,8 @@ from discrepancy.inference.screening.screen import Score, Screen, candidate_colu
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Effect, Fits, Settings, decide
 from discrepancy.problem import Candidate, Model
 
+# A nuisance further off than so many of its assumed standard deviations is said.
+UNLIKELY = 2.5
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
@@ -124,6 +126,7 @@ class Diagnostician:
         key = frozenset(c.name for c in result.candidates)
         if key in self.final_fits:
             return self.final_fits[key]
+        self.space.predictions.settle(result.fit.values)
         better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
         self.fitted[key] = self.final_fits[key] = better
         return better
@@ -335,6 +338,9 @@ class Diagnostician:
         confusable = [m.name for m in members] if not several and len(members) > 1 else []
         base = self.space.base
         fit = members[0].fit if members else base
+        warnings += [f"{p.description or p.name}: {fit.values[p.name]:.3g} {p.unit}, which is {abs(fit.values[p.name] - p.off) / p.prior:.1f} times"
+                     f" what was assumed of it ({p.off:.3g} +- {p.prior:.2g}): the base model is off there"
+                     for p in base.parameters if p.prior and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
         return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
                          float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,

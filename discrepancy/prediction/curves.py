@@ -19,6 +19,8 @@ from studies.hysteresis import LOST_MOTION_SHARE
 Nodes = TypeVar("Nodes", AngleNodes, TorqueNodes)
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
+# Where a pattern lies is seen at some thousand nodes a turn.
+LEVEL_OF_A_PATTERN = 2
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
 LEVEL_OF_SLOPES = 6
 
@@ -124,6 +126,15 @@ def signal(curve: Curve[Nodes], values: Values) -> Floats:
     if curve.bench.relevant(values, True):
         found += coarse.samples(curve.run(values, coarse) - curve.run({}, coarse), places)
     return found
+
+
+def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:
+    """Transmission error [rad] of the record's samples for several places of its angle 0 [rad], from one run."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = angle_nodes(curve.places({}), curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
+    assert nodes is not None
+    series = curve.run(values, nodes)
+    return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
 
 
 def nodes_of(curve: Curve[Nodes], values: Values, slopes: bool = False) -> Nodes | None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.problem import Record
+from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats
 
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
@@ -93,6 +94,4 @@ def fast_noise(values: Floats) -> float:
     if len(values) < 8:
         return 0.0
     third = np.diff(values, 3)
-    steps = np.diff(np.unique(values))
-    rounding = float(steps.min()) / np.sqrt(12.0) if len(steps) else 0.0
-    return float(max(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0), rounding))
+    return float(max(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0), noise_of(values)))

@@ -11,12 +11,16 @@ import numpy as np
 from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
-from discrepancy.prediction.bench import Bench
+from discrepancy.prediction import model_error
+from discrepancy.prediction.bench import FEW_HELD_ANGLES, Bench
+from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import Values, angle_zero, condition_of, identity
+from discrepancy.prediction.curves import shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
-from discrepancy.prediction.observe import CHANGES, OBSERVED, error_with_cages
+from discrepancy.prediction.model_error import with_error
+from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
@@ -25,8 +29,6 @@ from fmu_src.threads import Threads
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
-# Samples that a pattern can be found in.
-LONG = 40
 # Nuisances that are no parameters of the reducer.
 ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
@@ -56,7 +58,7 @@ class PhysicalModel:
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         # The same runs, as coarse as a search allows.
         self.rough_bench = copy.copy(self.bench)
-        self.rough_bench.fineness = self.bench.fineness.roughly()
+        self.rough_bench.fineness, self.rough_bench.held_angles = self.bench.fineness.roughly(), FEW_HELD_ANGLES
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
@@ -65,21 +67,25 @@ class PhysicalModel:
         self.zeros: dict[str, float] = dict(zeros or {})
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
-        self.ripples: dict[str, Floats] = {}
+        # No FMU can be told where its cages stand; what they change is the same in process.
+        in_process = Bench(model.reducer, settings) if fmus else self.bench
+        self.cages = Cages(in_process, self.records, self.for_record)
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
         if zeros is None:
             self.align(always=len(nuisances) < len(campaign.nuisances))
-            self.place_cages()
+            self.cages.place(self.standing())
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.
             self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 1.0, 1e3, 1.0, 0, 10.0, "mass that vibrates"),)
+        self.nuisances += tuple(model_error.parameters(self.records))
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
         )
+        self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
     def angle_nuisances(self) -> list[Parameter]:
         width = 2.0 * np.pi / PHASE_ORDER
@@ -117,36 +123,18 @@ class PhysicalModel:
             shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * width
             # One record tells; the pattern hardly depends on the condition.
             record = self.records[indices[0]]
-            misfits = []
-            for shift in shifts:
-                predicted = self.predict({name: float(shift)}, [indices[0]])[0]
-                misfits.append(float(np.sum((record.values - predicted) ** 2)))
+            own = self.for_record(record, self.standing())
+            found = shifted_errors(self.bench, record, own, shifts)
+            misfits = [float(np.var(record.values - predicted)) for predicted in found]
             best = int(np.argmin(misfits))
             at_zero = misfits[PHASES // 2]
             if at_zero <= 1.02 * misfits[best] and not always:
                 continue
             self.zeros[name] = float(shifts[best])
 
-    def place_cages(self) -> None:
-        """Where the roller cages stood in each run, from the ripple that rollers leave in the transmission error.
-
-        Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error
-        repeats with the pitch of the rollers.  Found once with the base model and kept as a correction: an effect hardly changes the ripple.
-        """
-        values = self.standing()
-        for record in self.records:
-            if record.quantity != "transmission_error" or "angle" not in record.axes or len(record.values) < LONG:
-                continue
-            own = self.for_record(record, values)
-            at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
-            middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
-            basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-            misfit = record.values - record.values.mean() - (middle - middle.mean())
-            parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
-            # The ripple's size is that of the rollers, with all its harmonics; where noise hides it, its mean is safer.
-            share = np.arctan2(parts[1], parts[0]) / (2.0 * np.pi)
-            seen = min(1.0, float(np.hypot(*parts)))
-            self.ripples[record.name] = seen * error_with_cages(self.bench, record, own, share) + (1.0 - seen) * middle - at[0]
+    def settle(self, values: Mapping[str, float]) -> bool:
+        """See ``problem.Settling``: the roller cages are placed anew."""
+        return self.cages.place(self.standing() | dict(values)) if self.cages.ripples else False
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -180,6 +168,7 @@ class PhysicalModel:
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
             return record.values + IMPOSSIBLE * self.sizes[record.quantity] * signs
+        predicted = with_error(predicted, record, values)
         for module in MODULES.values():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
             place = places[module.PER]
@@ -192,8 +181,9 @@ class PhysicalModel:
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
                 predicted = module.change(predicted, record, at, self.sizes[record.quantity])
-        if record.name in self.ripples:
-            predicted = predicted + self.ripples[record.name]
+        ripple = self.cages.ripple(record, values)
+        if ripple is not None:
+            predicted = predicted + ripple
         if record.free_zero:
             # The mean of the prediction is that of the measurement.
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())

@@ -54,8 +54,8 @@ class AngleNodes:
         return float(np.sqrt(np.mean((between - values[1::2])[inside] ** 2))) / HALVING
 
 
-def angle_nodes(angles: Floats, direction: int, level: int) -> AngleNodes | None:
-    """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more."""
+def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False) -> AngleNodes | None:
+    """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more, unless ``always``."""
     if level >= len(PER_TURN):
         return None
     distance = 2.0 * np.pi / PER_TURN[level]
@@ -63,7 +63,7 @@ def angle_nodes(angles: Floats, direction: int, level: int) -> AngleNodes | None
     high = ROUNDED * np.ceil((float(angles.max()) + BEYOND) / ROUNDED)
     count = np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
     nodes = distance * (count + SCATTERED * ((count * GOLDEN) % 1.0 - 0.5))
-    if len(nodes) > WORTHWHILE * len(angles):
+    if len(nodes) > WORTHWHILE * len(angles) and not always:
         return None
     return AngleNodes(nodes[::direction])
 

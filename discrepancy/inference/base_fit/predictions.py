@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from discrepancy.problem import Cheaper, Model
+from discrepancy.problem import Cheaper, Model, Settling
 from fmu_src.arrays import Floats
 
 Key = tuple[tuple[str, float], ...]
@@ -19,6 +19,7 @@ class Predictions:
         self.off = {p.name: p.off for p in model.nuisances}
         for c in model.candidates:
             self.off.update({p.name: p.off for p in c.amplitudes})
+        self.amplitudes = {p.name for c in model.candidates for p in c.amplitudes}
         self.store: dict[Key, dict[int, Floats]] = {}
         self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
@@ -54,6 +55,23 @@ class Predictions:
         values, base, rough = self.active(values), self.active(base), self.rough
         known = self.beside_store.setdefault((rough, tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
         return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing, rough))
+
+    def settle(self, values: Mapping[str, float]) -> None:
+        """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten."""
+        if not (isinstance(self.model, Settling) and self.model.settle(self.active(values))):
+            return
+        effects = self.effects(self.active(values))
+        for store in (self.store, self.rough_store):
+            # Other threads may add to them meanwhile.
+            for key in list(store):
+                if self.effects(dict(key)) == effects:
+                    store.pop(key, None)
+        for pair in list(self.beside_store):
+            if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
+                self.beside_store.pop(pair, None)
+
+    def effects(self, active: Mapping[str, float]) -> frozenset[str]:
+        return frozenset(name for name in active if name in self.amplitudes)
 
     @contextmanager
     def roughly(self) -> Iterator[None]:

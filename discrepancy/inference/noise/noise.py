@@ -19,6 +19,7 @@ from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
 from discrepancy.problem import Record
+from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats, Mask
 
 SHORT = 8
@@ -66,7 +67,7 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
         if held and not short:
             weights.update(_weights(stream, deviations_of(records, residuals, masks, held), records, residuals, masks, held))
         for i in indices:
-            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i))
+            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i))
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:
             warnings.append(f"{key}: stuck or missing samples left out in {', '.join(lost[:6])}{' ...' if len(lost) > 6 else ''}")
@@ -243,11 +244,19 @@ def _weights(
     return weights
 
 
-def _whitener(key: str, stream: StreamNoise, record: Record, prediction: Floats, kept: Mask, weight: Floats | None) -> Whitener:
+def _rounded(records: Sequence[Record], indices: Sequence[int], i: int) -> float:
+    """Noise of rounding of a run; runs that repeat each other and were rounded alike are off alike, and say what one says."""
+    alike = sum(records[j].condition == records[i].condition for j in indices)
+    return noise_of(np.asarray(records[i].values, float)) * float(np.sqrt(alike))
+
+
+def _whitener(
+    key: str, stream: StreamNoise, record: Record, prediction: Floats, kept: Mask, weight: Floats | None, rounded: float
+) -> Whitener:  # fmt: skip
     rows = int(kept.sum())
     position = position_of(record)[kept]
     level = stream.scales.get(record.condition, stream.scale)
-    scale = np.full(rows, level)
+    scale = np.full(rows, max(level, rounded))
     if stream.proportional:
         scale = level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300))
     names = list(stream.patterns)

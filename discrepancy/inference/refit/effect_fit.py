@@ -17,6 +17,8 @@ from fmu_src.arrays import Floats
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
 JOINT_STEPS = 15
+# A fit that is reported is renewed so often, until its chi-square stands still by this.
+RENEWALS, STILL = 4, 2e-3
 # Descents from other starts than the score test's.
 OTHERS = 2
 
@@ -44,11 +46,11 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
 
 def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
     """The same fit with sensitivities at its own values: for what is reported."""
-    for _ in range(3):
+    for _ in range(RENEWALS):
         columns = space.columns(fit.parameters, fit.values)
         renewed = _polish(space, fit.parameters, fit.values, columns, tuple(c.name for c in candidates), fit.converged, fit.chi2, fresh=True)
         gain, fit = fit.chi2 - renewed.chi2, renewed
-        if gain < 0.5:
+        if gain < STILL:
             break
     return fit
 
@@ -202,7 +204,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
         gain = cost - new
         if gain > 0:
             x, r, cost = trial, new_r, new
-        if gain < 0.05:
+        if gain < (STILL if fresh else 0.05):
             # done, unless frozen sensitivities left it above what the partly linear fit promised
             if fresh or (cost < expected + 0.5 and cost < space.base.chi2):
                 break

@@ -1,0 +1,70 @@
+"""Where the roller cages stood in each run, from the ripple that rollers leave in the transmission error.
+
+Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error repeats with the pitch of the
+rollers.  Found with the base model and kept as a correction.  An effect that changes the ripple (a clearance of the bearings) has its
+own: found anew when the effect is fitted for good.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.observe import error_with_cages
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+
+# Samples that a ripple can be found in.
+LONG = 40
+# Places of the cages within a pitch that are weighed.
+PLACES = 64
+
+ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
+
+
+class Cages:
+    """Corrections by run, for the base model and for sets of effects; ``amplitudes`` says by name where an effect is off."""
+
+    def __init__(self, bench: Bench, records: Sequence[Record], for_record: ForRecord):
+        self.bench, self.for_record = bench, for_record
+        self.records = [r for r in records if r.quantity == "transmission_error" and "angle" in r.axes and len(r.values) >= LONG]
+        self.amplitudes: dict[str, float] = {}
+        self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
+
+    def effects(self, values: Mapping[str, float]) -> frozenset[str]:
+        """The effects' amplitudes that are on."""
+        return frozenset(n for n, v in values.items() if n in self.amplitudes and v != self.amplitudes[n])
+
+    def ripple(self, record: Record, values: Mapping[str, float]) -> Floats | None:
+        """What the record's cages add [rad] to a prediction with the cages where rolling from 0 brings them."""
+        placed = self.ripples.get(self.effects(values)) or self.ripples.get(frozenset(), {})
+        return placed.get(record.name)
+
+    def place(self, values: Mapping[str, float]) -> bool:
+        """Find the cages with ``values``; False if there is nothing to find them by."""
+        self.ripples[self.effects(values)] = {r.name: self.found(r, self.for_record(r, values)) for r in self.records}
+        return bool(self.records)
+
+    def found(self, record: Record, own: dict[str, float]) -> Floats:
+        at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
+        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+        basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
+        misfit = record.values - record.values.mean() - (middle - middle.mean())
+        share, sure = resultant(basis, misfit)
+        # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
+        return sure * error_with_cages(self.bench, record, own, share) + (1.0 - sure) * middle - at[0]
+
+
+def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
+    """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
+
+    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain.
+    """
+    parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
+    noise = max(float(np.var(misfit - basis @ parts)), 1e-300)
+    phases = np.linspace(0.0, 2.0 * np.pi, PLACES, endpoint=False)
+    waves = basis @ np.array([np.cos(phases), np.sin(phases)])
+    chi2 = np.sum((misfit[:, None] - waves) ** 2, axis=0) / noise
+    weights = np.exp(-0.5 * (chi2 - chi2.min()))
+    mean = complex(np.sum(weights * np.exp(1j * phases)) / np.sum(weights))
+    return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)
