@@ -10,7 +10,6 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
-from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis, stream_of
 from fmu_src.arrays import Floats
 
@@ -99,21 +98,30 @@ def _table(space: Workspace, fit: Fit, indices: Sequence[int]) -> list[_Bin]:
         axes = {k: np.asarray(v, dtype=float) for k, v in record.axes.items() if np.ptp(v) > 0}
         angle = order_axis(record)
         names = [n for n in axes if not (n == "time" and angle is not None)]
-        main = axes[names[0]] if names and kept.size >= SHORT else None
-        cuts = [kept] if main is None else np.array_split(kept[np.argsort(main[kept], kind="stable")], min(BINS, max(kept.size // 4, 1)))
+        # A few samples are conditions of their own: a table of torques over speeds, depths over hours.
+        alone = bool(names) and kept.size <= BINS
+        main = axes[names[0]] if names and not alone else None
+        if alone:
+            cuts = np.array_split(kept, kept.size)
+        else:
+            cuts = [kept] if main is None else np.array_split(kept[np.argsort(main[kept], kind="stable")], min(BINS, max(kept.size // 4, 1)))
+        scales = np.zeros(e.size)
+        scales[kept] = whitener.scale
         weight = np.zeros(e.size)
         weight[kept] = whitener.weight**2
         for cut in cuts:
             if cut.size == 0:
                 continue
             w = weight[cut] + 1e-9
-            scale = float(np.mean(whitener.scale))
+            scale = float(np.mean(scales[cut]))
             # correlated samples average worse than independent ones
             spacing = np.median(np.abs(np.diff(main))) if main is not None and main.size > 1 else 1.0
             together = 1 + 2 * (1 - stream.nugget) * stream.length / max(spacing, 1e-300) if stream.length else 1.0
             variance = scale**2 * (min(together, cut.size) / cut.size)
             places = {f"factor:{k}": float(v) for k, v in record.factors.items()}
-            if main is not None:
+            if alone:
+                places |= {f"factor:{n}": float(axes[n][cut[0]]) for n in names}
+            elif main is not None:
                 places["axis:" + names[0]] = float(np.mean(main[cut]))
             rows.append(_Bin(float(np.sum(w * e[cut]) / np.sum(w)), float(np.mean(y[cut])), variance, record.condition, record.held_out, places))
     return rows
