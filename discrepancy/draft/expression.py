@@ -184,7 +184,7 @@ def step(form: Form, low: float, high: float, scale: float) -> tuple[list[Term],
 
 def bump(form: Form, low: float, high: float, scale: float) -> tuple[list[Term], list[Shape]]:
     p, span = form.parameters, high - low
-    width = min(max(abs(p["d"]) / scale, 0.02 * span), 2.0 * span)
+    width = min(max(abs(p["d"]) / scale + 1e-3 * span, 0.02 * span), 2.0 * span)
     shapes = [
         place(form, "its middle", low - 0.2 * span, high + 0.2 * span, scale),
         Shape("width", "w", "its width", width, 0.02 * span, 2.0 * span, (width,)),

@@ -192,7 +192,10 @@ def warming(law: Recovered, drive: Drive) -> Place:
 
 
 def wearing(law: Recovered, drive: Drive) -> Place:
-    """Share of the wear, as a factor on the coefficient; over hours a depth adds up what the coefficient was."""
+    """Share of the wear, as a factor on the coefficient; over hours a depth adds up what the coefficient was.
+
+    Wear spreads as it goes on, so that a depth follows by less (a fifth, of flanks worn for long): the fit's amplitude makes up for it.
+    """
     if law.factor != "prediction":
         raise NoPlace(
             f"{law.signal.partition('[')[0]} is off by an amount that is no share of the wear: a factor on the wear coefficient is all that acts there"
