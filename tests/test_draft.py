@@ -60,7 +60,7 @@ def test_terms_are_the_form_in_si(form):
 
     def total(at, what):
         u = (at - expression.zero) / expression.scale
-        return sum(names[t.letter] * eval(getattr(t, what), {}, names | {"u": u}) for t in expression.terms)
+        return sum(names[t.letter] * eval(getattr(t, what), {}, names | {"u": u}) for t in expression.terms)  # noqa: S307 (what drafts are made of)
 
     assert [total(v, "code") for v in x] == pytest.approx(wanted, rel=1e-4, abs=1e-8)
     slopes = [(total(v + 1e-5, "code") - total(v - 1e-5, "code")) / 2e-5 * expression.scale for v in x]
@@ -98,6 +98,10 @@ def test_fewest_constants_win_among_forms_that_are_nearly_as_sure():
     assert expression_of(law, True).form.name == "power"
 
 
+def test_what_stands_before_a_law_multiplies_all_of_it(tmp_path):
+    assert file_of(tmp_path, law_of("transmission_error", "angle", "periodic", factor="load")).equation.startswith("turning = M (b cos[")
+
+
 @pytest.mark.parametrize(("signal", "leading", "form", "factor", "reason"), [
     ("vibration_order", "speed", "linear", None, "no force on the housing"),
     ("torsional_stiffness", "temperature", "linear", None, "slope of a loop"),
@@ -106,6 +110,7 @@ def test_fewest_constants_win_among_forms_that_are_nearly_as_sure():
     ("input_torque", "angle", "linear", None, "does not know"),
     ("transmission_error", "temperature", "linear", None, "zero that nobody knows"),
     ("hysteresis", "torque", "linear", "prediction", "in proportion to itself"),
+    ("hysteresis", "torque", "linear", "load", "not the torque that turns"),
 ])  # fmt: skip
 def test_what_has_no_place_says_why(signal, leading, form, factor, reason):
     with pytest.raises(NoPlace, match=reason):

@@ -188,15 +188,21 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
     named = [candidate for effect in answer.effects for candidate in effect["candidates"]]
     nearest = named or [rival["name"] for rival in found.rejected[:1]]
+    # A law that was recovered without a name can become an effect.
+    drafted = f"; this one makes an effect of the law that was recovered:\n  {extend_line(options, (), draft=True)}" if law_with_a_form(answer) else ""
     if not nearest:
-        return f"{start}; no effect of the catalogue shows in what was measured"
+        return f"{start}; no effect of the catalogue shows in what was measured{drafted}"
     what = "what is named all the same" if named else "what comes nearest all the same"
-    return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}"
+    return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}{drafted}"
 
 
-def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: bool = False) -> str:
-    """The command as it was given, with these effects."""
-    words = ["rvwear", "extend", options.model, options.campaign]
+def law_with_a_form(answer: "Answer") -> bool:
+    return any(law.forms for law in answer.laws)
+
+
+def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: bool = False, draft: bool = False) -> str:
+    """The command as it was given, with these effects, or with a draft in the folder ``effects``."""
+    words = ["rvwear", "extend", options.model, options.campaign, *(["--draft", "effects"] if draft else [])]
     for name in names:
         words += ["--effect", name]
     for key in ("data", "output", "fmus", "html"):

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from cli.options import all_cores
 from fmu_src.faults import InputFault, RunFault
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 # What is named beside a law must leave so much less of the error over noise on fitted runs than the law alone (assumed).
 WORTH = 0.98
-INTERRUPTED = 130
 
 
 def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign") -> int:

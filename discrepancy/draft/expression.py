@@ -150,8 +150,8 @@ def exponential(form: Form, low: float, high: float, scale: float) -> tuple[list
     p = form.parameters
     c = p["c"] * scale
     end = low if c < 0.0 else high
-    bounds = sorted((c / WIDE, c * WIDE))
-    shape = shape_of(form, "c", "rate", "s", "rate of growth over the largest measured value", *bounds, scale)
+    least, most = sorted((c / WIDE, c * WIDE))
+    shape = shape_of(form, "c", "rate", "s", "rate of growth over the largest measured value", least, most, scale)
     code = f"math.exp(min(60.0, s * (u - {plain(end)})))"
     return [level(p["a"]), main(p["b"], f"exp[s (u - {plain(end)})]", code, f"s * {code}")], [shape]
 
@@ -172,7 +172,8 @@ def place(form: Form, text: str, low: float, high: float, scale: float) -> Shape
 
 def threshold(form: Form, low: float, high: float, scale: float) -> tuple[list[Term], list[Shape]]:
     p = form.parameters
-    return [level(p["a"]), main(p["b"] * scale, "max(0, u - m)", "max(0.0, u - m)", "(1.0 if u > m else 0.0)")], [place(form, "where it begins", low, high, scale)]
+    term = main(p["b"] * scale, "max(0, u - m)", "max(0.0, u - m)", "(1.0 if u > m else 0.0)")
+    return [level(p["a"]), term], [place(form, "where it begins", low, high, scale)]
 
 
 def step(form: Form, low: float, high: float, scale: float) -> tuple[list[Term], list[Shape]]:

@@ -105,8 +105,8 @@ def turning(law: Recovered, quantity: str, output_held: bool, zero_known: bool) 
             f"{quantity} is off in proportion to itself: what turns the output is not known before it turns, so that no hook can scale it;"
             " a spring (support_compliance) or a sensor's gain does"
         )
-    if quantity == "hysteresis" and law.factor is not None and "load" in law.factor:
-        raise NoPlace("the loop is off in proportion to the load stated for it, which is not the torque that turns the output")
+    if quantity == "hysteresis" and law.factor is not None:
+        raise NoPlace(f"the loop is off in proportion to the {law.factor} stated for it, which is not the torque that turns the output")
     torque = Axis("M", "torque at the output, its sign with it", "N.m", "r.load_torque")
     known = {"load": LOAD, "speed": INPUT_SPEED, "temperature": TEMPERATURE} | \
         ({"torque": torque} if quantity == "hysteresis" else {"angle": ANGLE} if quantity == "transmission_error" else {})
@@ -136,7 +136,7 @@ def turning(law: Recovered, quantity: str, output_held: bool, zero_known: bool) 
     text = f"a further turning, {what}; put between sun and cranks, for where in the drive it arises this campaign does not say"
     return Place(
         PLANT, "before(r)", unit, f"turning = {SAID.get(law.factor or '', '')}", text, SHOWS.get(law.leading, TURNED), axis, tuple(apply), tuple(lines),
-        {"rv_plant.gear_stage": names}, slope=axis is ANGLE, level=not along or zero_known or bool(law.factor),
+        {"rv_plant.gear_stage": names}, slope=axis is ANGLE, level=not along or zero_known,
     )  # fmt: skip
 
 

@@ -25,7 +25,9 @@ def text_of(name: str, law: Recovered, place: Place, expression: Expression, cam
 
 
 def equation(place: Place, expression: Expression) -> str:
-    return place.law + expression.law()
+    law = expression.law()
+    # What stands before the law multiplies all of it.
+    return place.law + (law if place.law.endswith("= ") or len(expression.terms) == 1 else f"({law})")
 
 
 def over(place: Place, expression: Expression) -> str:
@@ -141,7 +143,7 @@ def body(name: str, place: Place, expression: Expression) -> list[str]:
     """Nothing where it is off; then u, the law, and what it changes."""
     zero = expression.zero * place.axis.per
     x = f"({place.axis.code} - {zero:.6g})" if zero else place.axis.code
-    letters = {t.letter: f"r.{name}_{t.suffix}" for t in (*expression.terms, *expression.shapes)}
+    letters = {t.letter: f"r.{name}_{t.suffix}" for t in expression.terms} | {s.letter: f"r.{name}_{s.suffix}" for s in expression.shapes}
     lines = [
         f"if {off(name, expression)}:", f"{INDENT}return" + (" 1.0" if place.package == WEAR else ""), *place.before,
         f"{', '.join(letters)} = {', '.join(letters.values())}", f"u = {x} / {scale(place, expression)}",
