@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from cli.main import main
-from discrepancy.draft.choose import Draft, require_folder, write
+from discrepancy.draft.choose import Draft, require_folder, write, written_to
 from discrepancy.draft.expression import FORMS, expression_of
 from discrepancy.draft.places import Drive, NoPlace, place_of
 from discrepancy.draft.write import text_of
@@ -243,10 +243,13 @@ def test_one_command_from_unknown_to_a_model_that_is_better(tmp_path, capsys, mo
     from discrepancy import verdict
     from discrepancy.prediction.physical_model import PhysicalModel
 
+    answers = []
+
     def diagnose(file, campaign, jobs):
         model = PhysicalModel(file, campaign)
         model.candidates = ()
-        return known(file, campaign, model=model)
+        answers.append(known(file, campaign, model=model))
+        return answers[0]
 
     known = verdict.diagnose
     monkeypatch.setattr(verdict, "diagnose", diagnose)
@@ -261,6 +264,9 @@ def test_one_command_from_unknown_to_a_model_that_is_better(tmp_path, capsys, mo
     hidden = json.loads((tmp_path / "sealed" / "campaign_00001.json").read_text())["laws"][0]["numbers"]["a"] * (2400.0 * RPM / 209.4) ** 2.5
     kept = said["effects"]["input_torque_over_speed"]
     assert sum(p["value"] for p in kept.values()) == pytest.approx(hidden, rel=0.1)
+    # ``rvwear diagnose --draft FILE`` writes the same law and stops there.
+    file = written_to(answers[0], tmp_path / "rv_plant" / "ventilation.py")
+    assert file.read_text() == text.replace("input_torque_over_speed", "ventilation") and check_any_file(file) == []
 
 
 # Laws that the catalogue does not have: a loss over speed, a turning over torque, a turning over angle.

@@ -133,7 +133,7 @@ def test_record_counted_from_another_angle_is_aligned(file):
 
 @pytest.mark.parametrize(("text", "message"), [
     ("[model]\nname = 'x'\n", "model.reducer"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.phlogiston]\n", "phlogiston"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.phlogiston]\n", "phlogiston.*RVWEAR_EFFECTS=DIR"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nwind = { value = 1.0, unit = 'N.m' }\n", "wind"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nseal_torque = 0.1\n", "seal_torque"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[settings]\nbearing_clearance = '3 kg'\n", "bearing_clearance"),
