@@ -68,3 +68,20 @@ def test_draft_and_page_take_the_law():
 
     (law,) = laws(lambda speed, load: 0.3 * (speed / 2000.0) ** 2)
     assert page.figures(law, AXES["speed"]) and "SI unit" not in str(page.table(law)) and SimpleNamespace(**law.to_dict())
+
+
+def test_rows_of_a_table_are_points_of_their_own():
+    """Five torques over the speed in a run: not one mean torque, but a law."""
+    model, rng = Model(lambda speed, load: 0.0), np.random.default_rng(2)
+    speeds = np.array([200.0, 500.0, 1000.0, 1500.0, 2000.0])
+    model.records = [
+        Record(f"{load:g} {k}", "input_torque", "N.m", f"{load:g} N m", k, 2.0 + 0.3 * (speeds / 2000.0) ** 2 + 0.003 * rng.standard_normal(5),
+               {"speed": speeds * RPM}, {"load": load, "direction": 1.0})
+        for load in (80.0, 160.0) for k in (1, 2)
+    ]  # fmt: skip
+    model.predict = lambda values, which=None: [np.full(5, 2.0) for _ in (range(len(model.records)) if which is None else which)]
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    (law,) = recover(doctor.space, doctor.space.base, None, told_in(model))
+    assert law.leading == "speed" and len(law.points["x"]) == 20 and sorted(set(law.points["x"])) == pytest.approx(speeds * RPM)
+    assert law.forms[0].name in ("quadratic", "power", "exponential")
