@@ -10,6 +10,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
+from discrepancy.inference.law.waves import WAYS, wave_of
 from discrepancy.inference.noise.series import order_axis, stream_of
 from fmu_src.arrays import Floats
 
@@ -58,7 +59,15 @@ def recover(space: Workspace, fit: Fit, signals: list[str] | None = None, told: 
     streams: dict[str, list[int]] = {}
     for i, record in enumerate(space.records):
         streams.setdefault(stream_of(record), []).append(i)
-    return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices, told)) is not None]
+    found = []
+    for signal, indices in streams.items():
+        if signals is None or signal in signals:
+            law = _signal(space, fit, signal, indices, told)
+            if law is None or not law.forms or law.forms[0].name == "constant":
+                # A wave that means of neighbouring samples do not show.
+                law = _wave(space, fit, signal, indices, told) or law
+            found += [law] if law is not None else []
+    return found
 
 
 @dataclass(frozen=True)
@@ -198,6 +207,33 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
                      x_told, y_told)
 
 
+def _wave(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told: Told) -> Recovered | None:
+    """The law of one wave over the angle, as the periodic form that it is."""
+    wave = wave_of(space, fit, indices)
+    if wave is None:
+        return None
+    rows = [r for r in _table(space, fit, indices) if "axis:angle" in r.places and not r.held]
+    way = WAYS[wave.way]
+    weights = [way({k.partition(":")[2]: v for k, v in r.places.items()}) for r in rows]
+    x, y = np.array([r.places["axis:angle"] for r in rows]), np.array([r.y / w for r, w in zip(rows, weights)])
+    deviation = np.array([np.sqrt(r.variance) / abs(w) for r, w in zip(rows, weights)])
+    (factor, _, unit), y_told = told("angle"), _told(signal, wave.way, told)
+    b, c, covariance = wave.about(0.5 * (float(x.min()) + float(x.max())))
+    half = 1.96 * np.sqrt(np.diag(covariance))
+    values = {"b": (y_told[0] * b, y_told[0] * half[0]), "c": (y_told[0] * c, y_told[0] * half[1]), "k": (wave.order / factor, half[2] / factor)}
+    intervals = {name: (float(value - h), float(value + h)) for name, (value, h) in values.items()}
+    form = Form("periodic", "y = b cos(k x) + c sin(k x)", {"a": 0.0} | {k: float(v) for k, (v, _) in values.items()},
+                {"a": (0.0, 0.0)} | intervals, wave.error, 1.0)
+    grid = np.linspace(float(x.min()), float(x.max()), int(8 * wave.order * np.ptp(x) / np.pi) + 61)
+    phase = wave.order * (grid - 0.5 * (x.min() + x.max()))
+    spread = np.full(grid.size, float(np.hypot(half[0], half[1])) / 1.96)
+    curve = Curve("angle", grid, b * np.cos(phase) + c * np.sin(phase), spread, wave.gain / float(fit.residual @ fit.residual), 3.0)
+    text = _text(signal, wave.way, "angle", [form], unit, y_told[1])
+    points = {"x": x.tolist(), "y": y.tolist(), "deviation": deviation.tolist()}
+    return Recovered(signal, False, [curve], "angle", None if wave.way == "none" else wave.way, points, [form], None, None,
+                     f"{text}: order {wave.order:.4g}", (factor, 0.0, unit), y_told)
+
+
 def _told(signal: str, way: str, told: Told) -> tuple[float, str]:
     """(factor, unit) of the misfit as it is written."""
     factor, _, unit = told(signal)
@@ -218,7 +254,8 @@ def _text(signal: str, way: str, lead: str, forms: Sequence[Form], x_unit: str, 
     if not forms:
         return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: too few levels for a form"
     best = forms[0]
-    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items())
+    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items()
+                        if best.intervals[k] != (0.0, 0.0))
     if best.name == "constant":
         return f"misfit of {signal} in proportion to {way}: {of('share', y_unit)} {numbers}"
     return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: {best.text}, {numbers}"
