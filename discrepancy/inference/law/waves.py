@@ -5,7 +5,7 @@ and sine of every order that they resolve.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,6 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import order_axis
-from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
 # Turns in the runs' range of angle from which a wave is one, steps of the scan and of the finer one (assumed: a wave is as wide as 1).
@@ -65,7 +64,7 @@ def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
     if most <= least + step:
         return None
     orders, found = np.arange(least, most, step), []
-    for k, way in enumerate(ways(records.values())):
+    for k, way in enumerate(ways([r.factors for r in records.values()])):
         weights = {i: WAYS[way](r.factors) for i, r in records.items()}
         gain, order = max(gains(space, runs, weights, misfit, orders))
         near = order + step * np.arange(-1.0, 1.0 + FINE, FINE)
@@ -78,9 +77,8 @@ def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
     return refined(space, runs, weights, misfit, way, order)
 
 
-def ways(records: Iterable[Record]) -> list[str]:
-    """What the runs can tell apart: load and direction where they differ."""
-    factors = [r.factors for r in records]
+def ways(factors: Sequence[Mapping[str, float]]) -> list[str]:
+    """What runs at these conditions can tell apart: load and direction where they differ."""
     loads = {f.get("load", 0.0) for f in factors}
     two = {"load": len(loads) > 1 and min(loads) > 0.0, "direction": len({f.get("direction", 1.0) for f in factors}) > 1}
     return ["none", *(name for name, tells in two.items() if tells), *(["load and direction"] if all(two.values()) else [])]
