@@ -1,6 +1,6 @@
 """The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -145,6 +145,8 @@ def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], tol
     keys = [k for k in keys if all(k in r.places for r in rows) and np.unique([r.places[k] for r in training]).size >= 2]
     if not keys:
         return None
+    alike = together(keys, training)
+    keys = list(alike)
     best: tuple[float, _Smooth] | None = None
     predictions = np.array([abs(r.prediction) for r in training])
     # which way of writing the misfit is smooth in the conditions: as it is, by direction, by load, or as a share
@@ -168,10 +170,26 @@ def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], tol
         loss = float(np.sum(w * (y - fitted) ** 2)) + 2 * sum(c.effective_dof for c in curves) + 2 * (name != "none")
         if best is None or loss < best[0]:
             best = (loss, _Smooth(name, way, y, w, axes, curves, fitted))
-    return None if best is None else _law(signal, best[1], rows, training, told)
+    return None if best is None else _law(signal, best[1], rows, training, told, alike)
 
 
-def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin], told: Told) -> Recovered | None:
+def together(keys: Sequence[str], rows: Sequence[_Bin]) -> dict[str, list[str]]:
+    """Factors and axes, each with those that change with it and never apart: between them nothing can be told."""
+    levels = {k: np.unique([r.places[k] for r in rows], return_inverse=True)[1] for k in keys}
+    found: dict[str, list[str]] = {}
+    for key in keys:
+        pairs = {first: len(set(zip(levels[first], levels[key]))) for first in found}
+        same = [first for first, count in pairs.items() if count == levels[first].max() + 1 == levels[key].max() + 1]
+        if same:
+            found[same[0]].append(key)
+        else:
+            found[key] = []
+    return found
+
+
+def _law(
+    signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin], told: Told, alike: Mapping[str, Sequence[str]]
+) -> Recovered | None:
     name, way, y, w, axes, curves = found.name, found.way, found.y, found.weights, found.axes, found.curves
     lead = curves[0].name
     # partial residual of the leading axis
@@ -202,6 +220,8 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
         before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
     lead_name = lead.split(":")[1]
     text = _text(signal, name, lead_name, forms, x_told[2], y_told[1])
+    if alike[lead]:
+        text += f" ({' and '.join(k.partition(':')[2] for k in alike[lead])} changed with it)"
     points = {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}
     return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name, points, forms, before, after, text,
                      x_told, y_told)
