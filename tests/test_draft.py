@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 
+from cli.commands import drafting
 from cli.main import main
 from discrepancy.draft.choose import Draft, require_folder, write, written_to
 from discrepancy.draft.expression import FORMS, expression_of
@@ -17,7 +18,7 @@ from discrepancy.draft.write import text_of
 from discrepancy.inference.law.closed_forms import Form, closed_forms
 from discrepancy.inference.law.recover import Recovered
 from fmu_src.effect_check import check_any_file
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, RunFault
 
 DRIVE = Drive(121.0, 39)
 RPM = math.pi / 30.0
@@ -279,6 +280,24 @@ def test_outside_laws_are_drafted_against_the_whole_catalogue(tmp_path, capsys, 
     said = extended(campaign_of(tmp_path, *outside), tmp_path / "mine", capsys)
     step = said["step"]
     assert said["verdict"] == "helped" and step["held_out_error_after"] < 1.3 < 4.0 < step["held_out_error_before"]
+
+
+@pytest.mark.parametrize(("alone", "beside", "chosen"), [(1.5, 1.48, 0), (1.5, 1.2, 1), (1.5, None, 0), (None, 1.2, 1), (None, None, None)])
+def test_what_is_named_must_earn_its_place_beside_a_law(tmp_path, monkeypatch, alone, beside, chosen):
+    """By the error on fitted runs; what cannot be fitted is not taken."""
+    errors = {"alone": alone, "beside": beside}
+
+    def child(options, draft, more, as_json):
+        error = errors[draft.name]
+        return subprocess.CompletedProcess([], 1, "" if error is None else json.dumps({"step": {"training_after": error}}))
+
+    monkeypatch.setattr(drafting, "child", child)
+    drafts = [file_of(tmp_path, law_of(), name=name) for name in errors]
+    if chosen is None:
+        with pytest.raises(RunFault, match="alone.py and .*beside.py: could not be fitted"):
+            drafting.better(None, drafts)
+    else:
+        assert drafting.better(None, drafts) is drafts[chosen]
 
 
 def test_effects_lie_in_one_folder(tmp_path, monkeypatch, capsys):

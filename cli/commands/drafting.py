@@ -6,6 +6,7 @@ in a process of its own, whose RVWEAR_EFFECTS names DIR.
 
 import argparse
 import json
+import math
 import os
 import shlex
 import subprocess
@@ -54,7 +55,8 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
     if not options.json:
         show_draft(answer, draft, reasons)
     done = child(options, draft, [*given(options, ("output", "fmus", "html")), *(["--anyway"] if options.anyway else [])], options.json)
-    if done.returncode > 1:
+    if done.returncode > 1 or (options.json and not done.stdout.strip()):
+        # The fault was said on the way.
         return done.returncode
     target = options.output or (str(file.path) if file.path else f"{file.name}.toml")
     use = f"{USER_EFFECTS}={shlex.quote(str(folder.resolve()))}"
@@ -71,10 +73,10 @@ def better(options: argparse.Namespace, drafts: "list[Draft]") -> "Draft":
         errors = []
         for draft in drafts:
             done = child(options, draft, ["--output", str(Path(scratch) / "model.toml")], True)
-            if done.returncode > 1:
-                raise RunFault(f"{draft.file}: could not be fitted")
-            errors.append(float(json.loads(done.stdout)["step"]["training_after"]))
+            errors.append(float(json.loads(done.stdout)["step"]["training_after"]) if done.stdout.strip() else math.inf)
             comparing.advance()
+    if min(errors) == math.inf:
+        raise RunFault(f"{' and '.join(str(draft.file) for draft in drafts)}: could not be fitted, as said above")
     alone, beside = drafts
     return beside if errors[1] < WORTH * errors[0] else alone
 
