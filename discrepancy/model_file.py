@@ -25,6 +25,7 @@ from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault
+from fmu_src.source_hash import USER_EFFECTS
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
@@ -101,7 +102,7 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     effects = content.get("effects", {})
     for name, parameters in effects.items():
         if name not in known:
-            raise InputFault(f"{path}: effects.{name}: there is no such effect; `rvwear effects` lists those there are")
+            raise InputFault(f"{path}: effects.{name}: there is no such effect; `rvwear effects` lists those there are, your own with {USER_EFFECTS}=DIR")
         have = {p.variable.name for p in known[name].parameters}
         for parameter, entry in parameters.items():
             if parameter.partition("[")[0] not in have:

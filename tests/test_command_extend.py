@@ -21,10 +21,10 @@ def options(*arguments: str) -> argparse.Namespace:
     return parser().parse_args(["extend", "RV20E-121", "my bench", *arguments])
 
 
-def answer_of(verdict, names, rejected=()):
+def answer_of(verdict, names, rejected=(), laws=()):
     effects = [{"name": n.partition(".")[0], "candidates": [n]} for n in names]
     diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected])
-    return SimpleNamespace(verdict=verdict, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis)
+    return SimpleNamespace(verdict=verdict, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws)
 
 
 def lines(text: str) -> list[str]:
@@ -48,6 +48,13 @@ def test_what_is_incomplete_or_nearest_has_its_line(verdict, names, rejected, as
     again = parser().parse_args(shlex.split(line)[1:])
     assert again.effect == asked and again.json
     assert "no effect of the catalogue shows" in commands.refusal(options(), answer_of(NONE, []))
+
+
+def test_a_recovered_law_has_the_line_that_drafts_it():
+    law = SimpleNamespace(forms=["linear"])
+    *_, line = lines(commands.refusal(options("--output", "better.toml"), answer_of(INCOMPLETE, ["drag"], laws=[law])))
+    again = parser().parse_args(shlex.split(line)[1:])
+    assert (again.draft, again.output, again.effect) == ("effects", "better.toml", None)
 
 
 def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):

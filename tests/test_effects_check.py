@@ -4,13 +4,11 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
 from cli.main import main
 from discrepancy.catalogue.documentation import PAGE, own_part
-from discrepancy.draft import BODIES, PLANT_NAMES, WEAR_NAMES, text_of
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
 
@@ -232,14 +230,6 @@ def test_effects_act_whatever_their_files_are_called(tmp_path):
     assert done.returncode == 0, done.stderr
     first, second = map(float, done.stdout.split())
     assert first == pytest.approx(second, rel=1e-12)
-
-
-def test_drafts_pass(tmp_path):
-    for unit, names, signal in (("rv_plant", PLANT_NAMES, "input_torque"), ("wear_fmu", WEAR_NAMES, "wear_depth")):
-        for form in BODIES:
-            law = SimpleNamespace(text="law", signal=signal, points={"x": [10.0, 200.0]}, forms=[SimpleNamespace(name=form, confidence=0.9)])
-            for x in names.values():
-                assert told(tmp_path, text_of("draft", law, unit, x), unit=unit, name="draft") == []
 
 
 def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):

@@ -7,7 +7,6 @@ import pytest
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import compare
-from discrepancy.draft import text_of
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
 from discrepancy.model_file import extended_reducer, load_model, save_model
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -139,7 +138,7 @@ def test_record_counted_from_another_angle_is_aligned(file):
 
 @pytest.mark.parametrize(("text", "message"), [
     ("[model]\nname = 'x'\n", "model.reducer"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.phlogiston]\n", "phlogiston"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.phlogiston]\n", "phlogiston.*RVWEAR_EFFECTS=DIR"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nwind = { value = 1.0, unit = 'N.m' }\n", "wind"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nseal_torque = 0.1\n", "seal_torque"),
     ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[settings]\nbearing_clearance = '3 kg'\n", "bearing_clearance"),
@@ -149,32 +148,6 @@ def test_faulty_model_files_say_what_is_wrong(tmp_path, text, message):
     path.write_text(text)
     with pytest.raises(InputFault, match=message):
         load_model(path)
-
-
-def test_draft_of_a_recovered_law_builds_and_acts(tmp_path):
-    """In a process of its own: effects are compiled in when the units are imported."""
-    import os
-    import subprocess
-    import sys
-    from types import SimpleNamespace
-
-    form = SimpleNamespace(name="linear", text="y = a + b x", confidence=0.9)
-    law = SimpleNamespace(text="misfit of input_torque over speed: y = a + b x", signal="input_torque", leading="speed",
-                          points={"x": [10.0, 200.0]}, forms=[form])
-    (tmp_path / "rv_plant").mkdir()
-    (tmp_path / "rv_plant" / "mystery.py").write_text(text_of("mystery", law, "rv_plant", "abs(r.input_speed)"))
-    program = (
-        "import numpy as np; from reducers.reducer import load_reducer; from rv_plant import plant; torque = []\n"
-        "for size in (0.0, 0.5):\n"
-        "    records = load_reducer('RV20E-121').plant.new_records().view(np.recarray)\n"
-        "    records['mystery_size'] = size; assert plant.initialise(records) == 0; torque.append(records.drive_torque[0])\n"
-        "print(torque[1] - torque[0])\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300,
-                          env={**os.environ, "RVWEAR_EFFECTS": str(tmp_path), "RVWEAR_PLAIN_PYTHON": "1"})
-    assert done.returncode == 0, done.stderr
-    # 209.4 rad/s over the largest speed of the law.
-    assert float(done.stdout) == pytest.approx(0.5 * 209.44 / 200.0, rel=1e-3)
 
 
 def test_unknown_nuisance_is_refused(file, wide):

@@ -7,6 +7,7 @@ import pytest
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.law.closed_forms import propose
 from discrepancy.inference.law.recover import recover
 from discrepancy.problem import Record
 from discrepancy.scales import AXES
@@ -68,3 +69,47 @@ def test_draft_and_page_take_the_law():
 
     (law,) = laws(lambda speed, load: 0.3 * (speed / 2000.0) ** 2)
     assert page.figures(law, AXES["speed"]) and "SI unit" not in str(page.table(law)) and SimpleNamespace(**law.to_dict())
+
+
+def test_rows_of_a_table_are_points_of_their_own():
+    """Five torques over the speed in a run: not one mean torque, but a law."""
+    model, rng = Model(lambda speed, load: 0.0), np.random.default_rng(2)
+    speeds = np.array([200.0, 500.0, 1000.0, 1500.0, 2000.0])
+    model.records = [
+        Record(f"{load:g} {k}", "input_torque", "N.m", f"{load:g} N m", k, 2.0 + 0.3 * (speeds / 2000.0) ** 2 + 0.003 * rng.standard_normal(5),
+               {"speed": speeds * RPM}, {"load": load, "direction": 1.0})
+        for load in (80.0, 160.0) for k in (1, 2)
+    ]  # fmt: skip
+    model.predict = lambda values, which=None: [np.full(5, 2.0) for _ in (range(len(model.records)) if which is None else which)]
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    (law,) = recover(doctor.space, doctor.space.base, None, told_in(model))
+    assert law.leading == "speed" and len(law.points["x"]) == 20 and sorted(set(law.points["x"])) == pytest.approx(speeds * RPM)
+    assert law.forms[0].name in ("quadratic", "power", "exponential")
+
+
+def test_factors_that_never_change_apart_are_one():
+    """Two conditions that differ in load, speed and temperature: nothing is told between these, and the law over the hours is."""
+    model, rng = Model(lambda speed, load: 0.0), np.random.default_rng(4)
+    hours = np.array([100.0, 400.0, 1200.0, 3000.0]) * 3600.0
+    share = 0.3 * hours / hours[-1]
+    model.records = [
+        Record(f"{load:g} {k}", "wear_depth", "m", f"{load:g}", k, 1e-6 * load * (hours / hours[-1]) * (1.0 + share + 0.003 * rng.standard_normal(4)),
+               {"hours": hours}, {"load": load, "speed": load, "temperature": 300.0 + load, "direction": 1.0})
+        for load in (1.0, 2.0) for k in (1, 2, 3)
+    ]  # fmt: skip
+    model.predict = lambda values, which=None: [1e-6 * model.records[i].factors["load"] * hours / hours[-1] for i in (range(6) if which is None else which)]
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    (law,) = recover(doctor.space, doctor.space.base, None, told_in(model))
+    assert law.leading == "hours" and law.factor == "prediction" and law.forms[0].name == "linear"
+    assert law.forms[0].parameters["b"] * 3000.0 == pytest.approx(0.3, rel=0.1) and all(c.share < 1.5 for c in law.curves)
+
+
+def test_intervals_hold_whatever_the_unit_of_x():
+    """y = a + b x + c x^2 over thousands of hours: the constant is known as well as over thousandths."""
+    rng = np.random.default_rng(5)
+    x = np.linspace(100.0, 6000.0, 12)
+    y = -0.9 + 1.4e-3 * x - 3.7e-7 * x**2 + 0.05 * rng.standard_normal(12)
+    widths = [np.ptp(next(f for f in propose(x * scale, y, np.full(12, 0.05)) if f.name == "quadratic").intervals["a"]) for scale in (1.0, 1e-3)]
+    assert widths[0] == pytest.approx(widths[1], rel=1e-3) and widths[0] > 0.05

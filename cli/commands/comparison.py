@@ -5,6 +5,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json, all_cores, folder
 from fmu_src.faults import InputFault
@@ -38,6 +39,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add = sub.add_parser("extend", help="add an effect to a model and judge it on runs that were not used")
     add_common(add)
     add.add_argument("--effect", action="append", metavar="NAME", help="effect, or effect.variant (default: what the diagnosis names)")
+    add.add_argument("--draft", metavar="DIR", help="where nothing is named: write the recovered law as an effect into DIR, build, fit and judge it")
+    add.add_argument("--name", metavar="NAME", help="with --draft: what the effect is called (default: by what it acts on)")
     add.add_argument("--output", metavar="FILE", help="model file to write (default: the model file itself, or NAME.toml)")
     add.add_argument("--fmus", metavar="FOLDER", help="build the FMUs of the extended model there")
     add.add_argument("--anyway", action="store_true", help="keep an effect that did not help")
@@ -114,7 +117,7 @@ def run_localise(options: argparse.Namespace) -> int:
 def run_diagnose(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_answer
-    from discrepancy.draft import draft_effect
+    from discrepancy.draft.choose import written_to
     from discrepancy.verdict import diagnose
 
     with task("diagnosing"):
@@ -122,13 +125,13 @@ def run_diagnose(options: argparse.Namespace) -> int:
     write_html(options, answer)
     draft = None
     if options.draft:
-        draft = draft_effect(answer, Path(options.draft))
+        draft = written_to(answer, Path(options.draft))
     if options.json:
         json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
         show_answer(answer)
         if options.draft:
-            print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law could be recovered")
+            print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
     return 0
 
 
@@ -142,6 +145,8 @@ def run_extend(options: argparse.Namespace) -> int:
     from discrepancy.verdict import diagnose
 
     file, campaign = inputs(options)
+    if options.draft:
+        return run_draft(options, file, campaign)
     names = options.effect
     if not names:
         with task("diagnosing"):
@@ -183,15 +188,21 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
     named = [candidate for effect in answer.effects for candidate in effect["candidates"]]
     nearest = named or [rival["name"] for rival in found.rejected[:1]]
+    # A law that was recovered without a name can become an effect.
+    drafted = f"; this one makes an effect of the law that was recovered:\n  {extend_line(options, (), draft=True)}" if law_with_a_form(answer) else ""
     if not nearest:
-        return f"{start}; no effect of the catalogue shows in what was measured"
+        return f"{start}; no effect of the catalogue shows in what was measured{drafted}"
     what = "what is named all the same" if named else "what comes nearest all the same"
-    return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}"
+    return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}{drafted}"
 
 
-def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: bool = False) -> str:
-    """The command as it was given, with these effects."""
-    words = ["rvwear", "extend", options.model, options.campaign]
+def law_with_a_form(answer: "Answer") -> bool:
+    return any(law.forms for law in answer.laws)
+
+
+def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: bool = False, draft: bool = False) -> str:
+    """The command as it was given, with these effects, or with a draft in the folder ``effects``."""
+    words = ["rvwear", "extend", options.model, options.campaign, *(["--draft", "effects"] if draft else [])]
     for name in names:
         words += ["--effect", name]
     for key in ("data", "output", "fmus", "html"):

@@ -92,7 +92,9 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
             losses[out] = ((y[out] / scale - function(x[out], *solution.x)) * scale / deviation[out]) ** 2
         loss = float(np.nanmean(np.minimum(losses, 1e6)))
         dof = max(y.size - len(names), 1)
-        covariance = np.linalg.pinv(best.jac.T @ best.jac) * max(2 * best.cost / dof, 1.0)
+        # Constants of x^2 and of 1 differ by many decades: in their own sizes, or the small ones would seem known exactly.
+        sizes = np.maximum(np.linalg.norm(best.jac, axis=0), 1e-300)
+        covariance = np.linalg.pinv((best.jac / sizes).T @ (best.jac / sizes)) / np.outer(sizes, sizes) * max(2 * best.cost / dof, 1.0)
         half = student.ppf(0.975, dof) * np.sqrt(np.maximum(np.diag(covariance), 0.0))
         linear = {"a", "b"} | ({"c"} if name in ("quadratic", "periodic") else set())
         parameters = {n: float(v * (scale if n in linear else 1.0)) for n, v in zip(names, best.x)}

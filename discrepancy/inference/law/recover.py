@@ -1,6 +1,6 @@
 """The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +10,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
-from discrepancy.inference.noise.noise import SHORT
+from discrepancy.inference.law.waves import WAYS, wave_of
 from discrepancy.inference.noise.series import order_axis, stream_of
 from fmu_src.arrays import Floats
 
@@ -59,7 +59,15 @@ def recover(space: Workspace, fit: Fit, signals: list[str] | None = None, told: 
     streams: dict[str, list[int]] = {}
     for i, record in enumerate(space.records):
         streams.setdefault(stream_of(record), []).append(i)
-    return [r for s, indices in streams.items() if (signals is None or s in signals) and (r := _signal(space, fit, s, indices, told)) is not None]
+    found = []
+    for signal, indices in streams.items():
+        if signals is None or signal in signals:
+            law = _signal(space, fit, signal, indices, told)
+            if law is None or not law.forms or law.forms[0].name == "constant":
+                # A wave that means of neighbouring samples do not show.
+                law = _wave(space, fit, signal, indices, told) or law
+            found += [law] if law is not None else []
+    return found
 
 
 @dataclass(frozen=True)
@@ -99,21 +107,30 @@ def _table(space: Workspace, fit: Fit, indices: Sequence[int]) -> list[_Bin]:
         axes = {k: np.asarray(v, dtype=float) for k, v in record.axes.items() if np.ptp(v) > 0}
         angle = order_axis(record)
         names = [n for n in axes if not (n == "time" and angle is not None)]
-        main = axes[names[0]] if names and kept.size >= SHORT else None
-        cuts = [kept] if main is None else np.array_split(kept[np.argsort(main[kept], kind="stable")], min(BINS, max(kept.size // 4, 1)))
+        # A few samples are conditions of their own: a table of torques over speeds, depths over hours.
+        alone = bool(names) and kept.size <= BINS
+        main = axes[names[0]] if names and not alone else None
+        if alone:
+            cuts = np.array_split(kept, kept.size)
+        else:
+            cuts = [kept] if main is None else np.array_split(kept[np.argsort(main[kept], kind="stable")], min(BINS, max(kept.size // 4, 1)))
+        scales = np.zeros(e.size)
+        scales[kept] = whitener.scale
         weight = np.zeros(e.size)
         weight[kept] = whitener.weight**2
         for cut in cuts:
             if cut.size == 0:
                 continue
             w = weight[cut] + 1e-9
-            scale = float(np.mean(whitener.scale))
+            scale = float(np.mean(scales[cut]))
             # correlated samples average worse than independent ones
             spacing = np.median(np.abs(np.diff(main))) if main is not None and main.size > 1 else 1.0
             together = 1 + 2 * (1 - stream.nugget) * stream.length / max(spacing, 1e-300) if stream.length else 1.0
             variance = scale**2 * (min(together, cut.size) / cut.size)
             places = {f"factor:{k}": float(v) for k, v in record.factors.items()}
-            if main is not None:
+            if alone:
+                places |= {f"factor:{n}": float(axes[n][cut[0]]) for n in names}
+            elif main is not None:
                 places["axis:" + names[0]] = float(np.mean(main[cut]))
             rows.append(_Bin(float(np.sum(w * e[cut]) / np.sum(w)), float(np.mean(y[cut])), variance, record.condition, record.held_out, places))
     return rows
@@ -128,6 +145,8 @@ def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], tol
     keys = [k for k in keys if all(k in r.places for r in rows) and np.unique([r.places[k] for r in training]).size >= 2]
     if not keys:
         return None
+    alike = together(keys, training)
+    keys = list(alike)
     best: tuple[float, _Smooth] | None = None
     predictions = np.array([abs(r.prediction) for r in training])
     # which way of writing the misfit is smooth in the conditions: as it is, by direction, by load, or as a share
@@ -151,10 +170,26 @@ def _signal(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], tol
         loss = float(np.sum(w * (y - fitted) ** 2)) + 2 * sum(c.effective_dof for c in curves) + 2 * (name != "none")
         if best is None or loss < best[0]:
             best = (loss, _Smooth(name, way, y, w, axes, curves, fitted))
-    return None if best is None else _law(signal, best[1], rows, training, told)
+    return None if best is None else _law(signal, best[1], rows, training, told, alike)
 
 
-def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin], told: Told) -> Recovered | None:
+def together(keys: Sequence[str], rows: Sequence[_Bin]) -> dict[str, list[str]]:
+    """Factors and axes, each with those that change with it and never apart: between them nothing can be told."""
+    levels = {k: np.unique([r.places[k] for r in rows], return_inverse=True)[1] for k in keys}
+    found: dict[str, list[str]] = {}
+    for key in keys:
+        pairs = {first: len(set(zip(levels[first], levels[key]))) for first in found}
+        same = [first for first, count in pairs.items() if count == levels[first].max() + 1 == levels[key].max() + 1]
+        if same:
+            found[same[0]].append(key)
+        else:
+            found[key] = []
+    return found
+
+
+def _law(
+    signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_Bin], told: Told, alike: Mapping[str, Sequence[str]]
+) -> Recovered | None:
     name, way, y, w, axes, curves = found.name, found.way, found.y, found.weights, found.axes, found.curves
     lead = curves[0].name
     # partial residual of the leading axis
@@ -185,9 +220,38 @@ def _law(signal: str, found: _Smooth, rows: Sequence[_Bin], training: Sequence[_
         before, after = float(np.sqrt(np.mean(hy**2 / variance))), float(np.sqrt(np.mean((hy - predicted) ** 2 / variance)))
     lead_name = lead.split(":")[1]
     text = _text(signal, name, lead_name, forms, x_told[2], y_told[1])
+    if alike[lead]:
+        text += f" ({' and '.join(k.partition(':')[2] for k in alike[lead])} changed with it)"
     points = {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}
     return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name, points, forms, before, after, text,
                      x_told, y_told)
+
+
+def _wave(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told: Told) -> Recovered | None:
+    """The law of one wave over the angle, as the periodic form that it is."""
+    wave = wave_of(space, fit, indices)
+    if wave is None:
+        return None
+    rows = [r for r in _table(space, fit, indices) if "axis:angle" in r.places and not r.held]
+    way = WAYS[wave.way]
+    weights = [way({k.partition(":")[2]: v for k, v in r.places.items()}) for r in rows]
+    x, y = np.array([r.places["axis:angle"] for r in rows]), np.array([r.y / w for r, w in zip(rows, weights)])
+    deviation = np.array([np.sqrt(r.variance) / abs(w) for r, w in zip(rows, weights)])
+    (factor, _, unit), y_told = told("angle"), _told(signal, wave.way, told)
+    b, c, covariance = wave.about(0.5 * (float(x.min()) + float(x.max())))
+    half = 1.96 * np.sqrt(np.diag(covariance))
+    values = {"b": (y_told[0] * b, y_told[0] * half[0]), "c": (y_told[0] * c, y_told[0] * half[1]), "k": (wave.order / factor, half[2] / factor)}
+    intervals = {name: (float(value - h), float(value + h)) for name, (value, h) in values.items()}
+    form = Form("periodic", "y = b cos(k x) + c sin(k x)", {"a": 0.0} | {k: float(v) for k, (v, _) in values.items()},
+                {"a": (0.0, 0.0)} | intervals, wave.error, 1.0)
+    grid = np.linspace(float(x.min()), float(x.max()), int(8 * wave.order * np.ptp(x) / np.pi) + 61)
+    phase = wave.order * (grid - 0.5 * (x.min() + x.max()))
+    spread = np.full(grid.size, float(np.hypot(half[0], half[1])) / 1.96)
+    curve = Curve("angle", grid, b * np.cos(phase) + c * np.sin(phase), spread, wave.gain / float(fit.residual @ fit.residual), 3.0)
+    text = _text(signal, wave.way, "angle", [form], unit, y_told[1])
+    points = {"x": x.tolist(), "y": y.tolist(), "deviation": deviation.tolist()}
+    return Recovered(signal, False, [curve], "angle", None if wave.way == "none" else wave.way, points, [form], None, None,
+                     f"{text}: order {wave.order:.4g}", (factor, 0.0, unit), y_told)
 
 
 def _told(signal: str, way: str, told: Told) -> tuple[float, str]:
@@ -210,7 +274,8 @@ def _text(signal: str, way: str, lead: str, forms: Sequence[Form], x_unit: str, 
     if not forms:
         return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: too few levels for a form"
     best = forms[0]
-    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items())
+    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items()
+                        if best.intervals[k] != (0.0, 0.0))
     if best.name == "constant":
         return f"misfit of {signal} in proportion to {way}: {of('share', y_unit)} {numbers}"
     return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: {best.text}, {numbers}"

@@ -9,6 +9,7 @@ from scipy.stats import t as student
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import Refit
+from discrepancy.problem import Parameter
 
 MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""
@@ -16,6 +17,8 @@ PER_PARAMETER = 2.0
 """Price of a further parameter, in chi-square (Akaike)."""
 PLAUSIBLE = 10.0
 """Amplitudes up to this many times their typical size cost nothing (assumed); beyond, the price grows with the square."""
+NEAR = 0.01
+"""Share of a parameter's range in the logarithm that counts as its bound."""
 FORM = 5e-4
 """Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
 
@@ -33,7 +36,16 @@ def penalised(rival: Refit) -> float:
 
 
 def ends_at_a_bound(rival: Refit) -> bool:
-    return any(p.name in rival.fit.at_bounds for p in rival.own)
+    """Whether a parameter ended at a bound, or a shape so near to one that the effect stands for another, simpler one."""
+    return any(p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name]) for p in rival.own)
+
+
+def _near_a_bound(p: Parameter, value: float) -> bool:
+    """In the logarithm, where the parameter cannot change its sign."""
+    if p.lower <= 0.0 or value <= 0.0:
+        return False
+    whole = np.log(p.upper / p.lower)
+    return bool(min(np.log(p.upper / value), np.log(value / p.lower)) < NEAR * whole)
 
 
 def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float = 1e6, margin: float = MARGIN) -> list[Refit]:

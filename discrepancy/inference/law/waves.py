@@ -1,0 +1,117 @@
+"""One wave over the angle in what a fit leaves: its order, its size, and whether it goes with load or direction.
+
+Means of neighbouring samples (``recover``) show orders up to a dozen; here all samples of the runs are held, whitened, against cosine
+and sine of every order that they resolve.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.noise.series import order_axis
+from fmu_src.arrays import Floats
+
+# Turns in the runs' range of angle from which a wave is one, steps of the scan and of the finer one (assumed: a wave is as wide as 1).
+FEWEST, STEP, FINE = 0.75, 0.25, 0.02
+# Share of the samples' rate up to which an order is resolved.
+RESOLVED = 0.45
+# Chi-square that a wave must gain beyond what the best of so many orders does by chance (assumed: once in some thousand).
+BEYOND_CHANCE = 20.0
+TOGETHER = 64
+
+WAYS: dict[str, Callable[[Mapping[str, float]], float]] = {
+    "none": lambda f: 1.0, "load": lambda f: f.get("load", 0.0), "direction": lambda f: f.get("direction", 1.0),
+    "load and direction": lambda f: f.get("load", 0.0) * f.get("direction", 1.0),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Wave:
+    """misfit = way * (b cos(n phi) + c sin(n phi)), n per radian; ``covariance`` of (b, c, n); ``gain`` in chi-square, ``error`` left in noise units."""
+
+    way: str
+    order: float
+    b: float
+    c: float
+    covariance: Floats
+    gain: float
+    error: float
+
+    def about(self, middle: float) -> tuple[float, float, Floats]:
+        """(b, c, covariance) of the same wave counted from the angle ``middle`` [rad]."""
+        turn = self.order * middle
+        cos, sin = math.cos(turn), math.sin(turn)
+        b, c = self.b * cos + self.c * sin, self.c * cos - self.b * sin
+        moved = np.array([[cos, sin, middle * c], [-sin, cos, -middle * b], [0.0, 0.0, 1.0]])
+        return b, c, moved @ self.covariance @ moved.T
+
+
+def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
+    """The wave that takes most of the misfit of these records' training runs; None if chance does as much, or no run has an angle."""
+    runs = {i: angle for i in indices if not space.records[i].held_out and (angle := order_axis(space.records[i])) is not None}
+    if not runs:
+        return None
+    records = {i: space.records[i] for i in runs}
+    misfit = space.whiten({i: r.values - y for (i, r), y in zip(records.items(), space.predictions(fit.values, list(runs)))})
+    span = max(float(np.ptp(a)) for a in runs.values())
+    rate = min(2.0 * math.pi / float(np.median(np.abs(np.diff(a)))) for a in runs.values())
+    least, most = 2.0 * math.pi * FEWEST / span, RESOLVED * rate
+    step = 2.0 * math.pi * STEP / span
+    if most <= least + step:
+        return None
+    orders, found = np.arange(least, most, step), []
+    for k, way in enumerate(ways([r.factors for r in records.values()])):
+        weights = {i: WAYS[way](r.factors) for i, r in records.items()}
+        gain, order = max(gains(space, runs, weights, misfit, orders))
+        near = order + step * np.arange(-1.0, 1.0 + FINE, FINE)
+        gain, order = max(gains(space, runs, weights, misfit, near[near > 0.0]))
+        # What is the same in all runs is the simplest.
+        found.append((gain - 2.0 * (k > 0), way, order, weights))
+    gain, way, order, weights = max(found, key=lambda f: f[0])
+    if gain < 2.0 * math.log(len(orders)) + BEYOND_CHANCE:
+        return None
+    return refined(space, runs, weights, misfit, way, order)
+
+
+def ways(factors: Sequence[Mapping[str, float]]) -> list[str]:
+    """What runs at these conditions can tell apart: load and direction where they differ."""
+    loads = {f.get("load", 0.0) for f in factors}
+    two = {"load": len(loads) > 1 and min(loads) > 0.0, "direction": len({f.get("direction", 1.0) for f in factors}) > 1}
+    return ["none", *(name for name, tells in two.items() if tells), *(["load and direction"] if all(two.values()) else [])]
+
+
+def columns(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, float], orders: Floats) -> tuple[Floats, Floats]:
+    """Whitened cosines and sines of the orders (N, orders)."""
+    phases = {i: np.multiply.outer(angle, orders) for i, angle in runs.items()}
+    return (space.whiten({i: weights[i] * np.cos(p) for i, p in phases.items()}), space.whiten({i: weights[i] * np.sin(p) for i, p in phases.items()}))
+
+
+def gains(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, float], misfit: Floats, orders: Floats) -> list[tuple[float, float]]:
+    """(gain in chi-square, order) of each order's cosine and sine."""
+    found: list[tuple[float, float]] = []
+    for start in range(0, orders.size, TOGETHER):
+        some = orders[start : start + TOGETHER]
+        cos, sin = columns(space, runs, weights, some)
+        cc, ss, cs = (cos * cos).sum(axis=0), (sin * sin).sum(axis=0), (cos * sin).sum(axis=0)
+        ce, se = misfit @ cos, misfit @ sin
+        determinant = np.maximum(cc * ss - cs * cs, 1e-12 * cc * ss + 1e-300)
+        found += zip(((ss * ce * ce - 2.0 * cs * ce * se + cc * se * se) / determinant).tolist(), some.tolist())
+    return found
+
+
+def refined(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, float], misfit: Floats, way: str, order: float) -> Wave:
+    """Amplitudes and order together, one step of Gauss and Newton from the scan's finer grid, with their covariance."""
+    cos, sin = columns(space, runs, weights, np.array([order]))
+    b, c = np.linalg.lstsq(np.hstack([cos, sin]), misfit, rcond=None)[0]
+    slope = space.whiten({i: weights[i] * a * (c * np.cos(order * a) - b * np.sin(order * a)) for i, a in runs.items()})
+    design = np.hstack([cos, sin, slope[:, None]])
+    step = np.linalg.lstsq(design, misfit - b * cos[:, 0] - c * sin[:, 0], rcond=None)[0]
+    left = misfit - b * cos[:, 0] - c * sin[:, 0] - design @ step
+    size = float(left @ left) / max(int(np.count_nonzero(misfit)) - 3, 1)
+    covariance = np.linalg.pinv(design.T @ design) * max(size, 1.0)
+    gain = float(misfit @ misfit - left @ left)
+    return Wave(way, order + float(step[2]), float(b + step[0]), float(c + step[1]), covariance, gain, math.sqrt(size))
