@@ -28,6 +28,7 @@ class Answer:
     model: PhysicalModel
     diagnosis: Diagnosis
     verdict: str
+    reason: str
     effects: list[dict[str, Any]]
     confusable: list[str]
     laws: list[Recovered]
@@ -36,7 +37,7 @@ class Answer:
     def as_json(self) -> dict[str, Any]:
         plain = self.diagnosis.to_dict()
         return plain | {
-            "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict,
+            "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
         }  # fmt: skip
@@ -53,7 +54,9 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
+    reason = found.reason
     if verdict in (SET, SEVERAL) and len(names) == 1:
+        reason = reason_of(effects[0], verdict)
         verdict = ONE
     confusable = names if verdict == SET else []
     laws = []
@@ -63,7 +66,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         laws = recover(space, fit, sorted(touched) or None, told_in(model))
     warnings = warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, effects, confusable, laws, list(dict.fromkeys(warnings)))
+    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)))
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:
@@ -76,6 +79,14 @@ def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:
         return scale.factor, scale.offset, "" if scale.unit == "1" else scale.unit + where
 
     return told
+
+
+def reason_of(effect: dict[str, Any], verdict: str) -> str:
+    """Of one effect in several forms: alternatives that look alike in this campaign, or forms that are all needed."""
+    forms = ", ".join(c.partition(".")[2].replace("_", " ") for c in effect["candidates"])
+    if verdict == SEVERAL:
+        return f"one effect in several forms, each significant beside the others: {forms}"
+    return f"one effect explains the misfit; which of its forms this campaign cannot tell, for they look alike in it: {forms}"
 
 
 def merged(effects: list[dict[str, Any]], verdict: str) -> list[dict[str, Any]]:

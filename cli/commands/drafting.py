@@ -99,7 +99,7 @@ def no_draft(options: argparse.Namespace, answer: "Answer", reasons: list[str]) 
     """Why there is nothing to draft, and what could be done."""
     from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN
 
-    start = f"--draft {options.draft}: the diagnosis says {answer.verdict!r} ({answer.diagnosis.reason})"
+    start = f"--draft {options.draft}: the diagnosis says {answer.verdict!r} ({answer.reason})"
     if answer.verdict not in (UNKNOWN, INCOMPLETE):
         return f"{start}: there is no law without a name to draft; `rvwear extend` without --draft adds what is named"
     if not reasons:

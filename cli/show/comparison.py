@@ -64,7 +64,7 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
 
 def show_answer(answer: Answer) -> None:
     out = console(WIDTH)
-    out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.diagnosis.reason}"))
+    out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))

@@ -10,7 +10,7 @@ WIDTH = 120
 
 def show_draft(answer: Answer, draft: Draft, reasons: list[str]) -> None:
     out = console(WIDTH)
-    out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.diagnosis.reason}"))
+    out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
     out.print(f"law      {draft.law.text}")
     out.print(styled("drafted  ", (draft.equation, "bold"), f"   ({over(draft.place, draft.expression)})"))
     out.print(f"         {draft.place.text}")

@@ -63,7 +63,7 @@ def sentence(answer: Answer) -> str:
         ),
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
-    reason = answer.diagnosis.reason
+    reason = answer.reason
     return texts.get(answer.verdict, answer.verdict) + (
         f" ({reason[:1].upper() + reason[1:]}.)" if answer.verdict in (UNKNOWN, SEVERAL) else ""
     )
@@ -85,7 +85,7 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
 
 def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, diagnosis.reason, tone=wording.tone(answer))]
+    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer))]
     if answer.effects:
         best = answer.effects[0]
         most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL

@@ -40,7 +40,7 @@ def page(run: NextRun) -> Page:
 
 def cards(run: NextRun, currency: str) -> list[Card]:
     if not run.result or not run.result.proposals:
-        return [Card("Diagnosis", run.answer.verdict, run.answer.diagnosis.reason)]
+        return [Card("Diagnosis", run.answer.verdict, run.answer.reason)]
     best = run.result.proposals[0]
     tone = "plain" if best.least >= ENOUGH else "bad"
     return [
