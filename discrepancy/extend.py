@@ -11,14 +11,16 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import by_signal, compare, runs_of
+from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
+from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Candidate
+from discrepancy.verdict import Answer
 from fmu_src.faults import InputFault
 from studies import building
 
@@ -48,18 +50,24 @@ class Extension:
 
 
 def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
-           jobs: int = 1) -> Extension:
+           jobs: int = 1, answer: Answer | None = None) -> Extension:
     """Fit the named candidates (``effect`` or ``effect.variant``) and add them.
 
-    ``anyway`` keeps an effect that did not help, for those who know better.
+    ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from.
     """
-    model = PhysicalModel(file, campaign, jobs=jobs)
+    model = answer.model if answer else PhysicalModel(file, campaign, jobs=jobs)
     # A name that nobody knows is refused before minutes are spent.
     asked = [variants_of(name, model.candidates) for name in names]
-    before = compare(file, campaign, settings, model)
-    diagnostician = before.diagnostician
-    # Where a fit starts is known from the candidate's own score.
-    diagnostician.screened([candidate for variants in asked for candidate in variants])
+    if answer:
+        diagnostician = answer.doctor
+    else:
+        diagnostician = Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+        diagnostician.prepare()
+        # Where a fit starts is known from the candidate's own score.
+        diagnostician.screened([candidate for variants in asked for candidate in variants])
+    space = diagnostician.space
+    every = list(range(len(space.records)))
+    before = by_signal(runs_of(space, space.predictions(space.base.values, every)))
     chosen = [best_of(variants, diagnostician) for variants in asked]
     fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
@@ -74,7 +82,6 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
     fitted = judgement(diagnostician, fit, diagnostician.space.training)
     outcome, reason = verdict_of(judged)
-    every = list(range(len(diagnostician.space.records)))
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
@@ -84,7 +91,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}
-            for b, a in zip(before.signals, by_signal(after))
+            for b, a in zip(before, by_signal(after))
         ],
     }  # fmt: skip
     # What was tested on unused runs and not seen there stays out.

@@ -19,8 +19,9 @@ from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, speed_words
-from discrepancy.verdict import Answer, diagnose
+from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from studies.hysteresis import torque_way
 
@@ -79,8 +80,8 @@ class NextRun:
 
 
 def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
-    """Diagnose, and propose what to measure next."""
-    return proposal_for(diagnose(file, campaign, settings, jobs=jobs), campaign)
+    """Diagnose, or take the diagnosis from before, and propose what to measure next."""
+    return proposal_for(diagnosed(file, campaign, settings, jobs), campaign)
 
 
 def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:

@@ -5,7 +5,7 @@ centre, or oval).  Here they are put together under the effect's name.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from discrepancy.scales import of_axis, of_signal, speed_words
 
 @dataclass(frozen=True)
 class Answer:
-    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits."""
+    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -33,6 +33,7 @@ class Answer:
     confusable: list[str]
     laws: list[Recovered]
     warnings: list[str]
+    doctor: Diagnostician = field(repr=False)
 
     def as_json(self) -> dict[str, Any]:
         plain = self.diagnosis.to_dict()
@@ -50,7 +51,8 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     ``fmus``: folder of FMUs to predict with, instead of their kernels in this process.
     """
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
-    found = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders)).run()
+    doctor = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
+    found = doctor.run()
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
@@ -66,7 +68,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         laws = recover(space, fit, sorted(touched) or None, told_in(model))
     warnings = warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)))
+    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), doctor)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

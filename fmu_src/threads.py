@@ -24,6 +24,13 @@ class Threads:
         self.stopped = False
         self.here = threading.local()
 
+    def __getstate__(self) -> dict[str, int]:
+        """A thread goes nowhere; their number does."""
+        return {"jobs": self.jobs}
+
+    def __setstate__(self, state: dict[str, int]) -> None:
+        self.__init__(state["jobs"])  # type: ignore[misc]
+
     def map(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """``function`` of every item, in their order.  The first exception is raised when all threads have come to rest."""
         work = list(items)
@@ -61,6 +68,13 @@ class Once:
 
     def __len__(self) -> int:
         return len(self.found)
+
+    def __getstate__(self) -> dict[str, int]:
+        """What was made can be made again."""
+        return {"most": self.most}
+
+    def __setstate__(self, state: dict[str, int]) -> None:
+        self.__init__(state["most"])  # type: ignore[misc]
 
     def get(self, key: object, make: Callable[[], Result]) -> Result:
         with self.lock:

@@ -65,6 +65,7 @@ def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
         variants_of("phlogiston", candidates)
     assert "did you mean" not in str(fault.value)
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates))
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
     assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
@@ -74,6 +75,7 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     file = load_model("RV20E-121")
     step = {"effects": ["drag"], "reason": "no", "signals": [], "kept": False, "verdict": DID_NOT_HELP, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
     monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
     target = str(tmp_path / "m.toml")
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 1

@@ -89,10 +89,11 @@ def compared(model):
 
 
 def diagnosed(model):
-    found = Diagnostician(model).run()
+    doctor = Diagnostician(model)
+    found = doctor.run()
     laws = recover(found.fits.space, found.fits.space.base, ["transmission_error"]) if found.verdict == UNKNOWN else []
     effects = merged([e.to_dict() for e in found.effects], found.verdict)
-    return Answer(model, found, found.verdict, found.reason, effects, found.confusable, laws, list(found.warnings))
+    return Answer(model, found, found.verdict, found.reason, effects, found.confusable, laws, list(found.warnings), doctor)
 
 
 def spike(load):

@@ -188,3 +188,30 @@ def test_compare_doubts_a_scale_that_no_reducer_has(file):
     milli = [replace(r, values=1000.0 * np.array(r.values)) if r.quantity == "input_torque" else r for r in campaign.records]
     warnings = compare(file, replace(campaign, records=tuple(milli))).warnings
     assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1
+
+
+def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, tmp_path, monkeypatch):
+    from discrepancy import remembered
+
+    monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
+    first = remembered.diagnosed(file, wide)
+    assert len(list(tmp_path.iterdir())) == 1
+
+    def again(*arguments, **options):
+        raise AssertionError("computed anew")
+
+    monkeypatch.setattr(remembered, "diagnose", again)
+    second = remembered.diagnosed(file, wide)
+    assert second.as_json() == first.as_json()
+    # What was found is added without a search, and is the same to the last digit.
+    name = first.effects[0]["name"]
+    fits = second.doctor.space.predictions.calls
+    steps = [extend(file, wide, [name], answer=answer) for answer in (first, second)]
+    assert steps[0].as_json() == steps[1].as_json()
+    assert second.doctor.space.predictions.calls - fits <= 3
+    # Other measurements, and a file that is not whole, are no answer.
+    other = replace(wide, records=(*wide.records[:-1], replace(wide.records[-1], values=wide.records[-1].values * 1.001)))
+    assert remembered.remembered(file, other) is None
+    kept = next(tmp_path.iterdir())
+    kept.write_bytes(kept.read_bytes()[:-1] + b"x")
+    assert remembered.remembered(file, wide) is None

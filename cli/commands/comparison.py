@@ -118,10 +118,13 @@ def run_diagnose(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
+    from discrepancy.remembered import diagnosed
     from discrepancy.verdict import diagnose
 
     with task("diagnosing"):
-        answer = diagnose(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
+        file, campaign = inputs(options)
+        fmus = folder(options.fmus)
+        answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
     write_html(options, answer)
     draft = None
     if options.draft:
@@ -142,7 +145,7 @@ def run_extend(options: argparse.Namespace) -> int:
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
-    from discrepancy.verdict import diagnose
+    from discrepancy.remembered import diagnosed, remembered
 
     file, campaign = inputs(options)
     if options.draft:
@@ -150,13 +153,13 @@ def run_extend(options: argparse.Namespace) -> int:
     names = options.effect
     if not names:
         with task("diagnosing"):
-            answer = diagnose(file, campaign, jobs=all_cores())
+            answer = diagnosed(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             raise InputFault(refusal(options, answer))
         names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
     with task(f"adding {', '.join(names)}"):
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores())
+            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=remembered(file, campaign, jobs=all_cores()))
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None

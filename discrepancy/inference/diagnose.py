@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -71,12 +71,20 @@ class Diagnostician:
         self.by_name = {c.name: c for c in self.candidates}
         self.fitted: dict[frozenset[str], Refit] = {}
         self.final_fits: dict[frozenset[str], Refit] = {}
+        self.inflations: dict[frozenset[str], float] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the large tables of its tests, which are made anew where they are asked for."""
+        return {k: v for k, v in self.__dict__.items() if k not in ("localiser", "columns")}
+
+    @cached_property
+    def localiser(self) -> Localiser:
+        return Localiser(self.space, self.orders)
 
     # steps --------------------------------------------------------------------------------
     def prepare(self) -> Localisation:
         """Base fit with the noise, and localisation of its misfit."""
         self.space.fit_base()
-        self.localiser = Localiser(self.space, self.orders)
         self.localisation = self.localiser.test(self.space.base, self.settings.localise_level)
         return self.localisation
 
@@ -249,24 +257,38 @@ class Diagnostician:
                 stand_ins = self._stand_ins(final, c, inflation if over else 1.0, dof)
                 if stand_ins:
                     alternatives[c.name] = stand_ins
+        self.report([*members, *rivals])
         judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
         judged = judge.judge(final)
         unproved = against(judged)
         if unproved:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
+        self.inflations.update((frozenset(c.name for c in m.candidates), float(np.sqrt(min(inflation, 4.0))) if over else 1.0) for m in members)
         one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
         verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else HeldOutJudge(self.space, local, members, self.orders)
-        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown, inflation if over else 1.0)
+        return self._answer(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def report(self, fits: Sequence[Refit]) -> None:
+        """The predictions of what is told stay when the diagnosis is kept."""
+        predictions = self.space.predictions
+        predictions.report(self.space.base.values)
+        for fit in fits:
+            own = {p.name for p in fit.own}
+            predictions.report(fit.fit.values)
+            predictions.report({k: v for k, v in fit.fit.values.items() if k not in own})
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""
-        over, _, _, inflation = self.leftover(result)
-        return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+        key = frozenset(c.name for c in result.candidates)
+        if key not in self.inflations:
+            over, _, _, inflation = self.leftover(result)
+            self.inflations[key] = float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+        return self.inflations[key]
 
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
@@ -297,7 +319,7 @@ class Diagnostician:
 
     def _answer(
         self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
-        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None, inflation: float = 1.0,
+        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None,
     ) -> Diagnosis:  # fmt: skip
         effects = []
         held_out: dict[str, dict[str, Any]] = {}
@@ -305,7 +327,7 @@ class Diagnostician:
         warnings = list(self.space.noise.warnings)
         for member in members:
             before, after = self._errors(judge, member, captured, held_out)
-            numbers = {e.name: e for e in estimates(self.space, member, self.settings.coverage, np.sqrt(min(inflation, 4.0)))}
+            numbers = {e.name: e for e in estimates(self.space, member, self.settings.coverage, self.inflation(member))}
             for c in member.candidates:
                 gain = self._gain_of(member, c) if several else member.gain
                 bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,16 @@ class Predictions:
         # Whether predictions may be rough for now: while something is searched for.
         self.rough = False
         self.calls = 0
+        self.reported: set[Key] = set()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what only a search needed."""
+        kept = {key: known for key, known in self.store.items() if key in self.reported}
+        return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}}
+
+    def report(self, values: Mapping[str, float]) -> None:
+        """The predictions of these values stay when this is kept for later."""
+        self.reported.add(tuple(sorted(self.active(values).items())))
 
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
         """The values that differ from the base model's; shapes of effects that are off do not count."""

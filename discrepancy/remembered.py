@@ -1,0 +1,119 @@
+"""Diagnoses of the same model and the same measurements, kept between commands.
+
+``extend`` and ``next`` begin where ``diagnose`` ended.  What is kept goes by the contents of model, measurements and program: whatever
+changes, it is computed anew.
+"""
+
+import hashlib
+import io
+import os
+import pickle
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.inference.verdict import Settings
+from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.verdict import Answer, diagnose
+from fmu_src.cache_folder import cache_folder
+from fmu_src.source_hash import ROOT
+
+MARK = b"rvwear diagnosis 1\n"
+# Larger ones are not kept, and together they take no more than this [bytes].
+MOST, MOST_IN_ALL = 300_000_000, 2_000_000_000
+PARTS = ("discrepancy", "studies", "rv_plant", "wear_fmu", "reducers", "fmu_src")
+
+
+def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer:
+    """The diagnosis, from before if there was one."""
+    answer = remembered(file, campaign, settings, jobs)
+    if answer is None:
+        answer = diagnose(file, campaign, settings, jobs=jobs)
+        write(place_of(file, campaign, settings), answer)
+    return answer
+
+
+def remembered(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer | None:
+    """The diagnosis from before, if there was one."""
+    answer = read(place_of(file, campaign, settings))
+    if answer is not None:
+        answer.model.threads.jobs = jobs
+    return answer
+
+
+def place_of(file: ModelFile, campaign: Campaign, settings: Settings) -> Path:
+    return cache_folder("diagnoses") / key(file, campaign, settings)
+
+
+def key(file: ModelFile, campaign: Campaign, settings: Settings) -> str:
+    """File name of what is computed from these by this program."""
+    found = hashlib.sha256()
+    for part in (program(), repr(sorted(every_effect())), repr(file), campaign.text, repr(campaign.nuisances), repr(settings)):
+        found.update(hashlib.sha256(part.encode()).digest())
+    for record in campaign.records:
+        plain = {k: v for k, v in record.__dict__.items() if k not in ("values", "axes")}
+        found.update(repr(plain).encode())
+        for name, column in [("values", record.values), *sorted(record.axes.items())]:
+            found.update(name.encode() + np.ascontiguousarray(column).tobytes())
+    return found.hexdigest()[:40]
+
+
+@cache
+def program() -> str:
+    """Hash of all that a diagnosis depends on."""
+    found = hashlib.sha256()
+    folders = [ROOT / part for part in PARTS] + [Path(f) for f in os.environ.get("RVWEAR_EFFECTS", "").split(os.pathsep) if f]
+    for folder in folders:
+        for path in sorted(folder.rglob("*.py")) + sorted(folder.rglob("*.toml")):
+            found.update(str(path.relative_to(folder)).encode() + path.read_bytes())
+    return found.hexdigest()
+
+
+def read(place: Path) -> Answer | None:
+    """What is kept there, if it is whole and one's own."""
+    try:
+        with place.open("rb") as stream:
+            if os.name == "posix" and os.fstat(stream.fileno()).st_uid != os.getuid():
+                return None
+            content = stream.read()
+        # Its age says when it was last of use.
+        os.utime(place)
+    except OSError:
+        return None
+    head = len(MARK) + 32
+    if not content.startswith(MARK) or content[len(MARK) : head] != hashlib.sha256(content[head:]).digest():
+        return None
+    answer: Answer = pickle.loads(content[head:])  # noqa: S301 - one's own file in a private folder, and whole
+    return answer
+
+
+def write(place: Path, answer: Answer) -> None:
+    """At once or not at all; a folder that cannot be written, or a full disk, ends nothing."""
+    stream = io.BytesIO()
+    pickle.dump(answer, stream, protocol=pickle.HIGHEST_PROTOCOL)
+    content = stream.getvalue()
+    if len(content) > MOST:
+        return
+    partial = None
+    try:
+        handle, partial = tempfile.mkstemp(dir=place.parent, prefix="new-")
+        with os.fdopen(handle, "wb") as file:
+            file.write(MARK + hashlib.sha256(content).digest() + content)
+        os.replace(partial, place)
+        make_room(place.parent)
+    except OSError:
+        if partial is not None:
+            Path(partial).unlink(missing_ok=True)
+
+
+def make_room(folder: Path) -> None:
+    """What was not of use for longest goes first."""
+    entries = sorted(((p.stat().st_mtime, p.stat().st_size, p) for p in folder.iterdir() if p.is_file()), reverse=True)
+    total = 0
+    for _, size, path in entries:
+        total += size
+        if total > MOST_IN_ALL:
+            path.unlink(missing_ok=True)

@@ -1,0 +1,78 @@
+"""Which effects stand beside the best: by likelihood, plausible size, and not from a bound."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+from discrepancy.inference.diagnose import against
+from discrepancy.inference.held_out.held_out import HeldOut
+from discrepancy.inference.refit.confusable import PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
+from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
+from discrepancy.problem import Candidate, Parameter
+
+
+@dataclass
+class Fit:
+    chi2: float
+    values: dict
+    at_bounds: tuple = ()
+
+
+@dataclass
+class Rival:
+    """As much of a refit as membership looks at."""
+
+    name: str
+    fit: Fit
+    gain: float = 1000.0
+    candidates: tuple = field(default=())
+
+    @property
+    def own(self):
+        return [p for c in self.candidates for p in c.parameters]
+
+
+def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None):
+    amplitude = Parameter(f"{name}_size", "1", 0.0, -1e3, 1e3, scale)
+    shapes = () if shape is None else (Parameter(f"{name}_shape", "1", 1.0, 0.1, 100.0, 1.0),)
+    values = {f"{name}_size": size} | ({} if shape is None else {f"{name}_shape": shape})
+    return Rival(name, Fit(chi2, values, bounds), candidates=(Candidate(name, name, (amplitude,), shapes),))
+
+
+def names(rivals):
+    return [r.name for r in confusable_set(rivals)]
+
+
+def test_membership_follows_the_likelihood():
+    assert names([rival("a", 100.0), rival("b", 104.0), rival("c", 120.0)]) == ["a", "b"]
+
+
+def test_a_gain_of_500_percent_stands_beside_nothing():
+    """Fits as well, but its size is 500 times what is usual."""
+    assert implausible(rival("gain", 100.0, 5.0, 0.01)) == pytest.approx((500.0 / PLAUSIBLE - 1.0) ** 2)
+    assert names([rival("gain", 95.0, 5.0, 0.01), rival("stiffness", 100.0)]) == ["stiffness"]
+
+
+def test_nothing_at_a_bound_is_a_plain_member():
+    assert names([rival("a", 100.0), rival("b", 101.0, bounds=("b_size",))]) == ["a"]
+    # A shape that ran to its end makes of the effect another, simpler one.
+    assert ends_at_a_bound(rival("c", 100.0, shape=99.9)) and not ends_at_a_bound(rival("c", 100.0, shape=50.0))
+    assert names([rival("c", 100.0, shape=99.9), rival("a", 100.5)]) == ["a"]
+    # What is better by far is named all the same, with its warning.
+    assert names([rival("b", 50.0, bounds=("b_size",)), rival("a", 100.0)]) == ["b"]
+
+
+def judged(before, after, p=0.5):
+    return HeldOut(before, after, p, {}, "held-out runs")
+
+
+def test_effects_that_make_unused_runs_worse_are_not_several_effects():
+    reason = against(judged(3.0, 4.2))
+    assert "grew from 3.00 to 4.20" in reason
+    assert decide(True, True, 2, 1, 1.0, True, Settings(), unproved=reason) == (INCOMPLETE, reason)
+    assert decide(True, True, 2, 1, 1.0, False, Settings())[0] == SEVERAL
+
+
+def test_unused_runs_within_the_noise_say_nothing_against_it():
+    assert against(judged(0.9, 1.1)) == against(judged(5.0, 1.0)) == against(None) == ""
+    assert "not explained" in against(judged(9.0, 3.0, 1e-6))
