@@ -87,20 +87,20 @@ def test_no_campaign_ends_the_diagnosis(figures):
 
 def test_false_alarms_are_rare(figures, results):
     # At 2 %, three or more of 24 happen in 1 of 80 trials.
-    assert figures["false_alarms"]["count"] <= 2, listed(results)
-    assert figures["false_alarms_with_faults"]["count"] <= 2, listed(results)
+    assert figures["judged"]["false_alarms"]["count"] <= 2, listed(results)
+    assert figures["judged"]["false_alarms_with_faults"]["count"] <= 2, listed(results)
 
 
 def test_hidden_effects_are_found(kind, figures, results):
     # Two of eight laws have a rival that these designs cannot separate.
-    assert figures["first_from_10"]["share"] >= FIRST[kind], listed(results)
-    assert figures["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
-    assert figures["set_size"] <= 2.2, listed(results)
+    assert figures["judged"]["first_from_10"]["share"] >= FIRST[kind], listed(results)
+    assert figures["judged"]["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
+    assert figures["judged"]["set_size"]["share"] <= 2.2, listed(results)
 
 
 def test_one_name_given_is_right(figures, results):
-    assert figures["one_name_is_right"]["of"] >= 6
-    assert figures["one_name_is_right"]["share"] >= 0.85, listed(results)
+    assert figures["judged"]["one_name_is_right"]["of"] >= 6
+    assert figures["judged"]["one_name_is_right"]["share"] >= 0.85, listed(results)
 
 
 def test_laws_outside_the_catalogue_are_not_plainly_named(kind, figures, results):

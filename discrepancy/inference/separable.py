@@ -86,8 +86,8 @@ def separations(space: Workspace, candidates: Sequence[Candidate], columns: Colu
     for name, members in hidden.items():
         rows = slice(start, start + len(members))
         start += len(members)
-        for rival in own:
-            if rival != name and members and any(seen[b.columns].any() for b in own[rival]):
+        for rival, theirs in own.items():
+            if rival != name and members and any(seen[b.columns].any() for b in theirs):
                 # Both signs of one column are one thing to hide.
                 near: dict[int, float] = {}
                 for (k, *_), d in zip(members, left[rival][rows]):
