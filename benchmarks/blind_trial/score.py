@@ -1,7 +1,14 @@
-"""What the answers are worth: figures of a trial against the unsealed truths."""
+"""What the answers are worth: figures of a trial against the unsealed truths.
 
+    python -m benchmarks.blind_trial.score answers.json --trial OPEN --sealed TRUTHS      # an answers file of the open trial
+"""
+
+import argparse
+import json
+import sys
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -267,3 +274,30 @@ def misses(cases: list[Case]) -> list[Case]:
         return not c.covered or (c.kind == "effect" and not c.first)
 
     return sorted((c for c in cases if wrong(c)), key=lambda c: (c.kind, -c.strength, c.number))
+
+
+def main() -> int:
+    from benchmarks.blind_trial.answers import read_answers, results_of
+    from benchmarks.blind_trial.targets import reached
+
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("answers", type=Path, nargs="+", help="answers files")
+    parser.add_argument("--trial", type=Path, required=True, help="folder of the open trial, with seals.txt")
+    parser.add_argument("--sealed", type=Path, required=True, help="folder of the truths")
+    parser.add_argument("--json", action="store_true", help="all figures as data")
+    arguments = parser.parse_args()
+    for path in arguments.answers:
+        method, answers = read_answers(path)
+        figures = score(results_of(answers, arguments.trial, arguments.sealed))
+        if arguments.json:
+            print(json.dumps({"method": method, **figures}, indent=1, default=float))
+            continue
+        print(f"{method}: {len(answers)} answers to {figures['campaigns']} campaigns")
+        for r in reached(figures):
+            without = "" if r.without is None else f"; {r.target.told(r.without[0])} of {r.without[1]} without what no test can tell"
+            print(f"  {r.target.text}: {r.target.told(r.value)} of {r.of} ({r.target.level}: {r.verdict.strip('*')}){without}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

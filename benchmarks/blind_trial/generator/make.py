@@ -138,6 +138,9 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, An
 def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> list[str]:
     """Blocks that show the laws, and one that has nothing to do with them."""
     blocks = list(dict.fromkeys(b for t in truths for b in t.blocks))
+    if "wear" in blocks and rng.random() < 0.2:
+        # Long lives are not those of nulls alone.
+        blocks = ["old" if b == "wear" else b for b in blocks]
     if task.trouble in trouble.BLOCKS:
         choices = trouble.BLOCKS[task.trouble]
         return list(choices[int(rng.integers(len(choices)))])
@@ -149,7 +152,7 @@ def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> lis
     if task.size in ("tiny", "small"):
         cheap = ["loops", "torque", "cage"]
         return blocks or [str(rng.choice(cheap if task.size == "tiny" else ["te", *cheap]))]
-    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks]
+    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks and not (b == "wear" and "old" in blocks)]
     odds = np.array([0.25, 0.25, 0.3, 0.1, 0.05 if blocks else 0.15, 0.05])[[("te", "loops", "torque", "cage", "wear", "vibration").index(b) for b in others]]
     count = 1 if blocks else int(rng.integers(1, 4))
     extra = [str(b) for b in rng.choice(others, count, replace=False, p=odds / odds.sum())]
