@@ -59,12 +59,13 @@ def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) 
     Runs that have no rows yet are taken as the model predicts them, with their stated noise or that of a usual bench.
     InputFault without a reducer, or if no run is one that the model predicts.
     """
-    if campaign.reducer is None:
+    reducer = campaign.reducer
+    if reducer is None:
         raise InputFault(f"{campaign.folder}: to say what could be told apart takes a model; state [campaign] reducer")
     campaign, planned = with_planned(campaign)
     if not campaign.training:
         raise InputFault(f"{campaign.folder}: every run is held out or of unknown axes: nothing can be told; mark some conditions as training")
-    file = ModelFile(campaign.reducer.name, campaign.reducer)
+    file = ModelFile(reducer.name, reducer)
     if planned:
         campaign = replace(campaign, records=foretold(campaign, file, planned))
     model = PhysicalModel(file, campaign, jobs=jobs)

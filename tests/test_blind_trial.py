@@ -28,8 +28,9 @@ from benchmarks.blind_trial.generator.strength import Ruler  # noqa: E402
 from benchmarks.blind_trial.generator.truth import Bench  # noqa: E402
 from benchmarks.blind_trial.plan import plan, reduced_plan  # noqa: E402
 from benchmarks.blind_trial.publish import publish  # noqa: E402
-from benchmarks.blind_trial.results import RESULTS, SEALS, finished  # noqa: E402
+from benchmarks.blind_trial.results import finished  # noqa: E402
 from benchmarks.blind_trial.score import cases_of, misses, score  # noqa: E402
+from benchmarks.blind_trial.words import RESULTS, SEALS  # noqa: E402
 from discrepancy.campaign.check import check_campaign  # noqa: E402
 from discrepancy.campaign.load import load_campaign  # noqa: E402
 from discrepancy.model_file import every_effect  # noqa: E402
@@ -136,7 +137,8 @@ def test_every_effect_of_the_catalogue_is_hidden_somewhere():
     assert {law.effect for law in CATALOGUE} == {name for name, effect in every_effect().items() if not effect.needs}
     assert len(OUTSIDE) >= 12
     assert all(law.effect == "" for law in OUTSIDE)
-    assert len(LAWS) == len(CATALOGUE) + len(OUTSIDE)
+    # And one of a base that is a little off.
+    assert len(LAWS) == len(CATALOGUE) + len(OUTSIDE) + 1
 
 
 def test_truth_is_sealed_before_the_tool_sees_the_campaign(tmp_path):

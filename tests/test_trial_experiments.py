@@ -8,7 +8,8 @@ import pytest
 from benchmarks.blind_trial import experiments
 from benchmarks.blind_trial.criteria import CRITERIA, Prediction, buzzi_ferraris, hunter_reiner, jensen_renyi, reduced
 from benchmarks.blind_trial.generator.make import Task, drawn
-from benchmarks.blind_trial.results import EXPERIMENTS, KINDS, resolved
+from benchmarks.blind_trial.results import KINDS, resolved
+from benchmarks.blind_trial.words import EXPERIMENTS
 
 RNG = np.random.default_rng(4)
 NONE = np.zeros((30, 0))

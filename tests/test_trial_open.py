@@ -8,7 +8,7 @@ import pytest
 from benchmarks.blind_trial import enter, publish_open, score
 from benchmarks.blind_trial.answers import FORMAT, VERDICTS, read_answers, results_of, seals_of, write_answers, wrong_with
 from benchmarks.blind_trial.generator.make import Task
-from benchmarks.blind_trial.results import SEALS
+from benchmarks.blind_trial.words import SEALS
 from discrepancy.campaign.load import load_campaign
 from fmu_src.faults import InputFault
 

@@ -18,9 +18,9 @@ from benchmarks.blind_trial.generator.outside import NEW, OUTSIDE
 from benchmarks.blind_trial.generator.strength import LONG, Ruler, axis_variance, whitener
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES, STIFF, TAILS
 from benchmarks.blind_trial.generator.truth import Bench
-from benchmarks.blind_trial.results import ABOUT
-from benchmarks.blind_trial.score import BASE_OFF, cases_of, misses, score
+from benchmarks.blind_trial.score import cases_of, misses, score
 from benchmarks.blind_trial.targets import APART, TARGETS, Target, reached
+from benchmarks.blind_trial.words import ABOUT, BASE_OFF
 from discrepancy.campaign.load import load_campaign
 
 

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from benchmarks.blind_trial.results import SEALS
-from benchmarks.blind_trial.score import BASE_OFF, CRASH, INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from benchmarks.blind_trial.words import BASE_OFF, CRASH, INCOMPLETE, NONE, ONE, SEALS, SET, SEVERAL, UNKNOWN
 from fmu_src.faults import InputFault
 
 FORMAT = "rvwear blind trial answers 1"
@@ -32,8 +31,8 @@ def read_answers(path: Path) -> tuple[str, dict[str, Answer]]:
     if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("answers"), dict):
         raise InputFault(f'{path}: write {{"format": "{FORMAT}", "method": NAME, "answers": {{CAMPAIGN: ANSWER, ...}}}}')
     for name, answer in content["answers"].items():
-        if problem := wrong_with(answer):
-            raise InputFault(f"{path}: answers.{name}: {problem}")
+        if fault := wrong_with(answer):
+            raise InputFault(f"{path}: answers.{name}: {fault}")
     return str(content.get("method", path.stem)), content["answers"]
 
 
@@ -80,8 +79,8 @@ def results_of(answers: Mapping[str, Answer], trial: Path, sealed: Path) -> dict
         if hashlib.sha256(text).hexdigest() != seal:
             raise InputFault(f"{sealed / name}.json: not the truth that was sealed")
         given = answers.get(name)
-        answer = {"verdict": CRASH, "error": "no answer"} if given is None else given
-        effects = [{"parameters": {}, **e} for e in answer.get("effects", [])]
+        answer: Answer = {"verdict": CRASH, "error": "no answer"} if given is None else given
+        effects: list[Answer] = [{"parameters": {}, **e} for e in answer.get("effects", [])]
         results[number] = {"number": number, "truth": json.loads(text), "answer": {
             **answer, "effects": effects, "confusable": answer.get("set", []), "times": {"whole": float(answer.get("seconds", 0.0))}}}
     return results

@@ -15,7 +15,8 @@ from typing import Any
 
 from benchmarks.blind_trial.answers import Answer, read_answers, seals_of, write_answers
 from benchmarks.blind_trial.publish_open import CAMPAIGNS
-from benchmarks.blind_trial.score import NONE, ONE, SEVERAL, effect_of
+from benchmarks.blind_trial.score import effect_of
+from benchmarks.blind_trial.words import NONE, ONE, SEVERAL
 
 RVWEAR = "rvwear diagnose"
 PEERS = ("BIC, white noise", "PEtab Select, forward by AIC", "PEtab Select, forward by BIC", "PySINDy STLSQ")

@@ -30,10 +30,11 @@ from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
 from benchmarks.blind_trial.generator.noise import noise_for, round_to
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
-from benchmarks.blind_trial.results import EXPERIMENTS, KINDS, PROPOSED, RANDOM, RESULTS, end_line, finished, resolved
+from benchmarks.blind_trial.results import KINDS, end_line, finished, resolved
 from benchmarks.blind_trial.run import one as diagnosed
-from benchmarks.blind_trial.score import ONE, SET, Case
+from benchmarks.blind_trial.score import Case
 from benchmarks.blind_trial.tool import MODEL, answer_of
+from benchmarks.blind_trial.words import EXPERIMENTS, ONE, PROPOSED, RANDOM, RESULTS, SET
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.next_experiment import RivalLaw, rival_of

@@ -16,7 +16,7 @@ from pathlib import Path
 from benchmarks.blind_trial.answers import seals_of, write_answers
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
-from benchmarks.blind_trial.results import SEALS
+from benchmarks.blind_trial.words import SEALS
 
 SEED_FILE, CAMPAIGNS, EXAMPLE = "seed.txt", "campaigns", "answers_example.json"
 

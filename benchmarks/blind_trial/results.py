@@ -6,11 +6,10 @@ from typing import Any
 
 from benchmarks.blind_trial.criteria import CRITERIA
 from benchmarks.blind_trial.score import counted
+from benchmarks.blind_trial.words import EXPERIMENTS, PROPOSED, RANDOM, RESULTS
 
-PROPOSED, RANDOM = "proposed", "random"
 # Who chooses an experiment.
 KINDS = (PROPOSED, RANDOM, *CRITERIA)
-RESULTS, SEALS, ABOUT, EXPERIMENTS = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl"
 
 
 def finished(folder: Path) -> dict[int, dict[str, Any]]:

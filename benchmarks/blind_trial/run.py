@@ -25,7 +25,8 @@ from benchmarks.blind_trial.final import SEED as FINAL_SEED
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
-from benchmarks.blind_trial.results import ABOUT, EXPERIMENTS, RESULTS, SEALS, end_line, finished, resolved
+from benchmarks.blind_trial.results import end_line, finished, resolved
+from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, RESULTS, SEALS
 
 
 def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:

@@ -13,14 +13,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from benchmarks.blind_trial.answers import read_answers, results_of
 from benchmarks.blind_trial.generator.make import LAWS
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES
-from benchmarks.blind_trial.targets import APART
+from benchmarks.blind_trial.targets import APART, reached
+from benchmarks.blind_trial.words import BASE_OFF, CRASH, INCOMPLETE, NONE, ONE, SET, SEVERAL
 
-# The base model itself is off: an answer to a null campaign whose base is.
-BASE_OFF = "base off"
-NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
-    "none", "one effect", "set", "several effects", "named but incomplete", "unknown", "crash")  # fmt: skip
 T = TypeVar("T")
 PLAIN = (ONE, SEVERAL)
 CHAIN = ("sensor_gain", "sensor_offset", "sensor_drift", "clock_slip", "encoder_eccentricity")
@@ -277,9 +275,6 @@ def misses(cases: list[Case]) -> list[Case]:
 
 
 def main() -> int:
-    from benchmarks.blind_trial.answers import read_answers, results_of
-    from benchmarks.blind_trial.targets import reached
-
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("answers", type=Path, nargs="+", help="answers files")
     parser.add_argument("--trial", type=Path, required=True, help="folder of the open trial, with seals.txt")

@@ -20,7 +20,7 @@ from benchmarks.blind_trial.generator.strength import Ruler
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 from fmu_src.arrays import Floats
 
-LAWS: dict[str, type[Truth]] = {law.name: law for law in (*CATALOGUE, *OUTSIDE, trouble.SlightlyOff)}
+LAWS: dict[str, type[Truth]] = {law.name: law for law in CATALOGUE + OUTSIDE} | {trouble.SlightlyOff.name: trouble.SlightlyOff}
 TRUE_PARAMETERS = {"mesh_wear_coefficient": 5e-9, "roughness": 0.4e-6, "mesh_stiffness": 3.2e5}
 # Noise may be this much lower or higher than drawn to meet d'.
 NOISE_RANGE = (0.35, 2.8)

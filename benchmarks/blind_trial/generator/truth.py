@@ -78,7 +78,8 @@ class Bench:
 
     def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION):
         self.plain = Plain(parameters, cycle, resolution)
-        self.kept: dict[Hashable, list[np.ndarray]] = {}
+        # By rows, laws with their strengths, and whether parts are ideal.
+        self.kept: dict[tuple[Hashable, tuple[tuple[int, float], ...], bool], list[np.ndarray]] = {}
 
     def rows_of(self, series: Series) -> list[Setting]:
         return series.rows or [series.setting] * series.size
