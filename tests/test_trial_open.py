@@ -118,6 +118,12 @@ def test_a_method_that_names_nothing_says_none():
     assert enter.by_names(["a", "b"])["verdict"] == "several effects"
 
 
+def test_a_method_that_is_not_installed_says_so(trial, monkeypatch):
+    monkeypatch.setattr("benchmarks.blind_trial.peers.peers_of", lambda folder, methods: {"seconds": ["1.0"]})
+    with pytest.raises(InputFault, match="pip install pysindy"):
+        enter.answer_of("PySINDy STLSQ", trial[0] / "campaigns" / "campaign_00001")
+
+
 def test_bic_answers_from_the_folder_alone(trial):
     folder, _ = trial
     found = enter.answer_of("BIC, white noise", folder / "campaigns" / "campaign_00001")

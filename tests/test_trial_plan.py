@@ -1,6 +1,7 @@
 """The final trial before it is run: its plan, its levels, what its scorer counts, and its files as a bench writes them."""
 
 import json
+import time
 from collections import Counter
 from types import SimpleNamespace
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.blind_trial import run as trial_run
+from benchmarks.blind_trial import tool
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator import rivals
 from benchmarks.blind_trial.generator.designs import Design, make_design
@@ -95,6 +97,11 @@ def test_what_no_test_can_tell_is_counted_apart_and_both_ways_are_shown():
     assert figures["told_apart"]["set_size"]["share"] == 1.0
     assert (figures["apart"]["known"], figures["apart"]["campaigns"], figures["apart"]["effects"]) == (2, 1, {"relief": 1})
     assert figures["cpu"] == 6.0
+    near, far = (result(k, "outside", "one effect", ["gain"], [""], 20.0, rivals={"gain": d}) for k, d in ((4, 1.0), (5, 9.0)))
+    unnamed = figures_of(near | {"truth": near["truth"] | {"laws": [{"law": "humidity", "numbers": {}}]}}, far, result(6, "outside", "unknown", (), [""], 20.0))
+    assert (unnamed["judged"]["outside_20"]["count"], unnamed["judged"]["outside_20"]["of"]) == (1, 3)
+    assert (unnamed["told_apart"]["outside_20"]["count"], unnamed["told_apart"]["outside_20"]["of"]) == (1, 2)
+    assert unnamed["apart_outside"] == {"humidity": 1}
     row = next(r for r in reached(figures) if r.target.key == "first_from_10")
     assert row.verdict == "**missed**"
     assert row.without == (1.0, 2)
@@ -176,6 +183,35 @@ def test_bench_files_hold_what_plain_ones_do(tmp_path, monkeypatch):
                 assert np.ptp(r.axes["angle"]) == pytest.approx(2.0 * np.pi, rel=0.01)
         assert [c.factors["speed"] for c in campaign.conditions.values()] == pytest.approx([121 * 8 * np.pi / 30] * len(campaign.conditions))
     assert len(styles) >= 2
+
+
+def test_stopping_leaves_what_is_done(tmp_path, monkeypatch, capsys):
+    tasks = [Task(k, 20 + k, "null", size="tiny") for k in range(3)]
+    asked = []
+
+    def answer(folder):
+        asked.append(folder.name)
+        if len(asked) == 2:
+            raise KeyboardInterrupt
+        return {"verdict": "none", "effects": [], "times": {"whole": 0.1}}
+
+    monkeypatch.setattr("benchmarks.blind_trial.tool.answer_of", answer)
+    assert set(trial_run.trial(tasks, tmp_path, jobs=1)) == {0}
+    assert "1 of 3 are done" in capsys.readouterr().err
+    done = trial_run.trial(tasks, tmp_path, jobs=1)
+    assert set(done) == {0, 1, 2}
+    assert asked == [tasks[0].name, tasks[1].name, tasks[1].name, tasks[2].name]
+    assert all(r["cpu"]["whole"] >= r["cpu"]["making"] > 0.0 for r in done.values())
+    assert "min of CPU so far" in capsys.readouterr().out
+
+
+def test_a_diagnosis_that_does_not_end_is_no_answer(tmp_path, monkeypatch):
+    monkeypatch.setattr(tool, "LONGEST", 0.05)
+    monkeypatch.setattr(tool, "load_campaign", lambda folder: time.sleep(5.0))
+    found = tool.answer_of(tmp_path)
+    assert found["verdict"] == "crash"
+    assert "no answer within" in found["error"]
+    assert found["times"]["whole"] < 2.0
 
 
 def test_a_folder_belongs_to_one_plan(tmp_path):

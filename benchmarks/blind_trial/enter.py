@@ -17,6 +17,7 @@ from benchmarks.blind_trial.answers import Answer, read_answers, seals_of, write
 from benchmarks.blind_trial.publish_open import CAMPAIGNS
 from benchmarks.blind_trial.score import effect_of
 from benchmarks.blind_trial.words import NONE, ONE, SEVERAL
+from fmu_src.faults import InputFault
 
 RVWEAR = "rvwear diagnose"
 PEERS = ("BIC, white noise", "PEtab Select, forward by AIC", "PEtab Select, forward by BIC", "PySINDy STLSQ")
@@ -46,6 +47,8 @@ def answer_of(method: str, folder: Path) -> Answer | None:
     from benchmarks.blind_trial.peers import peers_of
 
     named = peers_of(folder, [method])
+    if method not in named and "error" not in named:
+        raise InputFault(f"{method}: its package is not installed; pip install pysindy petab-select")
     return by_names(named[method]) if method in named else None
 
 

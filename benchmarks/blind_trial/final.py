@@ -30,6 +30,11 @@ def sized(laws: Sequence[type[Truth]], sizes: Iterator[str]) -> str:
     return "middle" if size == "bench" and not all(law.blocks[0] in BENCH_BLOCKS for law in laws) else size
 
 
+def reckoned(law: type[Truth], size: str) -> bool:
+    """Whether the nearest other effects are looked for: lives are dear, and a rich campaign tells what a small one cannot."""
+    return size == "small" or (size == "middle" and law.blocks[0] != "wear")
+
+
 def entries(rng: np.random.Generator) -> list[Entry]:
     found: list[Entry] = []
     by_name = {law.name: law for law in CATALOGUE}
@@ -39,16 +44,16 @@ def entries(rng: np.random.Generator) -> list[Entry]:
         for i in rng.permutation(len(CATALOGUE)):
             law = CATALOGUE[int(i)]
             size = sized([law], sizes)
-            # Lives are dear, and a rich campaign tells what a small one cannot.
-            rivals = s >= 6.0 and (size == "small" or (size == "middle" and law.blocks[0] != "wear"))
-            found.append({"kind": "effect", "laws": (law.name,), "strength": s, "size": size, "rivals": rivals})
+            found.append({"kind": "effect", "laws": (law.name,), "strength": s, "size": size, "rivals": s >= 6.0 and reckoned(law, size)})
     for _ in range(POOR_EFFECTS):
         law = CATALOGUE[int(rng.integers(len(CATALOGUE)))]
         found.append({"kind": "effect", "laws": (law.name,), "strength": float(rng.choice([8.0, 12.0, 20.0])), "size": "poor", "rivals": True})
     sizes = cycle(SIZES)
     for s in OUTSIDE_STRENGTHS:
         for i in rng.permutation(len(OUTSIDE)):
-            found.append({"kind": "outside", "laws": (OUTSIDE[int(i)].name,), "strength": s, "size": sized([OUTSIDE[int(i)]], sizes)})
+            law = OUTSIDE[int(i)]
+            size = sized([law], sizes)
+            found.append({"kind": "outside", "laws": (law.name,), "strength": s, "size": size, "rivals": s >= 10.0 and reckoned(law, size)})
     sizes = cycle(SIZES)
     for _ in range(PAIRS):
         names = pair_of(rng)

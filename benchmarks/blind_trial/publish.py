@@ -49,7 +49,7 @@ def page(results: dict[int, dict[str, Any]], cases: list[Case], figures: dict[st
         without = "" if r.without is None or not apart["known"] else f"{r.target.told(r.without[0])} of {r.without[1]}"
         rows.append([r.target.text, r.target.level, r.target.told(r.value), between, r.of, r.verdict, without])
     lines += table(["", "target", "reached", "95 % interval", "of", "", "without what no test can tell"], rows)
-    lines += apart_section(apart)
+    lines += apart_section(apart, figures["apart_outside"])
     lines += experiments_section(about.get("experiments"))
     lines += [f"Crashes: {len(figures['crashes'])}. One name given, whatever was hidden (null, outside, faults, pairs too): right in "
               f"{percent(figures['one_name_is_right_all_kinds']['share'])} of {figures['one_name_is_right_all_kinds']['of']}. "
@@ -98,7 +98,7 @@ def alarms_of(f: dict[str, Any]) -> str:
     return f"{f['count']} of {f['of']}" if f["of"] else "-"
 
 
-def apart_section(apart: dict[str, Any]) -> list[str]:
+def apart_section(apart: dict[str, Any], outside: dict[str, int]) -> list[str]:
     """What the best possible test could not tell, said at the targets."""
     if not apart["campaigns"]:
         return []
@@ -106,7 +106,9 @@ def apart_section(apart: dict[str, Any]) -> list[str]:
     return [f"In {apart['campaigns']} of {apart['known']} campaigns of one effect for which it was reckoned, the nearest law of another effect, with its own"
             f" strength, shape and calibration, is less than d' = {APART:g} away from the truth: by Neyman and Pearson even a test that is told both errs in more"
             f" than 7 of 100 such campaigns. They are: {effects}. In these the right name stands first in {percent(apart['first'], 0)}, the set holds it"
-            f" in {percent(apart['set'], 0)} (mean size {number(apart['size'])}), one wrong name is given plainly in {percent(apart['misnamed'], 0)}.", ""]  # fmt: skip
+            f" in {percent(apart['set'], 0)} (mean size {number(apart['size'])}), one wrong name is given plainly in {percent(apart['misnamed'], 0)}."
+            + (" Laws outside the catalogue as near to one of its effects: " + ", ".join(f"{k} {v}" for k, v in outside.items()) + "." if outside else ""),
+            ""]  # fmt: skip
 
 
 def experiments_section(found: dict[str, Any] | None) -> list[str]:

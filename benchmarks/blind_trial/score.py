@@ -153,7 +153,7 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
             "coverage": counted([x for c in cases for x in c.coverage() if x[2]], lambda x: x[1]),
         },
         "told_apart": judged([c for c in cases if c.told]),
-        "apart": apart(single),
+        "apart": apart(single), "apart_outside": dict(Counter(c.laws[0] for c in outside if not c.told)),
         "alarms_by_trouble": {name: counted([c for c in nulls if c.trouble == name and c.size != "poor"], lambda c: c.alarm)
                               for name in ("", *BASES, *NOISES)},
         "false_alarms_poor": counted([c for c in nulls if c.size == "poor"], lambda c: c.alarm),
@@ -180,13 +180,13 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
         figures["by_size"][size] = {"all": sum(c.size == size for c in cases), "alarms": alarms, **found_in(here),
                                     "seconds": quantile([c for c in cases if c.size == size], 0.5)}  # fmt: skip
     for s in sorted({c.strength for c in outside}):
-        here = [c for c in outside if c.strength == s]
-        figures["outside"][s] = figures["judged"][f"outside_{s:g}"] = counted(here, lambda c: not c.plainly or c.first)
+        figures["outside"][s] = figures["judged"][f"outside_{s:g}"]
     return figures
 
 
 def judged(cases: Sequence[Case]) -> dict[str, dict[str, Any]]:
-    """What is asked of single effects."""
+    """What is asked of single effects and of laws outside the catalogue."""
+    outside = [c for c in cases if c.kind == "outside"]
     single = [c for c in cases if c.kind == "effect" and c.size != "poor"]
     strong = [c for c in single if c.strength >= 10]
     named_once = [c for c in cases if c.verdict == ONE and c.kind in ("effect", "wrong base")]
@@ -196,6 +196,8 @@ def judged(cases: Sequence[Case]) -> dict[str, dict[str, Any]]:
         "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
         "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
         "set_size": {"share": mean(sizes), "of": len(sizes)},
+        **{f"outside_{s:g}": counted([c for c in outside if c.strength == s], lambda c: not c.plainly or c.first)
+           for s in sorted({c.strength for c in outside})},
     }  # fmt: skip
 
 

@@ -23,8 +23,8 @@ STYLES = (
 )  # fmt: skip
 
 
-def dense_design(rng: np.random.Generator, blocks: list[str]) -> Design:
-    """Transmission error and loops as dense as a bench samples them, the rest as in a small campaign."""
+def dense_design(rng: np.random.Generator, blocks: list[str], several: bool = False) -> Design:
+    """Transmission error and loops as dense as a bench samples them, the rest as in a small campaign; ``several`` conditions for sure."""
     design = Design("bench", style=STYLES[int(rng.integers(len(STYLES)))])
     design.axis_noise = {"angle": ANGLE_NOISE, "torque": TORQUE_NOISE}
     for block in blocks:
@@ -33,7 +33,7 @@ def dense_design(rng: np.random.Generator, blocks: list[str]) -> Design:
     dense = [b for b in blocks if b in DENSE]
     if not dense:
         return design
-    rows = CONDITIONS[int(rng.integers(len(CONDITIONS)))]
+    rows = CONDITIONS[-1 if several else int(rng.integers(len(CONDITIONS)))]
     speeds = [8.0] * len(rows)
     if "speeds" in dense:
         # What shows at several speeds only.

@@ -31,7 +31,7 @@ ATTEMPTS = 6
 class Task:
     """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design.
 
-    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single one.
+    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single law.
     """
 
     number: int
@@ -84,7 +84,7 @@ def drawn(task: Task) -> Drawn:
 def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
     truths = [LAWS[name](rng) for name in task.laws]
     blocks = blocks_for(rng, task, truths)
-    design = dense_design(rng, blocks) if task.size == "bench" else make_design(rng, blocks, task.size)
+    design = dense_design(rng, blocks, task.kind == "outside") if task.size == "bench" else make_design(rng, blocks, task.size)
     trouble.spoil(task.trouble, design)
     parameters = true_parameters(rng, task, design)
     bench = Bench(parameters)
