@@ -40,8 +40,8 @@ def page(results: dict[int, dict[str, Any]], cases: list[Case], figures: dict[st
         "## Targets", "",
     ]  # fmt: skip
     if (e := about.get("experiments")) and e["random"]["of"]:
-        gain = e["proposed"]["share"] / e["random"]["share"] if e["random"]["share"] else None
-        figures["judged"]["experiments"] = {"share": gain, "of": e["random"]["of"]}
+        # A random one that never resolved counts as once.
+        figures["judged"]["experiments"] = {"share": e["proposed"]["count"] / max(e["random"]["count"], 1), "of": e["random"]["of"]}
     apart = figures["apart"]
     rows = []
     for r in reached(figures):
@@ -87,7 +87,7 @@ def page(results: dict[int, dict[str, Any]], cases: list[Case], figures: dict[st
         [f"{level:g}", percent(a, 1), percent(b, 1)] for level, a, b in null_levels(cases)])
     lines += peers_section(cases)
     wrong = misses(cases)
-    lines += [f"## Every miss ({len(wrong)})", "", "Make one again: `python -m benchmarks.blind_trial.run --seed SEED --numbers NUMBER --keep`.", ""]
+    lines += [f"## Every miss ({len(wrong)})", "", f"Make one again: `python -m benchmarks.blind_trial.run {'--final' if about.get('final') else '--seed SEED'} --numbers NUMBER --folder /tmp/x --keep`.", ""]
     lines += table(["campaign", "kind", "size", "d'", "hidden", "answer", "named", "captured"], [
         [c.number, c.kind, c.size, f"{c.strength:g}", " + ".join(c.laws) or c.truth["fault"] or "nothing", c.verdict,
          ", ".join(e["name"] for e in c.answer["effects"]) or c.answer.get("error", ""), percent(c.answer.get("captured"), 0)] for c in wrong])

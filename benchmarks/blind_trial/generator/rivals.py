@@ -6,6 +6,7 @@ family is searched from a few draws by Gauss and Newton's method; a better searc
 """
 
 import copy
+from collections.abc import Callable
 
 import numpy as np
 from scipy.optimize import lsq_linear
@@ -19,6 +20,10 @@ from fmu_src.arrays import Floats
 DRAWS, RANGES, STEPS = 6, 60, 2
 # Share of the truth's size that is left by a rival which is searched no further.
 HOPELESS = 0.9
+# What a sensor of any quantity can do to all of its runs, per unit.
+SENSORS: dict[str, Callable[[Floats], Floats]] = {
+    "sensor_gain": lambda y: y, "sensor_offset": np.ones_like, "sensor_drift": lambda y: np.linspace(-0.5, 0.5, len(y)),
+}  # fmt: skip
 # Step of a difference, in shares of a shape's range or of the strength.
 STEP = 0.03
 
@@ -34,6 +39,12 @@ def distances(ruler: Ruler, truth: Truth, rng: np.random.Generator) -> dict[str,
             continue
         d = distance(ruler, target, law, rng)
         found[law.effect] = min(d, found.get(law.effect, np.inf))
+    for effect, shape in SENSORS.items():
+        for quantity in seen if effect != truth.effect else ():
+            column = ruler.projected([shape(y) if s.quantity == quantity else np.zeros(len(y)) for s, y in zip(ruler.series, ruler.base)])
+            square = float(column @ column)
+            left = target - column * (column @ target) / square if square > 0.0 else target
+            found[effect] = min(float(np.linalg.norm(left)), found.get(effect, np.inf))
     return found
 
 

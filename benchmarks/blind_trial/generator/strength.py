@@ -113,6 +113,10 @@ class Ruler:
         for s, y in zip(self.series, self.base):
             touched = [t for t in truths if s.quantity in t.quantities]
             changes.append(self.bench.values(s, touched) - y if touched else np.zeros(len(y)))
+        return self.projected(changes)
+
+    def projected(self, changes: list[Floats]) -> Floats:
+        """Changes of the training series, whitened, what may be calibrated projected out."""
         column = self.white(changes)
         column = np.concatenate([column, np.zeros(self.columns.shape[0] - len(column))])
         return np.asarray(column - self.columns @ (self.columns.T @ column))
