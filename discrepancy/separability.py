@@ -17,6 +17,8 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault
 
+# Samples that show all that a loop has, and all orders of a turn; more only take longer.
+ENOUGH = {"hysteresis": 200, "transmission_error": 4500}
 # Of the size of a signal that was never measured and whose noise nobody stated (assumed).
 SHARE_OF_SIZE = 0.05
 
@@ -66,6 +68,7 @@ def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) 
     if not campaign.training:
         raise InputFault(f"{campaign.folder}: every run is held out or of unknown axes: nothing can be told; mark some conditions as training")
     file = ModelFile(reducer.name, reducer)
+    campaign = replace(campaign, records=tuple(map(thinned, campaign.records)))
     if planned:
         campaign = replace(campaign, records=foretold(campaign, file, planned))
     model = PhysicalModel(file, campaign, jobs=jobs)
@@ -77,6 +80,12 @@ def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) 
     pairs = separations(space, candidates, columns, strength)
     seen = {p.hidden for p in pairs}
     return Separability(pairs, [e for e in dict.fromkeys(map(effect_of, candidates)) if e not in seen], planned, strength)
+
+
+def thinned(record: Record) -> Record:
+    """Every nth sample of a run that has more than enough."""
+    step = -(-len(record.values) // ENOUGH.get(record.quantity, len(record.values)))
+    return record if step == 1 else replace(record, values=record.values[::step], axes={k: np.asarray(v)[::step] for k, v in record.axes.items()})
 
 
 def foretold(campaign: Campaign, file: ModelFile, planned: Sequence[str]) -> tuple[Record, ...]:

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from cli.commands import campaign as campaign_commands
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.planned import with_planned
 from discrepancy.campaign.template import write_template
-from discrepancy.separability import separability
+from discrepancy.separability import separability, thinned
 from fmu_src.faults import InputFault
 
 CONDITION = """[conditions.c{k}]
@@ -67,6 +68,14 @@ def test_command_says_it_on_request(tmp_path, capsys):
     options.separable, options.json = False, True
     campaign_commands.run_check(options)
     assert "separability" not in json.loads(capsys.readouterr().out)
+
+
+def test_samples_that_no_effect_needs_are_left_out(tmp_path):
+    write_template(tmp_path / "plan", ("hysteresis",))
+    record = with_planned(load_campaign(tmp_path / "plan"))[0].records[0]
+    assert thinned(record) is record
+    long = replace(record, values=np.arange(2000.0), axes={"torque": np.arange(2000.0)})
+    assert len(thinned(long).values) == len(thinned(long).axes["torque"]) == 200
 
 
 def test_without_a_model_nothing_can_be_told(tmp_path):

@@ -1,6 +1,7 @@
 """The final trial before it is run: its plan, its levels, what its scorer counts, and its files as a bench writes them."""
 
 import json
+import sys
 import time
 from collections import Counter
 from types import SimpleNamespace
@@ -8,8 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from benchmarks.blind_trial import nearest, tool
 from benchmarks.blind_trial import run as trial_run
-from benchmarks.blind_trial import tool
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator import rivals
 from benchmarks.blind_trial.generator.designs import Design, make_design
@@ -143,6 +144,14 @@ def test_every_other_effect_in_the_same_quantity_is_a_rival():
     found = rivals.distances(ruler, offset, np.random.default_rng(0))
     assert set(found) == {law.effect for law in CATALOGUE if "input_torque" in law.quantities} - {"sensor_offset"} | {"sensor_drift"}
     assert max(found.values()) <= ruler.size([offset]) * 1.001
+
+
+def test_command_says_how_near_other_effects_come(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["nearest", "wrong zero", "--strength", "12", "--size", "tiny", "--seed", "3"])
+    assert nearest.main() == 0
+    out = capsys.readouterr().out
+    assert "wrong zero, d' 12.0, in input_torque" in out
+    assert "sensor_gain: d' " in out
 
 
 def test_long_records_are_whitened_as_short_ones():
