@@ -13,9 +13,10 @@ from benchmarks.blind_trial import nearest, tool
 from benchmarks.blind_trial import run as trial_run
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator import rivals
+from benchmarks.blind_trial.generator.dense import dense_design
 from benchmarks.blind_trial.generator.designs import Design, make_design
 from benchmarks.blind_trial.generator.laws import CATALOGUE, GainFault, OffsetFault
-from benchmarks.blind_trial.generator.make import TRUE_PARAMETERS, Task, make
+from benchmarks.blind_trial.generator.make import LAWS, TRUE_PARAMETERS, Task, blocks_for, make
 from benchmarks.blind_trial.generator.noise import Noise
 from benchmarks.blind_trial.generator.outside import NEW, OUTSIDE
 from benchmarks.blind_trial.generator.strength import LONG, Ruler, axis_variance, whitener
@@ -221,6 +222,18 @@ def test_a_diagnosis_that_does_not_end_is_no_answer(tmp_path, monkeypatch):
     assert found["verdict"] == "crash"
     assert "no answer within" in found["error"]
     assert found["times"]["whole"] < 2.0
+
+
+def test_a_bench_shows_both_of_two_laws():
+    rng = np.random.default_rng(0)
+    task = Task(0, 0, "pair", ("slipping clock", "wrong gain"), 12.0, "bench")
+    truths = [LAWS[name](rng) for name in task.laws]
+    assert blocks_for(rng, task, truths) == ["te", "torque"]
+    design = dense_design(rng, ["te", "torque"])
+    assert design.quantities() == {"transmission_error", "input_torque"}
+    # Laws of the temperature show where several conditions are measured.
+    several = dense_design(rng, ["loops"], several=True)
+    assert len({several.conditions[s.condition].temperature for s in several.series if s.condition not in several.held_out}) == 2
 
 
 def test_a_folder_belongs_to_one_plan(tmp_path):

@@ -14,7 +14,7 @@ SAMPLES, STEPS = 9000, 400
 ANGLE_NOISE, TORQUE_NOISE = math.radians(0.005), 0.3
 DENSE = ("te", "loops", "speeds")
 # Loads [N m] and temperatures [K]; the last of several is held out.
-CONDITIONS = ([(167.0, 293.15)], [(60.0, 293.15), (167.0, 293.15), (120.0, 308.15)])
+CONDITIONS = ([(167.0, 303.15)], [(60.0, 293.15), (167.0, 313.15), (120.0, 303.15)])
 STYLES = (
     Style(";", ",", {"transmission_error": "arcmin", "hysteresis": "deg", "input_torque": "N.cm", "torque": "N.m", "angle": "deg"}, "output", True),
     Style("\t", ".", {"transmission_error": "mrad", "hysteresis": "mrad", "input_torque": "mN.m", "torque": "kgf.cm", "angle": "rad"}, "input", False),

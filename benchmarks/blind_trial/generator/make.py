@@ -145,7 +145,7 @@ def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> lis
         choices = trouble.BLOCKS[task.trouble]
         return list(choices[int(rng.integers(len(choices)))])
     if task.size == "bench":
-        return blocks_of_bench(rng, blocks)
+        return blocks_of_bench(rng, list(dict.fromkeys(t.blocks[0] for t in truths)))
     # The first block of a law shows it; further ones come by chance, except prints, which need their lives.
     if len(truths) == 1 and len(blocks) > 1 and "prints" not in blocks and (task.size == "tiny" or rng.random() < 0.5):
         blocks = blocks[:1]
@@ -161,11 +161,10 @@ def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> lis
 
 def blocks_of_bench(rng: np.random.Generator, blocks: list[str]) -> list[str]:
     """What shows the laws, and with even odds both of what every bench measures."""
-    first = blocks[:1]
     usual = ["te", "loops"]
-    if not first or (first[0] in usual and rng.random() < 0.5):
+    if not blocks or (set(blocks) <= set(usual) and rng.random() < 0.5):
         return usual
-    return first
+    return blocks
 
 
 def true_parameters(rng: np.random.Generator, task: Task, design: Design) -> dict[str, float]:
