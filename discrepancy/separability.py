@@ -18,7 +18,7 @@ from discrepancy.problem import Record
 from fmu_src.faults import InputFault
 
 # Samples that show all that a loop has, and all orders of a turn; more only take longer.
-ENOUGH = {"hysteresis": 200, "transmission_error": 4500}
+ENOUGH = {"hysteresis": 500, "transmission_error": 4500}
 # Of the size of a signal that was never measured and whose noise nobody stated (assumed).
 SHARE_OF_SIZE = 0.05
 

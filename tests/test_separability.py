@@ -75,7 +75,7 @@ def test_samples_that_no_effect_needs_are_left_out(tmp_path):
     record = with_planned(load_campaign(tmp_path / "plan"))[0].records[0]
     assert thinned(record) is record
     long = replace(record, values=np.arange(2000.0), axes={"torque": np.arange(2000.0)})
-    assert len(thinned(long).values) == len(thinned(long).axes["torque"]) == 200
+    assert len(thinned(long).values) == len(thinned(long).axes["torque"]) == 500
 
 
 def test_without_a_model_nothing_can_be_told(tmp_path):
