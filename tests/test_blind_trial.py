@@ -28,8 +28,9 @@ from benchmarks.blind_trial.generator.strength import Ruler  # noqa: E402
 from benchmarks.blind_trial.generator.truth import Bench  # noqa: E402
 from benchmarks.blind_trial.plan import plan, reduced_plan  # noqa: E402
 from benchmarks.blind_trial.publish import publish  # noqa: E402
-from benchmarks.blind_trial.results import RESULTS, SEALS, finished  # noqa: E402
+from benchmarks.blind_trial.results import finished  # noqa: E402
 from benchmarks.blind_trial.score import cases_of, misses, score  # noqa: E402
+from benchmarks.blind_trial.words import RESULTS, SEALS  # noqa: E402
 from discrepancy.campaign.check import check_campaign  # noqa: E402
 from discrepancy.campaign.load import load_campaign  # noqa: E402
 from discrepancy.model_file import every_effect  # noqa: E402
@@ -87,20 +88,20 @@ def test_no_campaign_ends_the_diagnosis(figures):
 
 def test_false_alarms_are_rare(figures, results):
     # At 2 %, three or more of 24 happen in 1 of 80 trials.
-    assert figures["false_alarms"]["count"] <= 2, listed(results)
-    assert figures["false_alarms_with_faults"]["count"] <= 2, listed(results)
+    assert figures["judged"]["false_alarms"]["count"] <= 2, listed(results)
+    assert figures["judged"]["false_alarms_with_faults"]["count"] <= 2, listed(results)
 
 
 def test_hidden_effects_are_found(kind, figures, results):
     # Two of eight laws have a rival that these designs cannot separate.
-    assert figures["first_from_10"]["share"] >= FIRST[kind], listed(results)
-    assert figures["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
-    assert figures["set_size"] <= 2.2, listed(results)
+    assert figures["judged"]["first_from_10"]["share"] >= FIRST[kind], listed(results)
+    assert figures["judged"]["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
+    assert figures["judged"]["set_size"]["share"] <= 2.2, listed(results)
 
 
 def test_one_name_given_is_right(figures, results):
-    assert figures["one_name_is_right"]["of"] >= 6
-    assert figures["one_name_is_right"]["share"] >= 0.85, listed(results)
+    assert figures["judged"]["one_name_is_right"]["of"] >= 6
+    assert figures["judged"]["one_name_is_right"]["share"] >= 0.85, listed(results)
 
 
 def test_laws_outside_the_catalogue_are_not_plainly_named(kind, figures, results):
@@ -136,7 +137,8 @@ def test_every_effect_of_the_catalogue_is_hidden_somewhere():
     assert {law.effect for law in CATALOGUE} == {name for name, effect in every_effect().items() if not effect.needs}
     assert len(OUTSIDE) >= 12
     assert all(law.effect == "" for law in OUTSIDE)
-    assert len(LAWS) == len(CATALOGUE) + len(OUTSIDE)
+    # And one of a base that is a little off.
+    assert len(LAWS) == len(CATALOGUE) + len(OUTSIDE) + 1
 
 
 def test_truth_is_sealed_before_the_tool_sees_the_campaign(tmp_path):

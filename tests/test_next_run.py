@@ -10,8 +10,11 @@ from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN
+from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun, describe, possible, proposal_for
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from reducers.reducer import load_reducer
 
 RIG = Rig({"speed": (52.36, 314.2), "load": (0.0, 167.0), "temperature": (293.15, 333.15), "hours": (3.6e5, 3.6e7)}, (1,), (), (), 100.0, 1.0, 0.0, "EUR")
 CAMPAIGN = Campaign(None, "bench", "", None, 121.0, 167.0, {}, (), {}, {}, (), RIG, "", speed_at="output")
@@ -103,3 +106,14 @@ def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():
     stake = {"torsional_stiffness at 20 degC": 2e5, "hysteresis[locked=input] at 20 degC": 1e-3, "wear_depth[surface=pin] at 20 degC": 2e-6}
     texts = NextRun(None, SimpleNamespace(at_stake=stake), [], "").stakes()
     assert list(texts.values()) == ["58.2 N.m/arcmin", "3.44 arcmin", "2 um"]
+
+
+def test_a_rival_of_the_measuring_chain_predicts_what_was_not_measured_yet():
+    """A clock that slips is a rival in transmission error; the experiment may be a loop."""
+    reducer = load_reducer("RV20E-121")
+    factors = {"speed": 101.4, "load": 100.0, "temperature": 293.15, "hours": 0.0, "direction": 1.0}
+    torque = Record("t1", "input_torque", "N.m", "c", 1, np.array([0.8]), {}, factors)
+    model = PhysicalModel(ModelFile(reducer.name, reducer), replace(CAMPAIGN, reducer=reducer, records=(torque,)))
+    proposed = Record("proposed", "hysteresis", "rad", "c", 1, np.zeros(6), {"torque": np.array([50.0, 100.0, 50.0, -50.0, -100.0, -50.0])}, factors,
+                      tags={"locked": "input"})  # fmt: skip
+    assert np.ptp(model.one(proposed, {"clock_slip": 1e-3})) > 1e-4

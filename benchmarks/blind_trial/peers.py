@@ -8,7 +8,7 @@ import contextlib
 import tempfile
 import time
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -148,32 +148,10 @@ def sparse(residual: Floats, free: Floats, columns: Floats, owners: Owners) -> l
     return list(names)
 
 
-def peers_of(folder: Path) -> dict[str, list[str]]:
-    """Names by method, best first; empty: nothing is missing."""
-    started = time.perf_counter()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            residual, free, columns, owners = library(folder)
-        except Exception as problem:  # noqa: BLE001
-            return {"error": [str(problem)[:200]]}
-        found = {
-            "BIC, white noise": forward(residual, free, columns, owners, "BIC", 1),
-            "PEtab Select, forward by AIC": petab(residual, free, columns, owners, "AIC"),
-            "PEtab Select, forward by BIC": petab(residual, free, columns, owners, "BIC"),
-        }
-        with contextlib.suppress(ImportError):
-            found["PySINDy STLSQ"] = sparse(residual, free, columns, owners)
-    found["seconds"] = [f"{time.perf_counter() - started:.1f}"]
-    return found
-
-
 def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind: str) -> list[str]:
     """PEtab Select's forward method over models in which every candidate is on or off; criteria by least squares."""
-    try:
-        from petab_select import ESTIMATE, Criterion, Problem, ui
-    except ImportError:
-        return ["petab_select is not installed"]
+    from petab_select import ESTIMATE, Criterion, Problem, ui
+
     n = len(residual)
     use = {f"p{k}": best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own))[1] for k, (_, own) in enumerate(owners)}
     names = {f"p{k}": name for k, (name, _) in enumerate(owners)}
@@ -210,3 +188,30 @@ def write_problem(folder: Path, parameters: list[str], kind: str) -> Path:
     path = folder / "select.yaml"
     path.write_text(f"format_version: 1.0.0\ncriterion: {kind}\nmethod: forward\nmodel_space_files:\n- space.tsv\n", encoding="utf-8")
     return path
+
+
+Method = Callable[[Floats, Floats, Floats, Owners], list[str]]
+# What of each is not installed is left out.
+METHODS: dict[str, Method] = {
+    "BIC, white noise": lambda residual, free, columns, owners: forward(residual, free, columns, owners, "BIC", 1),
+    "PEtab Select, forward by AIC": lambda residual, free, columns, owners: petab(residual, free, columns, owners, "AIC"),
+    "PEtab Select, forward by BIC": lambda residual, free, columns, owners: petab(residual, free, columns, owners, "BIC"),
+    "PySINDy STLSQ": sparse,
+}
+
+
+def peers_of(folder: Path, methods: Iterable[str] = METHODS) -> dict[str, list[str]]:
+    """Names by method, best first; empty: nothing is missing."""
+    started = time.perf_counter()
+    found: dict[str, list[str]] = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            given = library(folder)
+        except Exception as problem:  # noqa: BLE001
+            return {"error": [str(problem)[:200]]}
+        for name in methods:
+            with contextlib.suppress(ImportError):
+                found[name] = METHODS[name](*given)
+    found["seconds"] = [f"{time.perf_counter() - started:.1f}"]
+    return found

@@ -25,6 +25,8 @@ class Entry(TypedDict, total=False):
     strength: float
     size: str
     fault: str
+    trouble: str
+    rivals: bool
 
 
 def one_round(rng: np.random.Generator) -> list[Entry]:
@@ -33,11 +35,8 @@ def one_round(rng: np.random.Generator) -> list[Entry]:
     found += [{"kind": "effect", "laws": (law.name,), "strength": s} for law in CATALOGUE for s in STRENGTHS]
     found += [{"kind": "outside", "laws": (law.name,), "strength": s} for law in OUTSIDE for s in OUTSIDE_STRENGTHS]
     for _ in range(PAIRS):
-        while True:
-            first, second = (CATALOGUE[i] for i in rng.choice(len(CATALOGUE), 2, replace=False))
-            if first.effect != second.effect and {first.blocks[0], second.blocks[0]} != {"wear"}:
-                break
-        found.append({"kind": "pair", "laws": (first.name, second.name), "strength": float(rng.choice([12.0, 20.0]))})
+        names = pair_of(rng)
+        found.append({"kind": "pair", "laws": names, "strength": float(rng.choice([12.0, 20.0]))})
     for _ in range(WRONG_BASES):
         laws = [law for law in CATALOGUE if law.blocks[0] in ("te", "speeds", "loops")]
         found.append({"kind": "wrong base", "laws": (laws[int(rng.integers(len(laws)))].name,), "strength": float(rng.choice([12.0, 20.0]))})
@@ -46,6 +45,14 @@ def one_round(rng: np.random.Generator) -> list[Entry]:
         found.append({"kind": "effect", "laws": (law.name,), "strength": float(rng.choice([8.0, 12.0, 20.0])), "size": "poor"})
     found += [{"kind": "fault", "fault": fault} for fault in FAULTS for _ in range(6)]
     return found
+
+
+def pair_of(rng: np.random.Generator) -> tuple[str, str]:
+    """Two laws of different effects, not both of wear, whose rates would only multiply."""
+    while True:
+        first, second = (CATALOGUE[i] for i in rng.choice(len(CATALOGUE), 2, replace=False))
+        if first.effect != second.effect and {first.blocks[0], second.blocks[0]} != {"wear"}:
+            return first.name, second.name
 
 
 def plan(count: int, seed: int, sizes: dict[str, float] = SIZE_ODDS) -> list[Task]:

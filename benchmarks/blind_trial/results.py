@@ -4,9 +4,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+from benchmarks.blind_trial.criteria import CRITERIA
 from benchmarks.blind_trial.score import counted
+from benchmarks.blind_trial.words import EXPERIMENTS, PROPOSED, RANDOM, RESULTS
 
-RESULTS, SEALS, ABOUT, EXPERIMENTS = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl"
+# Who chooses an experiment.
+KINDS = (PROPOSED, RANDOM, *CRITERIA)
 
 
 def finished(folder: Path) -> dict[int, dict[str, Any]]:
@@ -33,5 +36,5 @@ def end_line(path: Path) -> None:
 def resolved(folder: Path) -> dict[str, dict[str, Any]]:
     """Shares of campaigns that were resolved, with 95 % intervals."""
     lines = [json.loads(line) for line in (folder / EXPERIMENTS).read_text(encoding="utf-8").splitlines()]
-    both = [line for line in lines if "proposed" in line]
-    return {kind: counted([line[kind] for line in both], lambda found: found["resolved"]) for kind in ("proposed", "random")}
+    every = [line for line in lines if PROPOSED in line]
+    return {kind: counted([line[kind] for line in every if kind in line], lambda found: found["resolved"]) for kind in KINDS}

@@ -1,10 +1,12 @@
 """The blind trial: makes campaigns, seals their truths, asks the tool, unseals and scores.
 
+    python -m benchmarks.blind_trial.run --final                                                  # the one whose levels are fixed
     python -m benchmarks.blind_trial.run --campaigns 1000 --folder /tmp/trial
     python -m benchmarks.blind_trial.run --folder /tmp/trial --scheduler tcp://10.0.0.1:8786      # a Dask cluster
     python -m benchmarks.blind_trial.run --folder /tmp/trial --publish                            # docs/blind_trial.md
 
-Run from the repository's root.  It resumes: campaigns that have a line in results.jsonl are not done again.
+Run from the repository's root.  Ctrl-C leaves what is done; the same command goes on, and does none again that has a line in
+results.jsonl.  A folder belongs to one plan (its seed): another one is refused.
 The seals (SHA-256 of every truth) are printed and stored before the tool sees anything.
 """
 
@@ -19,9 +21,12 @@ from collections.abc import Iterator, Set
 from pathlib import Path
 from typing import Any
 
+from benchmarks.blind_trial.final import SEED as FINAL_SEED
+from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
-from benchmarks.blind_trial.results import ABOUT, EXPERIMENTS, RESULTS, SEALS, end_line, finished, resolved
+from benchmarks.blind_trial.results import end_line, finished, resolved
+from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, RESULTS, SEALS
 
 
 def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:
@@ -29,18 +34,19 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:
     from benchmarks.blind_trial import tool
     from benchmarks.blind_trial.generator.folder import seal_of
 
-    started = time.perf_counter()
+    started, cpu = time.perf_counter(), time.process_time()
     try:
         seal = make(task, folder / "campaigns", folder / "sealed")["seal"]
     except (CannotMake, RuntimeError) as problem:
         return {"number": task.number, "task": vars(task), "not_made": str(problem), "seconds": time.perf_counter() - started}
-    made = time.perf_counter() - started
+    made, cpu_made = time.perf_counter() - started, time.process_time() - cpu
     # Before the tool sees anything.
     with (folder / SEALS).open("a", encoding="utf-8") as seals:
         seals.write(f"{seal}  {task.name}\n")
     print(f"{task.name} sealed {seal}", flush=True)
     campaign = folder / "campaigns" / task.name
     answer = tool.answer_of(campaign)
+    cpu_answer = time.process_time() - cpu - cpu_made
     others = {}
     if peers:
         from benchmarks.blind_trial.peers import peers_of
@@ -53,7 +59,8 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:
     if not keep:
         shutil.rmtree(campaign)
     return {"number": task.number, "task": vars(task), "seal": seal, "truth": truth, "answer": shortened(answer), "peers": others,
-            "making": made, "seconds": time.perf_counter() - started}
+            "making": made, "seconds": time.perf_counter() - started,
+            "cpu": {"making": cpu_made, "answering": cpu_answer, "whole": time.process_time() - cpu}}
 
 
 def shortened(answer: dict[str, Any]) -> dict[str, Any]:
@@ -101,7 +108,8 @@ def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: Set[int] =
                 count += 1
                 if not quiet:
                     left = (time.perf_counter() - started) / count * (len(missing) - count)
-                    print(line_of(result), f"[{len(done)} of {len(tasks)}, {left / 60.0:.0f} min left]", flush=True)
+                    cpu = sum(r.get("cpu", {}).get("whole", 0.0) for r in done.values())
+                    print(line_of(result), f"[{len(done)} of {len(tasks)}, {left / 60.0:.0f} min left, {cpu / 60.0:.0f} min of CPU so far]", flush=True)
         except KeyboardInterrupt:
             print(f"\nstopped; {len(done)} of {len(tasks)} are done, the same command goes on from here", file=sys.stderr)
     return done
@@ -111,20 +119,31 @@ def line_of(result: dict[str, Any]) -> str:
     if "not_made" in result:
         return f"{result['number']:5d} not made: {result['not_made'][:90]}"
     truth, answer = result["truth"], result["answer"]
-    laws = " + ".join(law["law"] for law in truth["laws"]) or truth["fault"] or "nothing"
+    laws = " + ".join(law["law"] for law in truth["laws"]) or truth["fault"] or truth.get("trouble") or "nothing"
     names = ", ".join(e["name"] for e in answer["effects"])
     return (f"{result['number']:5d} {truth['kind']} {truth['size']} d'={truth['strength']:g}"
             f" {laws} -> {answer['verdict']}: {names}{answer.get('error', '')} ({result['answer']['times']['whole']:.0f} s)")
+
+
+def other_plan(about: Path, seed: int, final: bool) -> str:
+    """What is wrong if the folder holds results of another plan."""
+    if not about.is_file():
+        return ""
+    known = json.loads(about.read_text(encoding="utf-8"))
+    if (known["seed"], known.get("final", False)) == (seed, final):
+        return ""
+    return f"{about.parent} holds a trial of seed {known['seed']}{' (final)' if known.get('final') else ''}; take another --folder"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--campaigns", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=20261)
-    parser.add_argument("--folder", type=Path, default=Path("blind_trial_results"))
+    parser.add_argument("--final", action="store_true", help="the final trial's plan, fixed in final.py")
+    parser.add_argument("--folder", type=Path, help="where results go and are found again (default blind_trial_results/SEED)")
     parser.add_argument("--jobs", type=int, default=-1)
     parser.add_argument("--scheduler", default="", help="address of a Dask scheduler; workers must see the same folder")
-    parser.add_argument("--size", choices=("small", "poor", "middle", "rich"), help="this size of design only")
+    parser.add_argument("--size", choices=("small", "poor", "middle", "rich", "bench"), help="this size of design only")
     parser.add_argument("--kinds", nargs="+", help="these kinds only (null, effect, outside, pair, wrong base, fault)")
     parser.add_argument("--laws", nargs="+", help="campaigns with a law whose name contains one of these words")
     parser.add_argument("--numbers", nargs="+", type=int, help="these campaigns of the plan only")
@@ -135,8 +154,12 @@ def main() -> int:
     # Workers of joblib share the cores; more threads in each would only wait.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    sizes = {arguments.size: 1.0} if arguments.size else SIZE_ODDS
-    tasks = plan(arguments.campaigns, arguments.seed, sizes)
+    if arguments.final:
+        tasks, arguments.seed = final_plan(), FINAL_SEED
+        arguments.campaigns = len(tasks)
+    else:
+        tasks = plan(arguments.campaigns, arguments.seed, {arguments.size: 1.0} if arguments.size else SIZE_ODDS)
+    arguments.folder = arguments.folder or Path(f"blind_trial_results/{arguments.seed}")
     if arguments.kinds:
         tasks = [t for t in tasks if t.kind in arguments.kinds]
     if arguments.laws:
@@ -152,7 +175,9 @@ def main() -> int:
             about["experiments"] = resolved(arguments.folder)
         publish(finished(arguments.folder), Path("docs/blind_trial.md"), about)
         return 0
-    (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "campaigns": arguments.campaigns}), encoding="utf-8")
+    if problem := other_plan(arguments.folder / ABOUT, arguments.seed, arguments.final):
+        parser.error(problem)
+    (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "final": arguments.final, "campaigns": arguments.campaigns}), encoding="utf-8")
     peers = {t.number for t in tasks if arguments.peers and t.number % arguments.peers == 0}
     trial(tasks, arguments.folder.resolve(), arguments.keep, peers, arguments.jobs, arguments.scheduler)
     return 0

@@ -1,15 +1,24 @@
-"""What the answers are worth: figures of a trial against the unsealed truths."""
+"""What the answers are worth: figures of a trial against the unsealed truths.
 
+    python -m benchmarks.blind_trial.score answers.json --trial OPEN --sealed TRUTHS      # an answers file of the open trial
+"""
+
+import argparse
+import json
+import sys
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
+from benchmarks.blind_trial.answers import read_answers, results_of
 from benchmarks.blind_trial.generator.make import LAWS
+from benchmarks.blind_trial.generator.trouble import BASES, NOISES
+from benchmarks.blind_trial.targets import APART, reached
+from benchmarks.blind_trial.words import BASE_OFF, CRASH, INCOMPLETE, NONE, ONE, SET, SEVERAL
 
-NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
-    "none", "one effect", "set", "several effects", "named but incomplete", "unknown", "crash")  # fmt: skip
 T = TypeVar("T")
 PLAIN = (ONE, SEVERAL)
 CHAIN = ("sensor_gain", "sensor_offset", "sensor_drift", "clock_slip", "encoder_eccentricity")
@@ -45,7 +54,21 @@ class Case:
         more = [effect_of(n) for n in answer.get("confusable", [])]
         more += [effect_of(n) for names in answer.get("alternatives", {}).values() for n in names]
         self.set = list(dict.fromkeys(self.names + more)) if self.verdict != NONE else []
+        self.trouble: str = truth.get("trouble", "")
+        # d' between the truth and the nearest law of another effect, where that was reckoned.
+        self.nearest: float | None = min(truth.get("rivals", {}).values(), default=None)
         self.seconds: float = answer["times"]["whole"]
+        self.cpu: float = result.get("cpu", {}).get("whole", 0.0)
+
+    @property
+    def told(self) -> bool:
+        """Whether the best possible test could tell the truth from every other effect, as far as known."""
+        return self.nearest is None or self.nearest >= APART
+
+    @property
+    def alarm(self) -> bool:
+        """Something is named, or said to be missing, where nothing is."""
+        return self.verdict != NONE and not (self.verdict == BASE_OFF and self.trouble in BASES)
 
     @property
     def first(self) -> bool:
@@ -108,53 +131,88 @@ def cases_of(results: dict[int, dict[str, Any]]) -> list[Case]:
 
 
 def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
-    """All figures as plain data."""
+    """All figures as plain data; ``judged`` are those that have a target, ``told_apart`` the same of what can be told."""
     cases = cases_of(results)
     of: dict[str, list[Case]] = defaultdict(list)
     for c in cases:
         of[c.kind].append(c)
     nulls, faults, outside, pairs = of["null"], of["fault"], of["outside"], of["pair"]
     single = [c for c in of["effect"] if c.size != "poor"]
-    named_once = [c for c in cases if c.verdict == ONE and c.kind in ("effect", "wrong base")]
+    strong = [c for c in single if c.strength >= 10]
     strengths = sorted({c.strength for c in of["effect"]})
+    poor = [c for c in of["effect"] if c.size == "poor"]
     figures: dict[str, Any] = {
         "campaigns": len(cases), "not_made": sum("not_made" in r for r in results.values()),
+        "small": sum(c.size in ("tiny", "small", "poor") for c in cases),
         "crashes": [(c.number, c.answer.get("error", "")) for c in cases if c.verdict == CRASH],
-        "false_alarms": counted(nulls, lambda c: c.verdict != NONE),
-        "false_alarms_poor": counted([c for c in nulls if c.size == "poor"], lambda c: c.verdict != NONE),
-        "false_alarms_with_faults": counted(faults, lambda c: c.physical_alarm),
+        "judged": judged(cases) | {
+            "false_alarms": counted(nulls, lambda c: c.alarm),
+            "false_alarms_with_faults": counted(faults, lambda c: c.physical_alarm),
+            "pairs_both": counted(pairs, lambda c: c.covered),
+            "held_out_worse": counted([c for c in strong if c.held_out and c.names_something], lambda c: c.held_out is not None and c.held_out[1] > c.held_out[0]),
+            "coverage": counted([x for c in cases for x in c.coverage() if x[2]], lambda x: x[1]),
+        },
+        "told_apart": judged([c for c in cases if c.told]),
+        "apart": apart(single), "apart_outside": dict(Counter(c.laws[0] for c in outside if not c.told)),
+        "alarms_by_trouble": {name: counted([c for c in nulls if c.trouble == name and c.size != "poor"], lambda c: c.alarm)
+                              for name in ("", *BASES, *NOISES)},
+        "false_alarms_poor": counted([c for c in nulls if c.size == "poor"], lambda c: c.alarm),
         "any_answer_with_faults": counted(faults, lambda c: c.verdict != NONE),
-        "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
         "one_name_is_right_all_kinds": counted([c for c in cases if c.verdict == ONE], lambda c: c.names[0] in c.acceptable),
-        "first_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.first),
-        "first_without_set": counted([c for c in single if c.strength >= 10 and c.verdict != SET], lambda c: c.first),
-        "held_out_worse": counted([c for c in single if c.strength >= 10 and c.held_out and c.names_something], lambda c: c.held_out is not None and c.held_out[1] > c.held_out[0]),
-        "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
-        "set_holds_from_10": counted([c for c in single if c.strength >= 10], lambda c: c.covered),
-        "set_size": mean([len(c.set) for c in single if c.verdict in (ONE, SET) and c.strength >= 6]),
-        "pairs_both": counted(pairs, lambda c: c.covered),
+        "first_without_set": counted([c for c in strong if c.verdict != SET], lambda c: c.first),
         "pairs_one": counted(pairs, lambda c: any(e in c.set for e in c.effects)),
         "wrong_base_not_misnamed": counted(of["wrong base"], lambda c: not c.plainly or c.first),
-        "by_strength": {}, "outside": {}, "held_out": {}, "poor": {},
-        "coverage": counted([x for c in cases for x in c.coverage() if x[2]], lambda x: x[1]),
+        "by_strength": {}, "by_size": {}, "outside": {}, "held_out": {},
+        "poor": {"campaigns": len(poor), "set": share(poor, lambda c: c.covered), "misnamed": share(poor, lambda c: c.plainly and not c.first)},
         "seconds": {"median": quantile(cases, 0.5), "90 %": quantile(cases, 0.9), "longest": quantile(cases, 1.0)},
+        "cpu": sum(c.cpu for c in cases),
     }  # fmt: skip
     for s in strengths:
         here = [c for c in single if c.strength == s]
-        figures["by_strength"][s] = {
-            "campaigns": len(here), "first": share(here, lambda c: c.first), "set": share(here, lambda c: c.covered),
-            "detected": share(here, lambda c: c.verdict != NONE), "size": mean([len(c.set) for c in here if c.verdict in (ONE, SET)]),
-            "verdicts": dict(Counter(c.verdict for c in here)),
-        }  # fmt: skip
+        figures["by_strength"][s] = {"verdicts": dict(Counter(c.verdict for c in here)), **found_in(here)}
         errors = [c.held_out for c in here if c.names_something and c.held_out]
         figures["held_out"][s] = {"campaigns": len(errors), "median_ratio": mean([b / a for a, b in errors], np.median),
                                   "worse": mean([b > a for a, b in errors])}  # fmt: skip
+        figures["judged"][f"held_out_{s:g}"] = {"share": figures["held_out"][s]["median_ratio"], "of": len(errors)}
+    for size in sorted({c.size for c in cases}):
+        here = [c for c in of["effect"] if c.size == size and c.strength >= 10]
+        alarms = counted([c for c in nulls if c.size == size], lambda c: c.alarm)
+        figures["by_size"][size] = {"all": sum(c.size == size for c in cases), "alarms": alarms, **found_in(here),
+                                    "seconds": quantile([c for c in cases if c.size == size], 0.5)}  # fmt: skip
     for s in sorted({c.strength for c in outside}):
-        here = [c for c in outside if c.strength == s]
-        figures["outside"][s] = counted(here, lambda c: not c.plainly or c.first)
-    poor = [c for c in of["effect"] if c.size == "poor"]
-    figures["poor"] = {"campaigns": len(poor), "set": share(poor, lambda c: c.covered), "misnamed": share(poor, lambda c: c.plainly and not c.first)}
+        figures["outside"][s] = figures["judged"][f"outside_{s:g}"]
     return figures
+
+
+def judged(cases: Sequence[Case]) -> dict[str, dict[str, Any]]:
+    """What is asked of single effects and of laws outside the catalogue."""
+    outside = [c for c in cases if c.kind == "outside"]
+    single = [c for c in cases if c.kind == "effect" and c.size != "poor"]
+    strong = [c for c in single if c.strength >= 10]
+    named_once = [c for c in cases if c.verdict == ONE and c.kind in ("effect", "wrong base")]
+    sizes = [len(c.set) for c in single if c.verdict in (ONE, SET) and c.strength >= 6]
+    return {
+        "first_from_10": counted(strong, lambda c: c.first), "set_holds_from_10": counted(strong, lambda c: c.covered),
+        "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
+        "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
+        "set_size": {"share": mean(sizes), "of": len(sizes)},
+        **{f"outside_{s:g}": counted([c for c in outside if c.strength == s], lambda c: not c.plainly or c.first)
+           for s in sorted({c.strength for c in outside})},
+    }  # fmt: skip
+
+
+def apart(single: Sequence[Case]) -> dict[str, Any]:
+    """Campaigns whose truth no test can tell from its nearest rival, by hidden effect."""
+    known = [c for c in single if c.nearest is not None]
+    here = [c for c in known if not c.told]
+    return {"known": len(known), "campaigns": len(here), **found_in(here), "effects": dict(Counter(c.effects[0] for c in here)),
+            "misnamed": share(here, lambda c: c.plainly and not c.first)}  # fmt: skip
+
+
+def found_in(cases: Sequence[Case]) -> dict[str, Any]:
+    """How single effects were found."""
+    return {"campaigns": len(cases), "first": share(cases, lambda c: c.first), "set": share(cases, lambda c: c.covered),
+            "detected": share(cases, lambda c: c.verdict != NONE), "size": mean([len(c.set) for c in cases if c.verdict in (ONE, SET)])}
 
 
 def counted(cases: Sequence[T], test: Callable[[T], object]) -> dict[str, Any]:
@@ -206,7 +264,7 @@ def misses(cases: list[Case]) -> list[Case]:
         if c.verdict == CRASH:
             return True
         if c.kind == "null":
-            return c.verdict != NONE
+            return c.alarm
         if c.kind == "fault":
             return c.physical_alarm
         if c.kind == "outside":
@@ -216,3 +274,27 @@ def misses(cases: list[Case]) -> list[Case]:
         return not c.covered or (c.kind == "effect" and not c.first)
 
     return sorted((c for c in cases if wrong(c)), key=lambda c: (c.kind, -c.strength, c.number))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("answers", type=Path, nargs="+", help="answers files")
+    parser.add_argument("--trial", type=Path, required=True, help="folder of the open trial, with seals.txt")
+    parser.add_argument("--sealed", type=Path, required=True, help="folder of the truths")
+    parser.add_argument("--json", action="store_true", help="all figures as data")
+    arguments = parser.parse_args()
+    for path in arguments.answers:
+        method, answers = read_answers(path)
+        figures = score(results_of(answers, arguments.trial, arguments.sealed))
+        if arguments.json:
+            print(json.dumps({"method": method, **figures}, indent=1, default=float))
+            continue
+        print(f"{method}: {len(answers)} answers to {figures['campaigns']} campaigns")
+        for r in reached(figures):
+            without = "" if r.without is None else f"; {r.target.told(r.without[0])} of {r.without[1]} without what no test can tell"
+            print(f"  {r.target.text}: {r.target.told(r.value)} of {r.of} ({r.target.level}: {r.verdict.strip('*')}){without}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

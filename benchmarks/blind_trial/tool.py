@@ -1,8 +1,12 @@
 """The tool under trial: sees nothing but the campaign's folder."""
 
 import json
+import signal
+import threading
 import time
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +19,8 @@ from fmu_src.threads import Once
 MODEL = "RV20E-121"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
 SHARED = Once(4_000)
+# Seconds after which no answer is the answer: nobody waits longer.
+LONGEST = 900.0
 
 
 def answer_of(folder: Path) -> dict[str, Any]:
@@ -22,7 +28,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
     started = time.perf_counter()
     times = {}
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), within(LONGEST):
             warnings.simplefilter("ignore")
             campaign = load_campaign(folder)
             times["load"] = time.perf_counter() - started
@@ -35,6 +41,25 @@ def answer_of(folder: Path) -> dict[str, Any]:
         answer = {"verdict": "crash", "effects": [], "error": f"{type(problem).__name__}: {problem}"[:500]}
     times["whole"] = time.perf_counter() - started
     return {**answer, "times": times}
+
+
+@contextmanager
+def within(seconds: float) -> Iterator[None]:
+    """TimeoutError after so long; only where signals are, which is a process's main thread."""
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise TimeoutError(f"no answer within {seconds:g} s")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def plain(tree: dict[str, Any]) -> dict[str, Any]:

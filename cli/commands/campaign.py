@@ -14,6 +14,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     check = actions.add_parser("check", help="what is missing, and what could not be told apart")
     check.add_argument("folder", help="folder with campaign.toml")
     check.add_argument("--data", metavar="FOLDER", help="where the data files are (default: as campaign.toml says)")
+    check.add_argument(
+        "--separable", action="store_true",
+        help="also reckon, before the measurement too, which effects the best possible test could not tell apart here (takes a minute or so)",
+    )  # fmt: skip
     add_json(check, "print findings as JSON, nothing else")
     check.set_defaults(run=run_check)
 
@@ -32,7 +36,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_check(options: argparse.Namespace) -> int:
     """Exit code 1 if the campaign allows no diagnosis."""
     from cli.screen import json_text
-    from cli.show.campaign import show
+    from cli.show.campaign import show, show_separability
     from discrepancy.campaign.check import check_campaign
     from discrepancy.campaign.load import load_campaign
     from discrepancy.plausible import scale_doubts
@@ -42,10 +46,18 @@ def run_check(options: argparse.Namespace) -> int:
     with task("holding its scales against the model"):
         doubts = scale_doubts(campaign)
     check = check_campaign(campaign, doubts)
+    found = None
+    if options.separable:
+        from discrepancy.separability import separability
+
+        with task("holding every effect against every other"):
+            found = separability(campaign)
     if options.json:
-        json_text(check.as_json())
+        json_text(check.as_json() | ({"separability": found.as_json()} if found else {}))
     else:
         show(check)
+        if found:
+            show_separability(found)
     return 1 if check.problems else 0
 
 

@@ -5,6 +5,7 @@ from rich.table import Table
 from cli.screen import console, styled
 from discrepancy.campaign.check import Check
 from discrepancy.campaign.findings import PROBLEM
+from discrepancy.separability import Separability
 
 # Nothing here is proven by a measurement: no green.
 STATUS_STYLE = {"separable": "bold", "not separable": "yellow", "not visible": "dim"}
@@ -36,3 +37,25 @@ def show(check: Check) -> None:
     problems = len(check.problems)
     outcome = f"{problems} problem{'s' * (problems != 1)}, {len(check.findings) - problems} warnings"
     out.print(f"{outcome}; " + ("no diagnosis is possible yet" if problems else "a diagnosis is possible"))
+
+
+def show_separability(found: Separability) -> None:
+    """What the best possible test could not tell apart, one row for each effect that might be hidden."""
+    out = console(WIDTH)
+    title = f"what no test could tell apart here, hidden with {found.strength:g} times the noise (d' below {found.apart:g} between the two)"
+    table = Table(title=title, title_justify="left")
+    for name in ("if this is what is missing", "it could be taken for (d', and how often the best test errs)"):
+        table.add_column(name)
+    for hidden, rivals in found.groups():
+        pairs = [p for p in found.alike if p.hidden == hidden and p.rival in rivals]
+        table.add_row(hidden, ", ".join(f"{p.rival} ({p.typical:.1f}, {100.0 * p.error:.0f} %)" for p in pairs))
+    if found.alike:
+        out.print(table)
+    else:
+        out.print(f"the best test could tell every effect from every other, hidden with {found.strength:g} times the noise")
+    if found.sometimes:
+        out.print("with the worst of their parameters also: " + ", ".join(f"{p.hidden} / {p.rival}" for p in found.sometimes))
+    if found.invisible:
+        out.print(f"without a trace here: {', '.join(found.invisible)}")
+    if found.planned:
+        out.print(f"not measured yet, taken as the model foretells them with the noise of a usual bench: {', '.join(found.planned)}")

@@ -167,7 +167,7 @@ class PhysicalModel:
                 raise
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
-            return record.values + IMPOSSIBLE * self.sizes[record.quantity] * signs
+            return record.values + IMPOSSIBLE * self.sizes.get(record.quantity, 1.0) * signs
         predicted = with_error(predicted, record, values)
         for module in MODULES.values():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
@@ -180,7 +180,7 @@ class PhysicalModel:
                 return values.get(key, self.chain_values.get(key, STARTS[parameter]))
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
-                predicted = module.change(predicted, record, at, self.sizes[record.quantity])
+                predicted = module.change(predicted, record, at, self.sizes.get(record.quantity) or size_of(predicted))
         ripple = self.cages.ripple(record, values)
         if ripple is not None:
             predicted = predicted + ripple
@@ -227,7 +227,10 @@ def defined(record: Record, campaign: Campaign) -> Record:
 
 def typical_size(records: list[Record]) -> float:
     """Size of a quantity: its mean, or its spread where the mean says nothing."""
-    values = np.concatenate([r.values for r in records])
+    return size_of(np.concatenate([r.values for r in records]))
+
+
+def size_of(values: Floats) -> float:
     return max(float(abs(np.mean(values))), float(np.std(values)), 1e-30)
 
 

@@ -1,6 +1,7 @@
 """Campaign designs: which conditions are measured, which signals, how often, what is held out."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypedDict
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.noise import Noise, noise_for
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
+from benchmarks.blind_trial.generator.style import Style
 from fmu_src.arrays import Floats
 
 RPM = math.pi / 30.0
@@ -64,13 +66,16 @@ class Design:
     mounting: dict[str, str] = field(default_factory=dict)
     zeros: dict[str, float] = field(default_factory=dict)
     uneven: bool = False
+    # Deviation of what the files give as an axis from what it was, SI; how the files look.
+    axis_noise: dict[str, float] = field(default_factory=dict)
+    style: Style = field(default_factory=Style)
 
     def quantities(self) -> set[str]:
         return {s.quantity for s in self.series}
 
 
 # How wide a block is: tiny for the reduced trial, poor has two or three levels and nothing held out.
-SIZES = ("tiny", "small", "poor", "middle", "rich")
+SIZES = ("tiny", "small", "poor", "middle", "rich", "bench")
 
 
 def te(design: Design, rng: np.random.Generator, size: str) -> None:
@@ -158,10 +163,15 @@ def torque(design: Design, rng: np.random.Generator, size: str) -> None:
         design.series.append(Series("input_torque", name, setting, noise, rows=rows, replicates=3))
 
 
-def wear(design: Design, rng: np.random.Generator, size: str) -> None:
+def old(design: Design, rng: np.random.Generator, size: str) -> None:
+    """As ``wear``, to 10,000 h."""
+    wear(design, rng, size, [1000, 3000, 6000, 10000])
+
+
+def wear(design: Design, rng: np.random.Generator, size: str, until: Sequence[float] = ()) -> None:
     """Depths of flank and races over the hours, at loads, speeds and temperatures."""
     noise = noise_for(rng, "wear_depth")
-    hours = {"small": [100, 400, 1200, 3000], "poor": [300, 1000, 3000]}.get(size, [50, 150, 400, 1000, 2500, 6000])
+    hours = until or {"small": [100, 400, 1200, 3000], "poor": [300, 1000, 3000]}.get(size, [50, 150, 400, 1000, 2500, 6000])
     grid = {
         "small": [(167, 2000, 313), (80, 1000, 293), (230, 1500, 303)],
         "poor": [(167, 2000, 313), (100, 2000, 313)],
@@ -224,7 +234,7 @@ def cage(design: Design, rng: np.random.Generator, size: str) -> None:
         design.series.append(Series("cage_speed", name, setting, noise, rows=rows, replicates=3))
 
 
-BLOCKS = {"te": te, "speeds": speeds, "loops": loops, "torque": torque, "wear": wear, "prints": prints, "vibration": vibration, "cage": cage}
+BLOCKS = {"te": te, "speeds": speeds, "loops": loops, "torque": torque, "wear": wear, "old": old, "prints": prints, "vibration": vibration, "cage": cage}
 
 
 def make_design(rng: np.random.Generator, blocks: list[str], size: str) -> Design:

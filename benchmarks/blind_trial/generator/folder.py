@@ -9,14 +9,20 @@ from typing import Any
 import numpy as np
 
 from benchmarks.blind_trial.generator.designs import Design, Run
+from benchmarks.blind_trial.generator.laws.shared import RATIO
 from benchmarks.blind_trial.generator.reducer import HOUR
+from benchmarks.blind_trial.generator.style import Style
 from fmu_src.arrays import Floats
+from fmu_src.units import conversion
 
 RPM = math.pi / 30.0
 # Unit in the files, and what one of it is in SI.
 UNITS = {
     "transmission_error": ("arcsec", math.pi / 648000.0), "hysteresis": ("arcsec", math.pi / 648000.0), "input_torque": ("N.m", 1.0),
     "wear_depth": ("um", 1e-6), "wear_profile": ("um", 1e-6), "vibration_order": ("m/s^2", 1.0), "cage_speed": ("rpm", RPM),
+}  # fmt: skip
+SI = {
+    "transmission_error": "rad", "hysteresis": "rad", "input_torque": "N.m", "wear_depth": "m", "wear_profile": "m", "torque": "N.m", "angle": "rad",
 }  # fmt: skip
 AXES = {"angle": ("deg", math.pi / 180.0), "torque": ("N.m", 1.0), "depth_angle": ("deg", math.pi / 180.0), "order": ("1", 1.0)}
 ROW_KEYS = {"input_torque": ("input_speed",), "cage_speed": ("load_torque",), "wear_depth": ("hours",)}
@@ -29,13 +35,22 @@ def seal_of(truth: dict[str, Any]) -> tuple[str, str]:
     return text, hashlib.sha256(text.encode()).hexdigest()
 
 
+def unit_of(name: str, style: Style) -> tuple[str, float]:
+    """Unit in the files of a quantity or an axis, and what one of it is in SI."""
+    usual = UNITS.get(name) or AXES[name]
+    unit = style.units.get(name)
+    return (unit, conversion(unit, SI[name])[0]) if unit else usual
+
+
 def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], seal: str, description: str = "",
                    rig: str = "") -> None:
     """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one."""
     folder.mkdir(parents=True, exist_ok=True)
+    style = design.style
     lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121"', f'seal = "sha256:{seal}"', "", rig]
     for key, at in design.conditions.items():
-        lines += [f"[conditions.{key}]", f'input_speed = "{at.speed / RPM:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',
+        speed = at.speed / RPM / (RATIO if style.speed_at == "output" else 1.0)
+        lines += [f"[conditions.{key}]", f'{style.speed_at}_speed = "{speed:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',
                   f'temperature = "{at.temperature - 273.15:.6g} degC"', f'hours = "{at.hours / HOUR:.6g} h"',
                   f'direction = "{"forward" if at.direction > 0 else "reverse"}"', f'mounting = "{design.mounting.get(key, "1")}"']  # fmt: skip
         if key in design.held_out:
@@ -46,17 +61,22 @@ def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], sea
     for run in runs:
         s = run["series"]
         file = f"{run['id']}.csv"
-        unit, size = UNITS[s.quantity]
+        unit, size = unit_of(s.quantity, style)
         lines += ["[[runs]]", f'id = "{run["id"]}"', f'quantity = "{s.quantity}"', f'condition = "{s.condition}"',
                   f"replicate = {run['replicate']}", f'file = "{file}"', f'columns.value = {{ column = "y", unit = "{unit}" }}']  # fmt: skip
+        if style.units_line:
+            lines.append("units_line = true")
         columns: dict[str, Floats] = {}
+        units = []
         for axis, values in run["axes"].items():
-            axis_unit, axis_size = AXES[axis]
+            axis_unit, axis_size = unit_of(axis, style)
             columns[axis] = values / axis_size
+            units.append(axis_unit)
             lines.append(f'columns.{axis} = {{ column = "{axis}", unit = "{axis_unit}" }}')
         for key in ROW_KEYS.get(s.quantity, ()):
             row_unit, attribute, row_size = ROWS[key]
             columns[key] = np.array([getattr(r, attribute) for r in s.rows]) / row_size
+            units.append(row_unit)
             lines.append(f'columns.{key} = {{ column = "{key}", unit = "{row_unit}" }}')
         for key, word in s.tags.items():
             lines.append(f'tags.{key} = "{word}"')
@@ -65,11 +85,12 @@ def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], sea
             lines.append(f'noise = "{level / size:.4g} {unit}"')
         lines.append("")
         columns["y"] = run["values"] / size
-        write_csv(folder / file, columns)
+        write_table(folder / file, columns, [*units, unit], style)
     (folder / "campaign.toml").write_text("\n".join(lines), encoding="utf-8")
 
 
-def write_csv(path: Path, columns: dict[str, Floats]) -> None:
-    rows = zip(*columns.values())
-    text = "\n".join(",".join("" if math.isnan(v) else f"{v:.8g}" for v in row) for row in rows)
-    path.write_text(",".join(columns) + "\n" + text + "\n", encoding="utf-8")
+def write_table(path: Path, columns: dict[str, Floats], units: list[str], style: Style) -> None:
+    mark = style.delimiter
+    head = [mark.join(columns)] + ([mark.join(units)] if style.units_line else [])
+    rows = (mark.join("" if math.isnan(v) else f"{v:.8g}".replace(".", style.decimal) for v in row) for row in zip(*columns.values()))
+    path.write_text("\n".join([*head, *rows]) + "\n", encoding="utf-8")

@@ -7,18 +7,20 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.blind_trial.generator import trouble
+from benchmarks.blind_trial.generator.dense import dense_design
 from benchmarks.blind_trial.generator.designs import Design, Run, make_design
 from benchmarks.blind_trial.generator.faults import faulty
 from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.noise import round_to
 from benchmarks.blind_trial.generator.outside import OUTSIDE
-from benchmarks.blind_trial.generator.reducer import WHOLE
+from benchmarks.blind_trial.generator.rivals import distances
 from benchmarks.blind_trial.generator.strength import Ruler
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 from fmu_src.arrays import Floats
 
-LAWS: dict[str, type[Truth]] = {law.name: law for law in CATALOGUE + OUTSIDE}
+LAWS: dict[str, type[Truth]] = {law.name: law for law in CATALOGUE + OUTSIDE} | {trouble.SlightlyOff.name: trouble.SlightlyOff}
 TRUE_PARAMETERS = {"mesh_wear_coefficient": 5e-9, "roughness": 0.4e-6, "mesh_stiffness": 3.2e5}
 # Noise may be this much lower or higher than drawn to meet d'.
 NOISE_RANGE = (0.35, 2.8)
@@ -27,7 +29,10 @@ ATTEMPTS = 6
 
 @dataclass(frozen=True)
 class Task:
-    """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design."""
+    """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design.
+
+    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single law.
+    """
 
     number: int
     seed: int
@@ -36,6 +41,8 @@ class Task:
     strength: float = 0.0
     size: str = "middle"
     fault: str = ""
+    trouble: str = ""
+    rivals: bool = False
 
     @property
     def name(self) -> str:
@@ -56,6 +63,7 @@ class Drawn:
     bench: Bench
     parameters: dict[str, float]
     sizes: list[float]
+    rivals: dict[str, float]
 
 
 def make(task: Task, folder: Path, sealed: Path) -> dict[str, Any]:
@@ -75,10 +83,13 @@ def drawn(task: Task) -> Drawn:
 
 def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
     truths = [LAWS[name](rng) for name in task.laws]
-    design = make_design(rng, blocks_for(rng, task, truths), task.size)
+    blocks = blocks_for(rng, task, truths)
+    design = dense_design(rng, blocks, task.kind == "outside") if task.size == "bench" else make_design(rng, blocks, task.size)
+    trouble.spoil(task.trouble, design)
     parameters = true_parameters(rng, task, design)
     bench = Bench(parameters)
     sizes = []
+    rivals: dict[str, float] = {}
     if truths:
         ruler = Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench)
         for k, truth in enumerate(truths):
@@ -92,7 +103,13 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
             if not 0.9 < factor < 1.1:
                 raise CannotMake(task.laws[k])
             sizes.append(factor * task.strength)
-    return Drawn(rng, truths, design, Bench(parameters, WHOLE), parameters, sizes)
+        if task.rivals and len(truths) == 1:
+            ruler = Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench)
+            rivals = distances(ruler, truths[0], np.random.default_rng([task.seed, 41]))
+    if task.trouble == trouble.WORN:
+        truths = [trouble.SlightlyOff(rng)]
+    whole, parameters = trouble.bench_of(task.trouble, parameters, rng)
+    return Drawn(rng, truths, design, whole, parameters, sizes, rivals)
 
 
 def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, Any]:
@@ -102,7 +119,8 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, An
     for run in runs:
         run["values"] = round_to(run["values"], run["series"].noise.quantum)
     truth = {
-        "campaign": task.name, "kind": task.kind, "effects": [t.effect for t in truths], "laws": [t.facts() for t in truths],
+        "campaign": task.name, "kind": task.kind, "effects": [t.effect for t in truths if t.name != trouble.SlightlyOff.name],
+        "trouble": task.trouble, "rivals": made.rivals, "laws": [t.facts() for t in truths],
         "strength": task.strength, "d_prime": made.sizes, "fault": done, "base": made.parameters, "size": task.size,
         "acceptable": sorted({name for t in truths for name in t.acceptable}), "seed": task.seed,
         "noise": {s.quantity: vars(s.noise) for s in design.series}, "samples": int(sum(len(r["values"]) for r in runs)),
@@ -120,17 +138,33 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, An
 def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> list[str]:
     """Blocks that show the laws, and one that has nothing to do with them."""
     blocks = list(dict.fromkeys(b for t in truths for b in t.blocks))
+    if "wear" in blocks and rng.random() < 0.2:
+        # Long lives are not those of nulls alone.
+        blocks = ["old" if b == "wear" else b for b in blocks]
+    if task.trouble in trouble.BLOCKS:
+        choices = trouble.BLOCKS[task.trouble]
+        return list(choices[int(rng.integers(len(choices)))])
+    if task.size == "bench":
+        return blocks_of_bench(rng, list(dict.fromkeys(t.blocks[0] for t in truths)))
     # The first block of a law shows it; further ones come by chance, except prints, which need their lives.
     if len(truths) == 1 and len(blocks) > 1 and "prints" not in blocks and (task.size == "tiny" or rng.random() < 0.5):
         blocks = blocks[:1]
     if task.size in ("tiny", "small"):
         cheap = ["loops", "torque", "cage"]
         return blocks or [str(rng.choice(cheap if task.size == "tiny" else ["te", *cheap]))]
-    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks]
+    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks and not (b == "wear" and "old" in blocks)]
     odds = np.array([0.25, 0.25, 0.3, 0.1, 0.05 if blocks else 0.15, 0.05])[[("te", "loops", "torque", "cage", "wear", "vibration").index(b) for b in others]]
     count = 1 if blocks else int(rng.integers(1, 4))
     extra = [str(b) for b in rng.choice(others, count, replace=False, p=odds / odds.sum())]
     return blocks + (extra if not blocks or rng.random() < 0.5 else [])
+
+
+def blocks_of_bench(rng: np.random.Generator, blocks: list[str]) -> list[str]:
+    """What shows the laws, and with even odds both of what every bench measures."""
+    usual = ["te", "loops"]
+    if not blocks or (set(blocks) <= set(usual) and rng.random() < 0.5):
+        return usual
+    return blocks
 
 
 def true_parameters(rng: np.random.Generator, task: Task, design: Design) -> dict[str, float]:
@@ -163,6 +197,9 @@ def measure(rng: np.random.Generator, design: Design, bench: Bench, truths: list
             if zero and "angle" in axes:
                 axes["angle"] = axes["angle"] - zero
             values = y + s.noise.draw(rng, y)
+            # The file's axis is what was measured of it.
+            axes = {name: at + design.axis_noise.get(name, 0.0) * rng.standard_normal(len(at)) if name in design.axis_noise else at
+                    for name, at in axes.items()}
             tag = "_".join(w for w in (s.tags.get("surface", ""),) if w)
             words = {"transmission_error": "te", "hysteresis": "loop", "input_torque": "torque", "vibration_order": "vib"}
             runs.append({"id": f"{s.condition}_{words.get(s.quantity, s.quantity)}{'_' + tag if tag else ''}_{k + 1}", "series": s,

@@ -54,6 +54,12 @@ class Noise:
         total += self.gain**2 * np.outer(values, values) + self.quantum**2 / 12.0 * np.eye(n)
         return total
 
+    def spectrum(self, n: int) -> Floats:
+        """Variance of the coloured part by frequency of an n-point Fourier transform, as of a periodic record; their mean is ``sigma``^2."""
+        top, bottom = self.filters()
+        power = np.abs(np.fft.fft(top, n) / np.fft.fft(bottom, n)) ** 2
+        return np.asarray(self.sigma**2 * power / power.mean(), np.float64)
+
     def draw(self, rng: np.random.Generator, values: Floats) -> Floats:
         """Noise of one run with ``values``."""
         n, lead = len(values), 200

@@ -51,10 +51,10 @@ class Setting:
 class Plain:
     """One reducer with its true (not nominal) parameters."""
 
-    def __init__(self, parameters: dict[str, float] | None = None, cycle: tuple[int, int] = QUICK):
+    def __init__(self, parameters: dict[str, float] | None = None, cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION):
         self.cycle = cycle
         reducer = load_reducer(NAME)
-        self.reducer = Reducer(**{**reducer.__dict__, "resolution": RESOLUTION})
+        self.reducer = Reducer(**{**reducer.__dict__, "resolution": resolution})
         self.plants, self.wears = self.reducer.plant.new_records(), self.reducer.wear.new_records()
         for name, value in (parameters or {}).items():
             for records in (self.plants, self.wears):

@@ -9,9 +9,10 @@ import numpy as np
 
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
-from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, Change, Gaps, Plain, Setting, both
+from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, RESOLUTION, Change, Gaps, Plain, Setting, both
 from benchmarks.blind_trial.generator.stepping import COLUMNS
 from fmu_src.arrays import Floats
+from wear_fmu.variables import Resolution
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
 SPECTRUM = 4096
@@ -75,9 +76,10 @@ class Truth:
 class Bench:
     """Computes series of one true reducer with hidden laws."""
 
-    def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK):
-        self.plain = Plain(parameters, cycle)
-        self.kept: dict[Hashable, list[np.ndarray]] = {}
+    def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION):
+        self.plain = Plain(parameters, cycle, resolution)
+        # By rows, laws with their strengths, and whether parts are ideal.
+        self.kept: dict[tuple[Hashable, tuple[tuple[int, float], ...], bool], list[np.ndarray]] = {}
 
     def rows_of(self, series: Series) -> list[Setting]:
         return series.rows or [series.setting] * series.size

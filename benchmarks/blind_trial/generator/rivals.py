@@ -1,0 +1,115 @@
+"""How far from a hidden law the nearest law of another effect is: what the best possible test could tell, from the truth itself.
+
+A test of the truth against another effect can do no better than one that is told both, at the rival's strength, shape and calibration that come
+nearest: by Neyman and Pearson it errs with probability Phi(-d/2) at equal risk, d being their distance in units of the true noise.  The rival's
+family is searched from a few draws by Gauss and Newton's method; a better search could only find a smaller distance.
+"""
+
+import copy
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import lsq_linear
+
+from benchmarks.blind_trial.generator.laws import CATALOGUE
+from benchmarks.blind_trial.generator.strength import Ruler
+from benchmarks.blind_trial.generator.truth import Truth
+from fmu_src.arrays import Floats
+
+# Draws of a rival that are tried; draws that say which shapes it has; steps of the search from the best.
+DRAWS, RANGES, STEPS = 6, 60, 2
+# Share of the truth's size that is left by a rival which is searched no further.
+HOPELESS = 0.9
+# What a sensor of any quantity can do to all of its runs, per unit.
+SENSORS: dict[str, Callable[[Floats], Floats]] = {
+    "sensor_gain": lambda y: y, "sensor_offset": np.ones_like, "sensor_drift": lambda y: np.linspace(-0.5, 0.5, len(y)),
+}  # fmt: skip
+# Step of a difference, in shares of a shape's range or of the strength.
+STEP = 0.03
+
+
+def distances(ruler: Ruler, truth: Truth, rng: np.random.Generator) -> dict[str, float]:
+    """d' between ``truth`` and the nearest law of every other effect that shows in the same quantities."""
+    measured = ruler.design.quantities()
+    seen = set(truth.quantities) & measured
+    target = ruler.column([truth])
+    found: dict[str, float] = {}
+    for law in CATALOGUE:
+        if law.effect == truth.effect or law.effect in truth.acceptable or not seen & set(law.quantities):
+            continue
+        d = distance(ruler, target, law, rng)
+        found[law.effect] = min(d, found.get(law.effect, np.inf))
+    for effect, shape in SENSORS.items():
+        for quantity in seen if effect != truth.effect else ():
+            column = ruler.projected([shape(y) if s.quantity == quantity else np.zeros(len(y)) for s, y in zip(ruler.series, ruler.base)])
+            square = float(column @ column)
+            left = target - column * (column @ target) / square if square > 0.0 else target
+            found[effect] = min(float(np.linalg.norm(left)), found.get(effect, np.inf))
+    return found
+
+
+def distance(ruler: Ruler, target: Floats, law: type[Truth], rng: np.random.Generator) -> float:
+    """d' between a column and the nearest that the law can make."""
+    whole = float(np.linalg.norm(target))
+    first: tuple[float, Truth] | None = None
+    for _ in range(DRAWS):
+        trial = law(rng)
+        column = seen_by(ruler, trial)
+        square = float(column @ column)
+        if square > 0.0:
+            share = max(float(column @ target), 0.0) / square
+            trial.a = float(np.clip(trial.a * share, trial.low, trial.high))
+            d = float(np.linalg.norm(target - share * column))
+            if first is None or d < first[0]:
+                first = d, trial
+    if first is None:
+        return whole
+    best = first[1]
+    left = float(np.linalg.norm(target - seen_by(ruler, best)))
+    if left > HOPELESS * whole:
+        return min(left, whole)
+    ranges = shapes_of(law, rng)
+    for _ in range(STEPS):
+        better, d = stepped(ruler, target, best, ranges)
+        if d >= left:
+            break
+        best, left = better, d
+    return left
+
+
+def seen_by(ruler: Ruler, law: Truth) -> Floats:
+    column = ruler.column([law])
+    # Lives are kept by the law's identity and strength; this one's shape changes.
+    ruler.bench.kept = {key: lives for key, lives in ruler.bench.kept.items() if not key[1]}
+    return column
+
+
+def shapes_of(law: type[Truth], rng: np.random.Generator) -> dict[str, tuple[float, float]]:
+    """Range of every number that a law draws beside its strength; a phase has none."""
+    drawn = [vars(law(rng)) for _ in range(RANGES)]
+    names = [k for k, v in drawn[0].items() if isinstance(v, float) and k not in ("a", "sign")]
+    found = {k: (min(d[k] for d in drawn), max(d[k] for d in drawn)) for k in names}
+    return {k: (-np.inf, np.inf) if k == "phase" else r for k, r in found.items() if r[0] < r[1]}
+
+
+def stepped(ruler: Ruler, target: Floats, law: Truth, ranges: dict[str, tuple[float, float]]) -> tuple[Truth, float]:
+    """One step of Gauss and Newton's in strength and shapes, within their ranges; the law there and its d'."""
+    here = seen_by(ruler, law)
+    limits = {"a": (law.low, law.high), **ranges}
+    scales = {k: law.a if k == "a" else 1.0 if k == "phase" else high - low for k, (low, high) in limits.items()}
+    columns, low, high = [], [], []
+    for name, (least, most) in limits.items():
+        at = getattr(law, name)
+        step = STEP * scales[name] * (-1.0 if at + STEP * scales[name] > most else 1.0)
+        columns.append((seen_by(ruler, moved(law, {name: at + step})) - here) / step * scales[name])
+        low.append(min((least - at) / scales[name], -1e-9))
+        high.append(max((most - at) / scales[name], 1e-9))
+    moves = lsq_linear(np.column_stack(columns), target - here, (np.maximum(low, -1.0), np.minimum(high, 1.0))).x
+    trial = moved(law, {name: float(np.clip(getattr(law, name) + m * scales[name], *limits[name])) for name, m in zip(limits, moves)})
+    return trial, float(np.linalg.norm(target - seen_by(ruler, trial)))
+
+
+def moved(law: Truth, values: dict[str, float]) -> Truth:
+    found = copy.deepcopy(law)
+    found.__dict__.update(values)
+    return found
