@@ -26,6 +26,8 @@ HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 # Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
 FAR_SHORT = 0.2
+# So many of the best fits are looked for from other starts too.
+FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained.
 ROUGH = 0.02
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
@@ -71,6 +73,7 @@ class Diagnostician:
         self.by_name = {c.name: c for c in self.candidates}
         self.fitted: dict[frozenset[str], Refit] = {}
         self.final_fits: dict[frozenset[str], Refit] = {}
+        self.widely: set[frozenset[str]] = set()
         self.inflations: dict[frozenset[str], float] = {}
 
     def __getstate__(self) -> dict[str, Any]:
@@ -126,13 +129,24 @@ class Diagnostician:
         enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.space.threads.map(lambda s: self.fit([s.name]), twins)], key=penalised)
+        fits = sorted([*self.space.threads.map(self.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
         near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
         fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
         return sorted(fits, key=penalised)
 
+    def widened(self, result: Refit) -> Refit:
+        """The fit from other starts too, if one of them is better: for those that may be named."""
+        key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
+        if key not in self.widely and key not in self.final_fits:
+            self.widely.add(key)
+            with self.space.predictions.roughly():
+                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, widely=True)
+            self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
+        return self.fitted[key]
+
     def final(self, names: Sequence[str]) -> Refit:
         """The fit of the named effects as it is reported, wherever."""
-        return self.renewed(self.fit(names))
+        return self.renewed(self.widened(self.fit(names)))
 
     def renewed(self, result: Refit) -> Refit:
         """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""

@@ -3,6 +3,7 @@
 Runs are kept, so that parameters that a run does not depend on cost nothing.
 """
 
+import copy
 import math
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -29,8 +30,9 @@ from wear_fmu.variables import Resolution
 RESOLUTION = Resolution(flank=90, pin=90, raceway=180)
 # A turn of the cranks in full cycles: depths within 0.2 % (36: 0.5 %).
 POSITIONS = 72
-# Means over a turn: torque and cage speed are within 1e-4 of those of 72 positions.
-MEAN_POSITIONS = 18
+# Means over a turn: torque and cage speed are within 1e-4 of those of 72 positions; what values change in them, roughly, is seen
+# within 1 % from seven.
+MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
 # Hours that count as none [s].
 NOTHING = 1e-6 * HOUR
 # Longest and first stretch of hours that one wear cycle stands for.
@@ -76,13 +78,20 @@ class Bench:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
         self.runs = Once(KEPT_RUNS)
-        self.held_angles = HELD_ANGLES
+        self.held_angles, self.mean_positions = HELD_ANGLES, MEAN_POSITIONS
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
         topology = reducer.topology
         self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
         self.rated_speed = float(self.templates[0]["input_speed"][0])
         self.rated_load = float(self.templates[0]["load_torque"][0])
+
+    def roughly(self) -> "Bench":
+        """The same bench with the same runs, as coarse as a search allows."""
+        other = copy.copy(self)
+        other.fineness = self.fineness.roughly() if self.fineness else None
+        other.held_angles, other.mean_positions = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS
+        return other
 
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
@@ -247,13 +256,21 @@ class Bench:
 
     def averages(self, condition: Condition, values: Mapping[str, float]) -> dict[str, float]:
         """Means over one turn of the cranks."""
+        means = self.means(condition, values, self.mean_positions)
+        if self.mean_positions < MEAN_POSITIONS:
+            # What the values change, seen from fewer positions.
+            means = means - self.means(condition, {}, self.mean_positions) + self.means(condition, {}, MEAN_POSITIONS)
+        return dict(zip(coupled.COLUMNS, means))
+
+    def means(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
+        """Mean of each column over ``positions`` of a turn of the cranks."""
         turn = 2.0 * math.pi / self.reducer.topology.lobes
-        angles = condition.direction * np.linspace(0.0, turn, MEAN_POSITIONS, endpoint=False)
+        angles = condition.direction * np.linspace(0.0, turn, positions, endpoint=False)
         if values.get("thermal_resistance", float(self.templates[0]["thermal_resistance"][0])) > 0.0:
             # A second pass: what depends on the losses of the first has settled.
             angles = np.concatenate([angles, angles + condition.direction * turn])
-        series = self.running(condition, values, angles)[-MEAN_POSITIONS:]
-        return dict(zip(coupled.COLUMNS, series.mean(axis=0)))
+        found: Floats = self.running(condition, values, angles)[-positions:].mean(axis=0)
+        return found
 
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
         """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""

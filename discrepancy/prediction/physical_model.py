@@ -1,6 +1,5 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-import copy
 import difflib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
@@ -12,7 +11,7 @@ from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import model_error
-from discrepancy.prediction.bench import FEW_HELD_ANGLES, Bench
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import Values, angle_zero, condition_of, identity
@@ -56,9 +55,7 @@ class PhysicalModel:
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
-        # The same runs, as coarse as a search allows.
-        self.rough_bench = copy.copy(self.bench)
-        self.rough_bench.fineness, self.rough_bench.held_angles = self.bench.fineness.roughly(), FEW_HELD_ANGLES
+        self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]

@@ -19,18 +19,20 @@ MISLED = 0.2
 JOINT_STEPS = 15
 # A fit that is reported is renewed so often, until its chi-square stands still by this.
 RENEWALS, STILL = 4, 2e-3
-# Descents from other starts than the score test's.
-OTHERS = 2
+# Descents from other starts than the score test's, and what these may lack of the gain at once.
+OTHERS, PROMISING = 2, 0.1
+# Rounds of polishing a fit that is searched for, and one that is reported.
+ROUGH_ROUNDS, ROUNDS = 1, 8
 
 
-def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]]) -> Fit:
-    """Nuisances and the parameters of ``candidates``, from the best of ``starts`` and from wherever else it is better."""
+def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False) -> Fit:
+    """Nuisances and the parameters of ``candidates``, from the best of ``starts``; ``widely``: and from wherever else it is better."""
     frozen = _Frozen(space, candidates)
     own, nuisances = frozen.own, space.model.nuisances
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
     values, converged, columns = _search(frozen, candidates, [
         {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own} for start in starts
-    ])  # fmt: skip
+    ], widely)  # fmt: skip
     promised, residual = frozen.cost(values)
     full = {**frozen.nuisances_with(residual), **values}
     if _cost(space, Box(parameters), full)[0] > space.base.chi2:
@@ -96,28 +98,26 @@ class _Frozen:
         return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
 
 
-def _search(frozen: _Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]]) -> tuple[dict[str, float], bool, Floats]:
-    """The best optimum (values, whether it converged, columns) from ``starts`` and, for one effect, from other sizes and along its valley."""
+def _search(
+    frozen: _Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]], widely: bool
+) -> tuple[dict[str, float], bool, Floats]:  # fmt: skip
+    """The best optimum (values, whether it converged, columns) from ``starts``; ``widely`` also from other sizes and along its valley."""
 
     def cost(values: Mapping[str, float]) -> float:
         return frozen.cost(values)[0]
 
-    def costs(others: Sequence[dict[str, float]]) -> list[float]:
-        return frozen.space.threads.map(cost, others)
-
-    alone = candidates[0] if len(candidates) == 1 else None
-    several = alone is not None and 1 < len(alone.amplitudes) <= MOST_AMPLITUDES
-    if alone is not None and not several and alone.amplitudes[0].sign:
-        # Acts on one side, perhaps from a threshold on: what is best at once is where to start.
-        others = [*starts, *other_starts(alone.amplitudes, starts[0])]
-        starts = [others[int(np.argmin(costs(others)))]]
     found = [_descend(frozen, start) for start in starts]
-    if alone is not None and several:
-        # An optimum may lie behind a ridge, or further along a valley.
+    amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()
+    if widely and (1 < len(amplitudes) <= MOST_AMPLITUDES or any(p.sign for p in amplitudes)):
+        # An optimum may lie behind a ridge, further along a valley, or beyond a threshold.
         best = min(found, key=lambda f: cost(f[0]))
-        others = other_starts(alone.amplitudes, best[0]) + along_valley(frozen.own, best[0], _information(frozen, best[2]))
-        by_cost = costs(others)
-        found += [_descend(frozen, others[k]) for k in np.argsort(by_cost)[:OTHERS]]
+        others = other_starts(amplitudes, best[0])
+        if len(amplitudes) > 1:
+            others += along_valley(frozen.own, best[0], _information(frozen, best[2]))
+        by_cost, least = frozen.space.threads.map(cost, others), cost(best[0])
+        promising = least + PROMISING * max(frozen.space.base.chi2 - least, 0.0)
+        chosen = [others[k] for k in np.argsort(by_cost)[:OTHERS] if by_cost[k] < promising]
+        found += [_descend(frozen, start) for start in chosen]
     return min(found, key=lambda f: cost(f[0]))
 
 
@@ -183,7 +183,7 @@ def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[floa
 
 
 def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: Floats, candidates: tuple[str, ...],
-            converged: bool, expected: float, rounds: int = 8, fresh: bool = False) -> Fit:  # fmt: skip
+            converged: bool, expected: float, fresh: bool = False) -> Fit:  # fmt: skip
     """Full predictions until the chi-square stands still; sensitivities are renewed where the frozen ones mislead."""
     box = Box(parameters)
     x = box.array(values)
@@ -192,7 +192,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
         return _cost(space, box, box.named(z))
 
     cost, r = cost_of(x)
-    for _ in range(rounds):
+    for _ in range(ROUGH_ROUNDS if space.predictions.rough else ROUNDS):
         normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
         normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
         step = box.step(x, normal, box.scale * (columns.T @ r - box.prior_gradient(x)))

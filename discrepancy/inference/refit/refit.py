@@ -56,14 +56,15 @@ class Refit:
         return [p for c in self.candidates for p in c.parameters]
 
 
-def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None) -> Refit:
-    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts."""
+def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None,
+          widely: bool = False) -> Refit:  # fmt: skip
+    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts, ``widely`` of more."""
     first = {k: v for s in scores for k, v in s.start.items()}
     starts = [{**first, **(fixed or {})}]
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    return finished(space, candidates, fit_effects(space, candidates, starts[:2]))
+    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely))
 
 
 def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit) -> Refit:

@@ -90,8 +90,11 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
     for shape in candidate.shape_grid or ({},):
         at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
         # The small one is cheap, and enough where the large one showed the same at the first shape.
-        made = {size: _block(space, candidate, at, which, size) for size in ([SMALL] if linear else [TYPICAL, SMALL])}
-        if linear is None:
+        made = {} if linear else {TYPICAL: _block(space, candidate, at, which, TYPICAL)}
+        seen = which if linear else _seen(space, candidate, made[TYPICAL], which)
+        if seen:
+            made[SMALL] = _block(space, candidate, at, seen, SMALL)
+        if linear is None and seen:
             linear = _same(made[TYPICAL], made[SMALL])
             if linear:
                 del made[TYPICAL]
@@ -105,6 +108,11 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
                           for p in candidate.amplitudes)
             found.append((dict(shape), block, signs))
     return found
+
+
+def _seen(space: Workspace, candidate: Candidate, block: Floats, which: list[int]) -> list[int]:
+    """Records in which a block shows anything at all at the bounds of its parameters."""
+    return [i for i in which if _reach(candidate, block[space.rows[i]]) > LEAST_REACH / 20.0]
 
 
 def _reach(candidate: Candidate, block: Floats) -> float:
