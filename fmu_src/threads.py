@@ -1,11 +1,13 @@
 """Work shared between threads of this process: compiled kernels run beside each other, Python's own code in turn.
 
-Inside shared work nothing is shared further, so that whoever shares need not know who else does.
+Inside shared work nothing is shared further, so that whoever shares need not know who else does.  Context variables are there what they
+were where the work was asked for.
 """
 
 import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextvars import copy_context
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -37,7 +39,7 @@ class Threads:
         if self.jobs < 2 or len(work) < 2 or getattr(self.here, "inside", False):
             return [function(item) for item in work]
         with ThreadPoolExecutor(self.jobs, "rvwear") as pool:
-            futures: list[Future[Result]] = [pool.submit(self.inside, function, item) for item in work]
+            futures: list[Future[Result]] = [pool.submit(copy_context().run, self.inside, function, item) for item in work]
             try:
                 return [future.result() for future in futures]
             except BaseException:

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from contextvars import ContextVar
 
 import pytest
 
@@ -10,6 +11,21 @@ from fmu_src.threads import Once, Stopped, Threads
 
 def test_results_come_in_the_order_of_the_items():
     assert Threads(4).map(lambda n: (time.sleep(0.001 * (9 - n)), n * n)[1], range(9)) == [n * n for n in range(9)]
+
+
+def test_context_goes_along_and_stays_apart():
+    """What one piece of work sets, no other sees; what stood when it was asked for, all see."""
+    place = ContextVar("place", default="outside")
+
+    def work(n):
+        seen = place.get()
+        place.set(f"changed by {n}")
+        time.sleep(0.005)
+        return seen, place.get()
+
+    place.set("here")
+    assert Threads(2).map(work, range(4)) == [("here", f"changed by {n}") for n in range(4)]
+    assert place.get() == "here"
 
 
 def test_work_inside_of_work_stays_on_its_thread():

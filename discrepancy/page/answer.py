@@ -4,7 +4,7 @@ from typing import Any
 
 from discrepancy import wording
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
-from discrepancy.page import amounts, comparison, response
+from discrepancy.page import amounts, comparison, profiles, response
 from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -23,7 +23,7 @@ def page(answer: Answer) -> Page:
     if answer.effects:
         sections = [
             effects(answer),
-            *([response.section(answer)] if diagnosis.fits.members else []),
+            *([response.section(answer), profiles.section(answer)] if diagnosis.fits.members else []),
             held_out(answer),
             *([confusable(answer)] if answer.confusable or diagnosis.alternatives or diagnosis.correlations else []),
             *laws_found,

@@ -2,12 +2,16 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
 
 from discrepancy.problem import Cheaper, Model, Settling
 from fmu_src.arrays import Floats
+
+# Of each thread its own: one searches while another settles what is reported.
+SEARCHING: ContextVar[bool] = ContextVar("searching", default=False)
 
 Key = tuple[tuple[str, float], ...]
 
@@ -24,8 +28,6 @@ class Predictions:
         self.store: dict[Key, dict[int, Floats]] = {}
         self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
-        # Whether predictions may be rough for now: while something is searched for.
-        self.rough = False
         self.calls = 0
         self.reported: set[Key] = set()
 
@@ -84,14 +86,19 @@ class Predictions:
     def effects(self, active: Mapping[str, float]) -> frozenset[str]:
         return frozenset(name for name in active if name in self.amplitudes)
 
+    @property
+    def rough(self) -> bool:
+        """Whether predictions may be rough here and now."""
+        return SEARCHING.get()
+
     @contextmanager
     def roughly(self) -> Iterator[None]:
-        """Predictions in this block may be rough."""
-        before, self.rough = self.rough, True
+        """Predictions in this block may be rough: while something is searched for."""
+        before = SEARCHING.set(True)
         try:
             yield
         finally:
-            self.rough = before
+            SEARCHING.reset(before)
 
     def _kept(self, known: dict[int, Floats], which: Sequence[int], predict: Callable[[list[int]], list[Floats]]) -> list[Floats]:
         missing = [i for i in which if i not in known]

@@ -1,0 +1,71 @@
+"""The profile likelihood of a parameter: how much worse the fit becomes as it is moved and all others follow.
+
+A parabola where the linear interval holds; a plateau, a second valley or a wall tells what an interval cannot.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Box
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.refit import Refit
+from fmu_src.arrays import Floats
+
+# Places in standard deviations of the linear interval.
+AWAY = (-3.5, -1.75, 0.0, 1.75, 3.5)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """``chi2`` (n,) above that of the fit, with the parameter at ``values`` (n,) [its unit]; ``deviation`` of the linear interval."""
+
+    name: str
+    unit: str
+    values: Floats
+    chi2: Floats
+    deviation: float
+
+
+def profiles(space: Workspace, result: Refit) -> list[Profile]:
+    """Of every parameter of the named effects whose linear interval has a width."""
+    fit, found = result.fit, []
+    names = [p.name for p in fit.parameters]
+    best = Box(fit.parameters).array(fit.values)
+    for p in result.own:
+        k = names.index(p.name)
+        deviation = float(np.sqrt(max(result.covariance[k, k], 0.0)))
+        if not 0.0 < deviation < 0.5 * (p.upper - p.lower):
+            continue
+        places = np.unique(np.clip(best[k] + deviation * np.array(AWAY), p.lower, p.upper))
+        others = np.array([j for j in range(len(names)) if j != k], dtype=np.intp)
+        chi2 = space.threads.map(partial(moved, space, result, best, k, others), [float(value) for value in places])
+        found.append(Profile(p.name, p.unit, places, np.array(chi2) - fit.chi2, deviation))
+    return found
+
+
+def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndarray, value: float) -> float:
+    """Chi-square with parameter ``k`` at ``value`` and the others where they fit best, by the fit's own sensitivities."""
+    fit, box = result.fit, Box(result.fit.parameters)
+    if value == best[k]:
+        return fit.chi2
+    x = best.copy()
+    x[k] = value
+    scale = box.scale[others]
+    normal = fit.normal[np.ix_(others, others)] * np.outer(scale, scale)
+    x[others] = box_step(box, x, others, normal, -scale * fit.normal[others, k] * (value - best[k]))
+    residual = space.residual(box.named(x))
+    first = float(residual @ residual) + box.prior_cost(x)
+    # What the sensitivities did not foretell, the others follow once more.
+    gradient = fit.jacobian[:, others].T @ residual - box.prior_gradient(x)[others]
+    x[others] = box_step(box, x, others, normal, scale * gradient)
+    residual = space.residual(box.named(x))
+    return min(first, float(residual @ residual) + box.prior_cost(x))
+
+
+def box_step(box: Box, x: Floats, others: np.ndarray, normal: Floats, gradient: Floats) -> Floats:
+    """The other parameters after a Newton step, within their bounds."""
+    step = np.linalg.pinv(normal, rcond=1e-11, hermitian=True) @ gradient
+    moved_to: Floats = np.clip(x[others] + box.scale[others] * step, box.lower[others], box.upper[others])
+    return moved_to

@@ -1,0 +1,48 @@
+"""Pictures of the profile likelihood of every named parameter."""
+
+from typing import Any
+
+import numpy as np
+
+from discrepancy.inference.refit.profile import Profile, profiles
+from discrepancy.page.amounts import effect_title, pretty
+from discrepancy.scales import of_parameter
+from discrepancy.verdict import Answer
+from pages import look
+from pages.content import Section
+
+# What 95 % of intervals keep below: one parameter's chi-square.
+LIMIT = 3.84
+HIGHEST = 18.0
+
+
+def section(answer: Answer) -> Section:
+    """Of the best fit: all effects that are named together, or the best of those that are alternatives."""
+    space, best = answer.diagnosis.fits.space, answer.diagnosis.fits.members[0]
+    figures = [figure(k, p) for k, p in enumerate(profiles(space, best))]
+    lead = (
+        f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
+        " follow. Grey is the parabola of the interval; a line that leaves it, flattens or has a second valley says that the interval is too simple."
+    )
+    return Section("profiles", "How well each parameter is known", lead if figures else "No parameter has an interval.", figures)
+
+
+def figure(place: int, p: Profile) -> look.Figure:
+    scale = of_parameter(float(np.abs(p.values).max()), p.unit)
+    x = scale.factor * p.values + scale.offset
+    best, width = float(p.values[int(np.argmin(p.chi2))]), p.deviation
+    fine = np.linspace(float(p.values.min()), float(p.values.max()), 61)
+    parabola: list[Any] = look.short(((fine - best) / width) ** 2)
+    unit = pretty(scale.unit)
+    data = [
+        look.line(look.short(scale.factor * fine + scale.offset, 5), parabola, look.QUIET, 1.2, "dot", name="parabola"),
+        look.line(look.short(x, 5), look.short(p.chi2), look.NOW, 2.0, mode="lines+markers", name="profile"),
+    ]
+    limit = {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": LIMIT, "y1": LIMIT, "line": {"color": look.QUIET, "width": 1}}
+    layout = look.layout(
+        xaxis=look.axis(f"{p.name}{f' [{unit}]' if unit else ''}"),
+        yaxis=look.axis("chi-square above the best", range=[-0.5, HIGHEST]),
+        shapes=[limit],
+        annotations=[{"xref": "paper", "x": 1, "y": LIMIT, "text": "95 %", "showarrow": False, "xanchor": "right", "yanchor": "bottom"}],
+    )
+    return look.Figure(f"profile_{place}", p.name.replace("_", " "), "Below the line lie 95 %.", data, layout, 6)
