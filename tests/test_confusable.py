@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
 import pytest
 
 from discrepancy.inference.diagnose import against
@@ -16,6 +17,7 @@ class Fit:
     chi2: float
     values: dict
     at_bounds: tuple = ()
+    parameters: list = field(default_factory=list)
 
 
 @dataclass
@@ -26,17 +28,22 @@ class Rival:
     fit: Fit
     gain: float = 1000.0
     candidates: tuple = field(default=())
+    known: float = 0.1
+
+    @property
+    def covariance(self):
+        return np.diag([self.known**2] * len(self.own))
 
     @property
     def own(self):
         return [p for c in self.candidates for p in c.parameters]
 
 
-def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None):
+def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None, known=0.1):
     amplitude = Parameter(f"{name}_size", "1", 0.0, -1e3, 1e3, scale)
     shapes = () if shape is None else (Parameter(f"{name}_shape", "1", 1.0, 0.1, 100.0, 1.0),)
     values = {f"{name}_size": size} | ({} if shape is None else {f"{name}_shape": shape})
-    return Rival(name, Fit(chi2, values, bounds), candidates=(Candidate(name, name, (amplitude,), shapes),))
+    return Rival(name, Fit(chi2, values, bounds, [amplitude, *shapes]), candidates=(Candidate(name, name, (amplitude,), shapes),), known=known)
 
 
 def names(rivals):
@@ -60,6 +67,12 @@ def test_nothing_at_a_bound_is_a_plain_member():
     assert names([rival("c", 100.0, shape=99.9), rival("a", 100.5)]) == ["a"]
     # What is better by far is named all the same, with its warning.
     assert names([rival("b", 50.0, bounds=("b_size",)), rival("a", 100.0)]) == ["b"]
+
+
+def test_an_effect_whose_shape_nothing_tells_is_a_simpler_one_in_disguise():
+    """A seat that slips at any small torque is a spring."""
+    assert names([rival("slip", 99.0, shape=5.0, known=30.0), rival("spring", 100.0)]) == ["spring"]
+    assert names([rival("slip", 99.0, shape=5.0, known=1.0), rival("spring", 100.0)]) == ["slip", "spring"]
 
 
 def judged(before, after, p=0.5):

@@ -257,7 +257,7 @@ def test_one_command_from_unknown_to_a_model_that_is_better(tmp_path, capsys, mo
     campaign = campaign_of(tmp_path, "drag with speed^2.5", 21, 40.0, "small")
     said = extended(campaign, tmp_path / "mine", capsys)
     step, draft = said["step"], said["draft"]
-    assert said["verdict"] == "helped" and step["kept"] and step["held_out_error_after"] < 1.5 < 5.0 < step["held_out_error_before"]
+    assert said["verdict"] == "helped" and step["kept"] and step["held_out_after"] < 1.5 < 5.0 < step["held_out_before"]
     assert draft["effect"] == "input_torque_over_speed" and (draft["unit"], draft["hook"]) == ("rv_plant", "after") and not draft["beside"]
     text = (tmp_path / "mine" / "rv_plant" / "input_torque_over_speed.py").read_text()
     assert "Source: recovered from campaign 'campaign_00001'." in text and draft["equation"] in text
@@ -279,7 +279,7 @@ OUTSIDE = [("drag with speed^2.5", 21, 40.0, "small"), ("foot that lifts with th
 def test_outside_laws_are_drafted_against_the_whole_catalogue(tmp_path, capsys, outside):
     said = extended(campaign_of(tmp_path, *outside), tmp_path / "mine", capsys)
     step = said["step"]
-    assert said["verdict"] == "helped" and step["held_out_error_after"] < 1.3 < 4.0 < step["held_out_error_before"]
+    assert said["verdict"] == "helped" and step["held_out_after"] < 1.3 < 4.0 < step["held_out_before"]
 
 
 @pytest.mark.parametrize(("alone", "beside", "chosen"), [(1.5, 1.48, 0), (1.5, 1.2, 1), (1.5, None, 0), (None, 1.2, 1), (None, None, None)])

@@ -13,6 +13,7 @@ from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldO
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation, Localiser
 from discrepancy.inference.refit.confusable import FORM, canonical_correlation, confusable_set, ends_at_a_bound, penalised
+from discrepancy.inference.refit.curvature import with_secants
 from discrepancy.inference.refit.effect_fit import renew
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
@@ -154,7 +155,7 @@ class Diagnostician:
         if key in self.final_fits:
             return self.final_fits[key]
         self.space.predictions.settle(result.fit.values)
-        better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
+        better = finished(self.space, result.candidates, with_secants(self.space, renew(self.space, result.fit, result.candidates), result.candidates))
         self.fitted[key] = self.final_fits[key] = better
         return better
 

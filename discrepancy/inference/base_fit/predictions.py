@@ -88,8 +88,8 @@ class Predictions:
 
     @property
     def rough(self) -> bool:
-        """Whether predictions may be rough here and now."""
-        return SEARCHING.get()
+        """Whether predictions are rough here and now: while something is searched for, by a model that has such."""
+        return SEARCHING.get() and isinstance(self.model, Cheaper)
 
     @contextmanager
     def roughly(self) -> Iterator[None]:

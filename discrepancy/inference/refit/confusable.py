@@ -17,6 +17,8 @@ PER_PARAMETER = 2.0
 """Price of a further parameter, in chi-square (Akaike)."""
 PLAUSIBLE = 10.0
 """Amplitudes up to this many times their typical size cost nothing (assumed); beyond, the price grows with the square."""
+IDLE = 0.25
+"""A shape known no better than this share of its whole range, in the logarithm, is not known."""
 NEAR = 0.01
 """Share of a parameter's range in the logarithm that counts as its bound."""
 FORM = 5e-4
@@ -40,6 +42,14 @@ def ends_at_a_bound(rival: Refit) -> bool:
     return any(p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name]) for p in rival.own)
 
 
+def has_idle_shapes(rival: Refit) -> bool:
+    """Whether the data say nothing about one of its shapes: then it is a simpler effect in disguise."""
+    names = [p.name for p in rival.fit.parameters]
+    shapes = [p for c in rival.candidates for p in c.shapes if p.lower > 0.0]
+    deviations = [(p, float(np.sqrt(max(rival.covariance[names.index(p.name), names.index(p.name)], 0.0)))) for p in shapes]
+    return any(d == 0.0 or d / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower) for p, d in deviations)
+
+
 def _near_a_bound(p: Parameter, value: float) -> bool:
     """In the logarithm, where the parameter cannot change its sign."""
     if p.lower <= 0.0 or value <= 0.0:
@@ -58,6 +68,8 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
         return []
     ordered = sorted(rivals, key=penalised)
     inside = [r for r in ordered if not ends_at_a_bound(r)] or ordered[:1]
+    simple = [r for r in inside if not has_idle_shapes(r)]
+    inside = simple or inside
     best = ordered[0] if penalised(inside[0]) - penalised(ordered[0]) > margin * max(1.0, inflation) else inside[0]
     if dof < 200:
         margin = student.isf(norm.sf(np.sqrt(margin)), max(dof, 2.0)) ** 2

@@ -1,0 +1,70 @@
+"""How sharply the chi-square rises about a fit, at the distance that matters: one standard deviation.
+
+A transmission error has kinks where contacts open and close, so that its derivatives jump.  Where parameters do nearly the same,
+what is left of the difference of two such derivatives is mostly jumps, and the interval comes out too narrow by several times.
+Differences of whole predictions, a standard deviation apart along the main axes of the covariance, have no such error.
+"""
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import Candidate
+
+# The first axes are those of the derivatives; the second time they are the right ones.
+ROUNDS = 2
+# Steps in units of the parameters' scales: no smaller than what predictions resolve, no larger than what is typical.
+LEAST, MOST = 1e-3, 1.0
+
+
+def with_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
+    """The fit with the sensitivities of its effects' parameters taken over a standard deviation, and one step further."""
+    own = [p for c in candidates for p in c.parameters]
+    places = [fit.names.index(p.name) for p in own]
+    if not own:
+        return fit
+    box, part = Box(fit.parameters), Box(own)
+    for _ in range(ROUNDS):
+        x = box.array(fit.values)
+        covariance = np.linalg.pinv(fit.normal * np.outer(box.scale, box.scale), rcond=1e-11, hermitian=True)[np.ix_(places, places)]
+        variances, axes = np.linalg.eigh(covariance)
+        steps = axes * np.clip(np.sqrt(np.maximum(variances, 0.0)), LEAST, MOST)
+        columns = fit.jacobian.copy()
+        along = np.column_stack(space.threads.map(partial(_along, space, box, part, x, places), list(steps.T)))
+        columns[:, places] = along @ np.linalg.inv(steps) / part.scale
+        fit = _further(space, fit, box, x, columns)
+    return fit
+
+
+def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequence[int], step: np.ndarray) -> np.ndarray:
+    """Change (N,) of the whitened prediction per step of the effects' parameters [scales], from both sides within their bounds."""
+    ends, parts = [], []
+    for sense in (1.0, -1.0):
+        moved = x.copy()
+        wanted = x[places] + sense * step * part.scale
+        moved[places] = np.clip(wanted, part.lower, part.upper)
+        # As much of the step as the bounds allow, the whole of it shortened alike so that the direction stays.
+        shares = (moved[places] - x[places]) / np.where(step == 0.0, 1.0, sense * step * part.scale)
+        share = float(np.min(np.where(step == 0.0, 1.0, shares)))
+        moved[places] = x[places] + share * sense * step * part.scale
+        ends.append(space.residual(box.named(moved)))
+        parts.append(share)
+    whole = parts[0] + parts[1]
+    return (ends[1] - ends[0]) / whole if whole > 0.0 else np.zeros_like(ends[0])
+
+
+def _further(space: Workspace, fit: Fit, box: Box, x: np.ndarray, columns: np.ndarray) -> Fit:
+    """One step with these sensitivities, if it is downhill."""
+    normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
+    gradient = box.scale * (columns.T @ fit.residual - box.prior_gradient(x))
+    best, residual = x, fit.residual
+    for share in (1.0, 0.3):
+        trial = np.clip(x + share * box.step(x, normal, gradient), box.lower, box.upper)
+        other = space.residual(box.named(trial))
+        if float(other @ other) + box.prior_cost(trial) < fit.chi2:
+            best, residual = trial, other
+            break
+    return fit_of(fit.parameters, box.named(best), residual, columns, fit.candidates, fit.converged)
