@@ -128,7 +128,7 @@ class Fmpy:
 
 
 def test_fmpy_couples_the_units(folder, tmp_path):
-    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}, tmp_path), "wear": Fmpy(folder / "RvWear.fmu", {"contact_lead": 2.0}, tmp_path)}
+    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}, tmp_path), "wear": Fmpy(folder / "RvWear.fmu", {}, tmp_path)}
 
     def exchange():
         moved = [(b, units[a.split(".")[0]].get(a.split(".")[1])) for a, b in CONNECTIONS]
