@@ -264,4 +264,4 @@ class InProcess(Component):
 def signal_of(v: Variable, table: Table) -> Signal:
     first = table.offset[v.name]
     references = tuple(range(first, first + v.size))
-    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices)
+    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices, nominal=v.nominal)

@@ -32,14 +32,15 @@ from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 # Deflection that tolerances are relative to [m].
 TYPICAL_DEFLECTION = 1e-6
+# Gentle changes of the input speed are spread over the communication step, up to a few periods of the discs on their contacts [s].
+GENTLE_RAMP = 2e-3
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
         output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
-        Variable("speed_ramp", "parameter", "s", "in motion a new input speed is reached along a ramp of this time, or of the"
-                 " communication step if that is shorter", 2e-3, minimum=0.0, maximum=3600.0, nominal=1e-3,
-                 source="assumed: a few periods of the discs on their contacts"),
+        Variable("input_acceleration", "parameter", "rad/s^2", "in motion a new input speed is reached along a ramp of this slope"
+                 " at most", 1e5, minimum=1e-3, nominal=1e5, source="assumed: rated speed in 2 ms"),
         state("drive_speed", "rad/s", "speed at which the input is driven"),
         state("ramp_left", "s", "time until that is input_speed"),
         state("ramp_end", "rad/s", "input speed that the ramp leads to"),
@@ -142,9 +143,8 @@ def start_motion(r):
 def start_ramp(r, duration):
     """At the beginning of a communication step of ``duration`` [s]: a jump of the input speed would strike the bodies."""
     if r.fidelity == DYNAMIC and r.input_speed != r.ramp_end:
-        r.ramp_end, r.ramp_left = r.input_speed, min(duration, r.speed_ramp)
-        if r.ramp_left == 0.0:
-            r.drive_speed = r.input_speed
+        r.ramp_end = r.input_speed
+        r.ramp_left = max(min(duration, GENTLE_RAMP), abs(r.input_speed - r.drive_speed) / r.input_acceleration)
 
 
 @kernel

@@ -24,8 +24,8 @@ OF_WEAR = 100
 FAULTS = PLANT_FAULTS | {OF_WEAR + code: text for code, text in WEAR_FAULTS.items()}
 # Where a torque sets the speed nobody knows how far the cranks will turn: the longest part of a step [s].
 LONGEST_PART = 1e-3
-# A new input speed is reached in so many parts at least.
-RAMP_PARTS = 4.0
+# While the input speed changes, and perhaps its sign [s].
+RAMP_PART = 2.5e-4
 
 
 @entry_point
@@ -101,7 +101,7 @@ def part_of(records, left, speed):
         if p.drive == 1:
             part = min(part, LONGEST_PART)
         if p.ramp_left > 0.0:
-            part = min(part, max(p.ramp_left, p.speed_ramp) / RAMP_PARTS)
+            part = min(part, RAMP_PART)
     return part if part < left * (1.0 - 1e-9) else left
 
 

@@ -127,6 +127,55 @@ def test_remaining_life_is_that_of_the_run_beyond_it(rv20e):
     assert unit.get("remaining_life") == 0.0
 
 
+def through(reducer, segments, step, **values):
+    """The unit after each of ``segments``, (sense of turning, duration [s]), in equal communication steps."""
+    unit = make_unit(reducer, **values)
+    speed, start = float(unit.get("input_speed")), 0.0
+    unit.set("input_speed", segments[0][0] * speed)
+    unit.enter_initialisation(0.0)
+    unit.exit_initialisation()
+    for sense, duration in segments:
+        unit.set("input_speed", sense * speed)
+        count = max(1, round(duration / step))
+        for i in range(count):
+            unit.step(start + i * duration / count, duration / count)
+        start += duration
+    return unit
+
+
+JUDGED = ("worst_flank_depth", "worst_pin_depth", "worst_race_depth", "remaining_life", "lost_motion", "operating_time")
+
+
+@pytest.mark.parametrize("fidelity", [0, 1], ids=["quasi-static", "dynamic"])
+@pytest.mark.parametrize("segments", [
+    [(1, 0.2)], [(-1, 0.2)], [(1, 0.2), (0, 0.1), (-1, 0.2)],
+], ids=["forward", "backward", "forward, at rest, backward"])  # fmt: skip
+@pytest.mark.parametrize("acceleration", [1.0, 1e5])
+def test_it_divides_its_steps_itself(rv20e, fidelity, segments, acceleration):
+    """Figures do not depend on the communication step; those that hold over a turn need one."""
+    values = {"fidelity": fidelity, "acceleration": acceleration}
+    finest = through(rv20e, segments, 2e-5, **values)
+    for step in (7e-4, 9e-3, 0.2):
+        unit = through(rv20e, segments, step, **values)
+        for name in JUDGED:
+            assert unit.get(name) == pytest.approx(finest.get(name), rel=2e-3, abs=0.0), (step, name)
+        assert unit.get("operating_time") == pytest.approx(acceleration * sum(d for _, d in segments), rel=1e-9)
+    assert finest.get("worst_flank_depth") > 0.0
+
+
+def test_a_second_at_once_is_no_long_step(rv20e):
+    coarse, fine = (through(rv20e, [(1, 1.0)], step, acceleration=1e6) for step in (1.0, 1e-3))
+    for name in JUDGED:
+        assert coarse.get(name) == pytest.approx(fine.get(name), rel=2e-3, abs=0.0), name
+
+
+def test_shortest_steps_wear_too(rv20e):
+    """A microsecond at a time, from one place where the surfaces wear to the next."""
+    short, long = (through(rv20e, [(1, 2.6e-3)], step, acceleration=1e6) for step in (1e-6, 2.6e-3))
+    assert short.get("worst_flank_depth") == pytest.approx(long.get("worst_flank_depth"), rel=2e-3, abs=0.0)
+    assert short.get("worst_flank_depth") > 0.0
+
+
 def test_without_limits_there_is_no_end(rv20e):
     unit = run_with_wear(rv20e, 80, flank_depth_limit=0.0, race_depth_limit=0.0, lost_motion_limit=0.0)
     assert unit.get("remaining_life") == 1e12
