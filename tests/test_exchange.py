@@ -6,6 +6,7 @@ from stand import GIVEN, SHARED, crank_period, exchange, only, pair_of, records_
 
 from orchestrator.component import InProcess
 from orchestrator.master import Master, StepControl
+from orchestrator.opening import open_fmu
 from rv_plant import plant
 from studies.pair import CONNECTIONS, crank_turn_time
 from wear_fmu import accumulator
@@ -13,9 +14,10 @@ from wear_fmu import accumulator
 VOLUMES = ("flank_volume", "pin_volume", "inner_race_volume", "outer_race_volume")
 CONSTANT = {"mesh_wear_law": 0, "raceway_wear_law": 0}
 SCHEMES = ("gauss-seidel", "jacobi")
+FIVE_DEGREES = np.radians(5.0)
 
 
-def wired(reducer, step, acceleration=1.0, largest_crank_step=np.radians(5.0), **options):
+def wired(reducer, step, acceleration=1.0, largest_crank_step=FIVE_DEGREES, **options):
     """The pair by a list of connections alone, as somebody does it by hand."""
     units = {"plant": InProcess("plant", reducer.specification("rv_plant")), "wear": InProcess("wear", reducer.specification("wear_fmu"))}
     units["wear"].set("acceleration", acceleration)
@@ -142,6 +144,32 @@ def test_what_a_coarse_signal_leaves_open_is_counted(rv20e, recorded):
     assert totals.inner_race_volume == pytest.approx(fine.inner_race_volume, rel=1e-4)
     assert abs(values.inner_race_volume / fine.inner_race_volume - 1) > 1e-3
     assert totals.crank_travel == pytest.approx(fine.crank_travel, rel=1e-12)
+
+
+def test_a_coarse_signal_is_warned_of_once(rv20e, turn_time):
+    master = wired(rv20e, turn_time / 4)
+    master.run(8)
+    (text,) = (warning for warning in master.warnings if "coarse_steps" in warning)
+    assert text.startswith("wear: between two communication points the cranks turned by more than 20 degrees")
+    assert master.components["wear"].get("coarse_steps") == 8
+    fine = wired(rv20e, turn_time / 72)
+    fine.run(8)
+    assert fine.warnings == []
+
+
+@pytest.mark.parametrize("version", ["fmi2", "fmi3"])
+def test_a_coarse_signal_is_said_once_in_the_log(native_fmus, version):
+    unit = open_fmu("wear", native_fmus / version / "RvWear.fmu")
+    unit.enter_initialisation(0.0)
+    unit.exit_initialisation()
+    unit.set("mesh_force", 300.0)
+    for i in range(3):
+        unit.set("crank_angle", float(i + 1))
+        unit.step(0.1 * i, 0.1)
+    assert unit.get("coarse_steps") == 3
+    assert sum("20 degrees" in message for message in unit.messages) == 1
+    assert unit.cautions() != []
+    unit.close()
 
 
 def test_there_and_back_within_a_step_wears_what_was_pressed(rv20e):

@@ -46,6 +46,10 @@ FAULTS = {
     " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank_angle, output_angle and"
     " cage_angle of the same reducer",
 }
+CAUTIONS = {
+    "coarse_steps": "between two communication points the cranks turned by more than 20 degrees, or to and fro by more than 1: where the"
+    " wear was and under which forces is not known there, coarse_steps counts such steps. Use a shorter communication step",
+}
 
 
 def variables(sizes: Sizes) -> list[Variable]:
