@@ -116,13 +116,14 @@ def judge(records, turned):
     race_volume = find_worst_depths(r)
     r.turned += turned
     passed = r.operating_time - r.judged_time
-    # A step may miss the interval by rounding.
-    if r.turned < r.judgement_interval * (1.0 - 1e-9) or not passed > 0.0:
+    # Judged is where the surfaces wear, next to the end of the interval.
+    if r.turned < r.judgement_interval - 0.25 * r.largest_crank_step or not passed > 0.0:
         return
     measure_lost_motion(records)
     judged_race = r.judged_inner_volume if race_volume == r.inner_race_volume else r.judged_outer_volume
     flank_rate = growth(r.worst_flank_depth, r.flank_volume, r.judged_flank_volume, passed)
     extrapolate_life(r, flank_rate, growth(r.worst_race_depth, race_volume, judged_race, passed))
-    r.judged_time, r.turned = r.operating_time, 0.0
+    # What is missing comes on top of the next interval.
+    r.judged_time, r.turned = r.operating_time, min(r.turned - r.judgement_interval, 0.0)
     r.judged_flank_volume = r.flank_volume
     r.judged_inner_volume, r.judged_outer_volume = r.inner_race_volume, r.outer_race_volume

@@ -2,7 +2,7 @@
 
 The views ``plant`` and ``wear`` share the cells of what the two exchange.  A communication
 step is divided where the cranks have turned by ``largest_crank_step`` since the surfaces last
-wore, so wear falls on the same places whatever the communication step.
+wore, so wear falls on the same places, or nearly, whatever the communication step.
 """
 
 from fmu_src.kernel import entry_point, kernel
@@ -22,6 +22,8 @@ from wear_fmu.contacts import extend_profiles, publish_profiles
 # Status codes of the wear stand above those of the plant.
 OF_WEAR = 100
 FAULTS = PLANT_FAULTS | {OF_WEAR + code: text for code, text in WEAR_FAULTS.items()}
+# A communication step so near to ``largest_crank_step``, as a share of it, is meant to be one: the surfaces wear at its end.
+NEAR = 2e-4
 # Where a torque sets the speed nobody knows how far the cranks will turn: the longest part of a step [s].
 LONGEST_PART = 1e-3
 # While the input speed changes, and perhaps its sign [s].
@@ -69,10 +71,13 @@ def turn_on(records, speed):
     """From here the surfaces next wear when the cranks have turned by ``largest_crank_step``."""
     r, sense = records[0], sense_of(speed)
     if sense == r.sweep_sense and sense != 0.0:
-        extend_profiles(records.wear[0], sense * r.largest_crank_step)
+        if r.sweep_left <= NEAR * r.largest_crank_step:
+            r.sweep_left = r.largest_crank_step
+        extend_profiles(records.wear[0], sense * r.sweep_left)
     else:
-        publish_profiles(records.wear[0], 0.0, sense, sense * r.largest_crank_step)
-    r.sweep_left, r.sweep_time, r.sweep_sense = r.largest_crank_step, 0.0, sense
+        r.sweep_left = r.largest_crank_step
+        publish_profiles(records.wear[0], 0.0, sense, sense * r.sweep_left)
+    r.sweep_path, r.sweep_time, r.sweep_sense = 0.0, 0.0, sense
     r.swept_until = r.operating_time
 
 
@@ -85,9 +90,15 @@ def wear(records, speed):
     r.acceleration = r.sweep_acceleration = acceleration
     if fault != 0:
         return OF_WEAR + fault
-    judge(records, r.largest_crank_step - r.sweep_left)
+    judge(records, r.sweep_path)
     turn_on(records, speed)
     return 0
+
+
+@kernel
+def same_sweep(r, speed):
+    """Whether the way since the surfaces last wore goes on as it began."""
+    return sense_of(speed) == r.sweep_sense and r.acceleration == r.sweep_acceleration
 
 
 @kernel
@@ -95,6 +106,9 @@ def part_of(records, left, speed):
     """How long [s] the next part of a step is of which ``left`` is to be done."""
     r, p = records[0], records.plant[0]
     part = left
+    near = NEAR * r.largest_crank_step
+    if r.sweep_path == 0.0 and abs(abs(speed) * left - r.largest_crank_step) <= near:
+        r.sweep_left = abs(speed) * left
     if abs(speed) * left > r.sweep_left * (1.0 + 1e-9):
         part = r.sweep_left / abs(speed)
     if p.fidelity == DYNAMIC:
@@ -114,7 +128,7 @@ def go_on(records, time, duration):
         speed = driven_speed(p)
         if not abs(speed) * left < MOST_SUBSTEPS * r.largest_crank_step:
             return LONG_STEP
-        if sense_of(speed) != r.sweep_sense or r.acceleration != r.sweep_acceleration:
+        if not same_sweep(r, speed):
             fault = wear(records, speed)
             if fault != 0:
                 return fault
@@ -131,6 +145,7 @@ def go_on(records, time, duration):
         if p.fidelity == DYNAMIC and (p.drive == 1 or p.drive_speed != before):
             turned = p.crank_path - path
         r.sweep_left -= turned
+        r.sweep_path += turned
         r.sweep_time += part
         r.operating_time = r.swept_until + r.acceleration * r.sweep_time
         # There and back is worn as soon as the cranks have turned round.
@@ -149,6 +164,10 @@ def step(records, time, duration):
     """One communication step of both."""
     r, p = records[0], records.plant[0]
     start_ramp(p, duration)
+    speed = driven_speed(p)
+    if same_sweep(r, speed) and part_of(records, duration, speed) == duration:
+        # The plant may refuse, the wear after it not.
+        return go_on(records, time, duration)
     # A part may fail after surfaces wore in an earlier one: what lies beyond the cells that are put back anyway is kept here.
     first = r.kept.shape[0]
     for i in range(r.worn_kept.shape[0]):

@@ -78,6 +78,7 @@ def judgement(z: Variable) -> list[Variable]:
 
     return [
         state("sweep_left", "rad", "turning of the cranks until the surfaces next wear"),
+        state("sweep_path", "rad", "turning of the cranks since they last did"),
         state("sweep_time", "s", "time since they last did"),
         state("sweep_sense", "1", "sense of turning since they last did"),
         state("sweep_acceleration", "1", "acceleration that holds for it"),

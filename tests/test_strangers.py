@@ -156,7 +156,7 @@ def test_fmpy_reads_the_package(folder):
     system = ssd.read_ssd(str(folder / "RvReducer.ssp")).system
     assert [element.name for element in system.elements] == ["plant", "wear"]
     pairs = ssd.get_connections(system)
-    assert len(pairs) == (9 if folder.name == "fmi3" else 5 + 2 * 80 + 2 * 64)
+    assert len(pairs) == (13 if folder.name == "fmi3" else 7 + 3 * 80 + 3 * 64)
 
 
 @pytest.mark.parametrize("file, schema", [
