@@ -3,7 +3,7 @@
     python3 build.py bench [ITEM ...] [--quick] [--output results/bench]
     python3 -m benchmarks ...          the same in an environment that is set up
 
-Items: equilibrium, motion, limit, lives, growth, many, diagnosis.  Writes .json and .html, and the table to the screen.
+Items: equilibrium, motion, exchange, limit, lives, growth, many, diagnosis.  Writes .json and .html, and the table to the screen.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from pathlib import Path
 for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(variable, "1")
 
-ITEMS = ("equilibrium", "motion", "limit", "lives", "growth", "many", "diagnosis")
+ITEMS = ("equilibrium", "motion", "exchange", "limit", "lives", "growth", "many", "diagnosis")
 
 
 def main() -> int:

@@ -6,8 +6,8 @@ array sizes, ``starts`` and ``sources`` the start values that differ from the ta
 """
 
 import importlib
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TypedDict
 
 from fmu_src.arrays import Records
@@ -46,6 +46,7 @@ class Unit:
 
     ``fault_reach`` is how many of the leading cells a step that returns a fault may have
     changed (None: all of the state).  An FMU keeps a copy of these during each step.
+    ``cautions`` are said once when the integer output of the name is no longer 0.
     """
 
     table: Table
@@ -53,6 +54,7 @@ class Unit:
     step: Callable[[Records, float, float], int]
     faults: dict[int, str]
     fault_reach: int | None = None
+    cautions: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def guarded_cells(self) -> int:
@@ -74,6 +76,10 @@ class Unit:
         from fmu_src.compiler.calling import bound_unit
 
         return bound_unit(*kernels, records)
+
+    def due_cautions(self, records: Records) -> dict[str, str]:
+        """Those that this record gives cause for."""
+        return {name: text for name, text in self.cautions.items() if records[name][0] > 0}
 
     def fault_text(self, code: int, records: Records, time: float) -> str:
         """What a status code means for this record, in words."""

@@ -182,6 +182,10 @@ class Component(ABC):
         """The unit's record (one element, dtype of its table), hidden surfaces included."""
         raise InputFault(f"{self.name} is not one of this project's units: it has no record")
 
+    def cautions(self) -> list[str]:
+        """What the user should know of the run so far."""
+        return []
+
     def close(self) -> None:
         """Free what the component holds."""
 
@@ -260,8 +264,11 @@ class InProcess(Component):
     def record(self) -> Records:
         return self.records.copy()
 
+    def cautions(self) -> list[str]:
+        return [f"{self.name}: {text}" for text in self.unit.due_cautions(self.records).values()]
+
 
 def signal_of(v: Variable, table: Table) -> Signal:
     first = table.offset[v.name]
     references = tuple(range(first, first + v.size))
-    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices)
+    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices, nominal=v.nominal)

@@ -180,6 +180,12 @@ class Fmu(Component):
         table.cells(records)[: table.state_cells] = unpack(identity, self.save(), table.state_cells).cells
         return records
 
+    def cautions(self) -> list[str]:
+        if self.stamp() is None:
+            return []
+        cautions = unit_of(self.specification()).cautions
+        return [f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0]
+
     def close(self) -> None:
         with contextlib.suppress(FMICallException):
             # Refused before initialisation; it is freed all the same.

@@ -15,7 +15,7 @@ APART = 1e-9
 def variables(sizes: Sizes) -> list[Variable]:
     contact, pin, lobe = sizes.over("disc", "pin"), sizes.over("pin"), sizes.over("disc", "lobe")
     return [
-        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their present contact", **contact, nominal=1e-6),
+        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
         length("pin_radius", "radius of the pins", 1e-5, 2e-3),
         length("pin_circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
         length("mesh_width", "width of one disc", 1e-5, 8.82e-3),
@@ -37,7 +37,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         deviation("lobe_profile_error", "material missing on a lobe", **lobe),
         deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe),
         output("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0),
-        output("mesh_force", "N", "force between disc and pin, mean over the communication step", **contact, nominal=100.0),
+        output("mesh_force", "N", "force between disc and pin", **contact, nominal=100.0),
         # What effects add to the ideal parts.
         state("pin_radius_added", "m", "added to the pins' radius", **pin),
         state("lobe_gap_added", "m", "material missing on a lobe", **lobe),

@@ -7,10 +7,11 @@ stored in motion and deformation.
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.constraints import CONSTRAINED, largest_drift
-from rv_plant.contact_arrays import copy_contacts
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
+from rv_plant.faults import DYNAMIC
+from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import (
     MOST_SUBSTEPS,
@@ -27,26 +28,27 @@ from rv_plant.mesh import ring_coordinate
 from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import disc_offset, seat
+from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 # Deflection that tolerances are relative to [m].
 TYPICAL_DEFLECTION = 1e-6
+# Gentle changes of the input speed are spread over the communication step, up to a few periods of the discs on their contacts [s].
+GENTLE_RAMP = 2e-3
 
 
 def variables(sizes: Sizes) -> list[Variable]:
-    contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
         output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
-        state("mesh_error_start", "m", "profile error at the last communication point", **contact),
-        state("roller_error_start", "m", "profile error at the last communication point", **roller),
-        state("drive_speed", "rad/s", "input speed at the last communication point"),
+        Variable("input_acceleration", "parameter", "rad/s^2", "in motion a new input speed is reached along a ramp of this slope"
+                 " at most", 1e5, minimum=1e-3, nominal=1e5, source="assumed: rated speed in 2 ms"),
+        state("drive_speed", "rad/s", "speed at which the input is driven"),
+        state("ramp_left", "s", "time until that is input_speed"),
+        state("ramp_end", "rad/s", "input speed that the ramp leads to"),
         state("internal_step", "s", "next step of the integrator"),
         state("rejected", "1", "internal steps repeated shorter", integer=True),
-        state("mesh_force_before", "N", "force one internal step earlier", **contact),
-        state("roller_force_before", "N", "force one internal step earlier", **roller),
         state("input_energy", "J", "work of the input"), state("output_energy", "J", "work done on the load"),
         state("lost_energy", "J", "energy lost in damping"), state("cage_energy", "J", "work of the cages"),
         state("stored_energy", "J", "energy of motion and deformation at the start"),
-        scratch("mesh_error_end", contact["shape"]), scratch("roller_error_end", roller["shape"]),
     ]
 
 
@@ -126,42 +128,49 @@ def start_motion(r):
     q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
     v[ring + 2] = speed
     settled = settle(r)
-    start_ramp(r)
-    end_ramp(r)
     for i in range(q.shape[0]):
         r.smooth[i] = r.acceleration[i]
-    r.drive_speed = r.input_speed
+    r.drive_speed = r.ramp_end = r.input_speed
     r.internal_step = 1e-6
     assemble_motion(r, 1.0)
     r.stored_energy = r.potential + kinetic_energy(r)
     r.drive_torque = r.residual_vector[ring + 1] + r.input_torque
-    clear_means(r)
-    add_means(r, 0.0)
+    start_force_paths(r)
     return settled
+
+
+@kernel
+def start_ramp(r, duration):
+    """At the beginning of a communication step of ``duration`` [s]: a jump of the input speed would strike the bodies."""
+    if r.fidelity == DYNAMIC and r.input_speed != r.ramp_end:
+        r.ramp_end = r.input_speed
+        r.ramp_left = max(min(duration, GENTLE_RAMP), abs(r.input_speed - r.drive_speed) / r.input_acceleration)
 
 
 @kernel
 def advance(r, duration):
     """Integrate over ``duration`` [s]; True if every step met the tolerance.
 
-    A driven sun goes from the last input speed to the present one along a ramp, and so do
-    the profile errors: jumps of them would strike the bodies once a communication step.
+    A driven sun goes to a new input speed along a ramp, and the profile errors go from those at the start
+    to those at the end: jumps of them would strike the bodies once a communication step.
     """
     discs = r.roller_force.shape[0]
     carrier, ring = 3 * discs, ring_coordinate(r)
     sun, load = ring + 1, ring + 2
-    slope = (r.input_speed - r.drive_speed) / duration if duration > 0.0 else 0.0
-    first_speed = r.drive_speed
     time = 0.0
     r.assemblies = r.substeps = r.rejected = 0
-    clear_means(r)
-    start_ramp(r)
+    start_profiles(r, r.crank_speed * duration)
+    crank_angle = mean_crank_angle(r)
     lost = 0.0
     cage_share = r.cage_share * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
     while time < duration * (1.0 - 1e-12):
         if r.substeps + r.rejected >= MOST_SUBSTEPS:
+            end_profiles(r)
             return False
-        left = duration - time
+        left, slope = duration - time, 0.0
+        if r.ramp_left > 0.0:
+            slope = (r.ramp_end - r.drive_speed) / r.ramp_left
+            left = min(left, r.ramp_left)
         h = r.internal_step
         # No crumb at the end: two equal steps where one would leave little.
         if h >= left:
@@ -174,63 +183,51 @@ def advance(r, duration):
         cage, loss, torque, speed = r.cage, r.dissipation, r.drive_torque, r.v[sun]
         cage_power, load_speed = r.cage_power, r.v[load]
         r.cage = cage + h * (r.v[carrier + 5] - r.v[carrier]) * cage_share
-        ramp_profile_errors(r, (time + h) / duration)
-        error = alpha_step(r, h, first_speed + slope * (time + h), slope)
+        take_profiles(r, (time + h) / duration)
+        error = alpha_step(r, h, r.drive_speed + slope * h, slope)
         if not 0.0 <= error <= 1.0:
             back_to_start(r)
             r.cage, r.dissipation, r.cage_power = cage, loss, cage_power
             r.rejected += 1
             r.internal_step = 0.25 * h if error < 0.0 else next_step_size(r, h, error)
             if r.internal_step < SHORTEST_STEP:
-                end_ramp(r)
+                end_profiles(r)
                 return False
             continue
         time += h
         r.substeps += 1
+        r.drive_speed += slope * h
+        r.ramp_left -= min(h, r.ramp_left)
+        if r.ramp_left <= 1e-12 * duration:
+            r.drive_speed, r.ramp_left = r.ramp_end, 0.0
         finish_step(r)
         if r.drive == 0:
             r.drive_torque = r.residual_vector[sun] + r.input_torque + r.mass[sun] * r.acceleration[sun]
         else:
             r.drive_torque = r.input_torque
-        add_means(r, 0.5 * h / duration)
+        turned_to = mean_crank_angle(r)
+        add_force_paths(r, turned_to - crank_angle)
+        crank_angle = turned_to
         r.input_energy += 0.5 * h * (torque * speed + r.drive_torque * r.v[sun])
         r.output_energy += 0.5 * h * r.load_torque * (load_speed + r.v[load])
         lost += 0.5 * h * (loss + r.dissipation)
         r.cage_energy += 0.5 * h * (cage_power + r.cage_power)
         if h < left:
             r.internal_step = next_step_size(r, h, error)
-    end_ramp(r)
+    end_profiles(r)
     r.lost_energy += lost
     r.power_loss = lost / duration if duration > 0.0 else 0.0
-    r.drive_speed = r.input_speed
     return True
 
 
 @kernel
-def start_ramp(r):
-    """Keep the profile errors that the step shall end with."""
-    copy_contacts(r.mesh_profile_error, r.roller_profile_error, r.mesh_error_end, r.roller_error_end)
-
-
-@kernel
-def ramp_profile_errors(r, share):
-    """Profile errors at a share of the way from the last communication point to the next."""
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            start = r.mesh_error_start[d, j]
-            r.mesh_profile_error[d, j] = start + share * (r.mesh_error_end[d, j] - start)
-        for c in range(cranks):
-            for k in range(rollers):
-                start = r.roller_error_start[d, c, k]
-                r.roller_profile_error[d, c, k] = start + share * (r.roller_error_end[d, c, k] - start)
-
-
-@kernel
-def end_ramp(r):
-    """The inputs as they were given; the next ramp starts from them."""
-    copy_contacts(r.mesh_error_end, r.roller_error_end, r.mesh_profile_error, r.roller_profile_error)
-    copy_contacts(r.mesh_error_end, r.roller_error_end, r.mesh_error_start, r.roller_error_start)
+def mean_crank_angle(r):
+    """Angle of the cranks in the housing [rad]."""
+    discs, cranks = r.roller_force.shape[:2]
+    angle = 0.0
+    for c in range(cranks):
+        angle += r.q[3 * discs + 5 + 3 * c] / cranks
+    return angle
 
 
 @kernel
@@ -260,31 +257,6 @@ def publish_motion(r):
     turnover = abs(r.input_energy) + abs(r.output_energy) + abs(stored)
     r.energy_error = 2.0 * balance / turnover if turnover > 0.0 else 0.0
     publish_contacts(r)
-
-
-@kernel
-def clear_means(r):
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            r.mesh_force[d, j] = 0.0
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_force[d, c, k] = 0.0
-
-
-@kernel
-def add_means(r, weight):
-    """Trapezoidal rule: last step's forces and these."""
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            r.mesh_force[d, j] += weight * (r.mesh_force_before[d, j] + r.mesh_force_now[d, j])
-            r.mesh_force_before[d, j] = r.mesh_force_now[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_force[d, c, k] += weight * (r.roller_force_before[d, c, k] + r.roller_force_now[d, c, k])
-                r.roller_force_before[d, c, k] = r.roller_force_now[d, c, k]
 
 
 @kernel

@@ -36,7 +36,7 @@ def variables(sizes: Sizes) -> list[Variable]:
                  nominal=100.0, source="assumed: as disc and pin"),
         output("cage_angle", "rad", "angle of the roller cages against the discs"),
         output("cage_speed", "rad/s", "speed of the roller cages against the discs"),
-        output("roller_force", "N", "force on a roller, mean over the communication step", **roller, nominal=100.0),
+        output("roller_force", "N", "force on a roller", **roller, nominal=100.0),
         # What effects add to the ideal parts.
         state("roller_gap_added", "m", "added to a bearing's clearance", **roller),
         state("roller_gap_now", "m", "the same at the present angle, with what depends on it", **roller),

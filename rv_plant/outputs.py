@@ -4,6 +4,7 @@ from fmu_src.effect import compose
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.contact import hertz_peak_pressure
+from rv_plant.contact_arrays import copy_contacts
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import clear_teeth
 from rv_plant.mesh import clear_offsets
@@ -48,7 +49,8 @@ def publish_losses(r, input_speed):
 
 @kernel
 def publish_contacts(r):
-    """Largest forces and contact pressure at the present angle."""
+    """Forces, the largest of them and contact pressure at the present angle."""
+    copy_contacts(r.mesh_force_now, r.roller_force_now, r.mesh_force, r.roller_force)
     discs, cranks, rollers = r.roller_force.shape
     pins = r.mesh_force.shape[1]
     radius = r.pin_radius + r.equidistant_modification + r.profile_radius_added

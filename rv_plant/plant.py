@@ -12,18 +12,21 @@ from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.assembly import assemble
 from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
+from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
 from rv_plant.dimension import FILE
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, list_free_coordinates
 from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
+from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
 from rv_plant.mesh import clear_flanks
-from rv_plant.motion import advance, publish_motion, start_motion
+from rv_plant.motion import advance, publish_motion, start_motion, start_ramp
 from rv_plant.needle_bearing import cage_rate, clear_clearances
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import clear_places, crank_position
+from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 effects = compose("rv_plant.effects", HOOKS)
 prepare_effects, advance_states, heat_effects = effects.prepare, effects.advance, effects.heat
@@ -116,15 +119,12 @@ def advance_effects(r, duration):
 
 
 @kernel
-def publish(r, output_speed):
-    """Outputs that follow from the present equilibrium; ``output_speed`` is the ideal one."""
+def crank_departure(r):
+    """How far the cranks (their mean) are from where ideal kinematics has them [rad]."""
     discs, cranks = r.roller_force.shape[:2]
-    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
-    ratio = total_ratio(r.first_stage_ratio, pins, lobes)
     carrier = 3 * discs
     turning = r.z[carrier]
-    crank_turning = crank_turn_per_carrier_turn(r.first_stage_ratio) * turning
-    moment = of_errors = 0.0
+    departure = crank_turn_per_carrier_turn(r.first_stage_ratio) * turning
     side = 1.0 if r.load_torque >= 0.0 else -1.0
     for c in range(cranks):
         crank = carrier + 3 + 3 * c
@@ -133,7 +133,19 @@ def publish(r, output_speed):
             r.pressure_angle, side,
         )
         shift_x, shift_y = r.z[carrier + 1] + r.z[crank], r.z[carrier + 2] + r.z[crank + 1]
-        crank_turning += (r.z[crank + 2] + r.crank_turn_added[c] + per_x * shift_x + per_y * shift_y) / cranks
+        departure += (r.z[crank + 2] + r.crank_turn_added[c] + per_x * shift_x + per_y * shift_y) / cranks
+    return departure
+
+
+@kernel
+def publish(r, output_speed):
+    """Outputs that follow from the present equilibrium; ``output_speed`` is the ideal one."""
+    cranks = r.roller_force.shape[1]
+    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
+    ratio = total_ratio(r.first_stage_ratio, pins, lobes)
+    turning, crank_turning = r.z[3 * r.roller_force.shape[0]], crank_departure(r)
+    moment = of_errors = 0.0
+    for c in range(cranks):
         moment += r.crank_moment[c]
         of_errors += r.crank_moment[c] * r.crank_turn_rate[c]
         lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio)
@@ -222,7 +234,8 @@ def initialise(records):
     prepare(r)
     if not solve(r):
         return NO_EQUILIBRIUM
-    copy_means(r, 0.0, 1.0)
+    start_force_paths(r)
+    copy_contacts(r.mesh_profile_error, r.roller_profile_error, r.mesh_error_start, r.roller_error_start)
     ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.lobe_pitch_error.shape[1])
     publish(r, r.input_speed / ratio)
     if r.fidelity == DYNAMIC:
@@ -232,21 +245,16 @@ def initialise(records):
     return 0
 
 
-@kernel
-def copy_means(r, keep, weight):
-    """mean = keep mean + weight now, for all contact forces."""
-    discs, cranks, rollers = r.roller_force.shape
-    for d in range(discs):
-        for j in range(r.mesh_force.shape[1]):
-            r.mesh_force[d, j] = keep * r.mesh_force[d, j] + weight * r.mesh_force_now[d, j]
-        for c in range(cranks):
-            for k in range(rollers):
-                r.roller_force[d, c, k] = keep * r.roller_force[d, c, k] + weight * r.roller_force_now[d, c, k]
-
-
 @entry_point
 def step(records, time, duration):
     """One communication step: through equilibria or, if fidelity is dynamic, in motion."""
+    start_ramp(records[0], duration)
+    return go_on(records, time, duration)
+
+
+@entry_point
+def go_on(records, time, duration):
+    """A communication step, or one of the parts that it is divided into."""
     r = records[0]
     if r.fidelity == DYNAMIC:
         moved = advance(r, duration)
@@ -260,10 +268,7 @@ def step(records, time, duration):
 
 @kernel
 def step_through_equilibria(r, duration):
-    """Turn the input by input_speed times duration [s] through one or more equilibria.
-
-    The contact forces' means over the step are trapezoidal: second order in the angle.
-    """
+    """Turn the input by input_speed times duration [s] through one or more equilibria."""
     pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
     output_speed, cage_speed = speeds(r)
     crank_advance = abs(lobes * output_speed * duration)
@@ -271,20 +276,28 @@ def step_through_equilibria(r, duration):
         return LONG_STEP
     n = max(1, math.ceil(crank_advance / r.largest_crank_step - 1e-9))
     output_before, cage_before = r.ideal_output, r.cage
-    copy_means(r, 0.0, 0.5 / n)
-    spent = 0
+    start_profiles(r, -lobes * output_speed * duration)
+    spent, crank_angle, fault = 0, r.crank_angle, 0
     for i in range(n):
         share = (i + 1.0) / n
         r.ideal_output = output_before + share * output_speed * duration
         r.cage = cage_before + share * cage_speed * duration
         extrapolate(r, output_speed * duration / n)
+        take_profiles(r, share)
         if not solve(r):
             r.input_angle = total_ratio(r.first_stage_ratio, pins, lobes) * r.ideal_output
-            return NO_EQUILIBRIUM
+            fault = NO_EQUILIBRIUM
+            break
         spent += r.iterations
         if spent > MOST_ITERATIONS:
-            return LONG_STEP
-        copy_means(r, 1.0, 1.0 / n if i < n - 1 else 0.5 / n)
+            fault = LONG_STEP
+            break
+        turned_to = -lobes * r.ideal_output + crank_departure(r)
+        add_force_paths(r, turned_to - crank_angle)
+        crank_angle = turned_to
+    end_profiles(r)
+    if fault != 0:
+        return fault
     r.substeps = n
     publish(r, output_speed)
     advance_effects(r, duration)

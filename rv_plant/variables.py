@@ -8,6 +8,7 @@ from rv_plant import (
     contact,
     dynamics,
     equilibrium,
+    force_paths,
     gear_stage,
     integrator,
     mesh,
@@ -17,14 +18,15 @@ from rv_plant import (
     outputs,
     plant,
     poses,
+    profiles,
 )
 from rv_plant.effects import EFFECTS
 from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, poses, needle_bearing, output_pins, gear_stage, contact, assembly, equilibrium, outputs, dynamics, constraints,
-    integrator, motion,
+    plant, mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium, outputs,
+    dynamics, constraints, integrator, motion,
 )  # fmt: skip
 
 

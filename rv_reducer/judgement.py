@@ -3,14 +3,14 @@
 Lost motion is that of the standard stiffness test at one input angle: always the same
 one, so that it changes with wear alone.  It costs two equilibria.
 
-Remaining life extrapolates along straight lines.  Depths grow at the rate of the last
-interval.  The growth of lost motion in so short a time drowns in the equilibrium's
-tolerance; it is taken as proportional to that of the depths.
+Remaining life extrapolates along straight lines.  Depths grow in proportion to the volumes, and these at the
+rate of the last interval: the deepest place itself moves, and grows by fits and starts.  The growth of lost motion in so
+short a time drowns in the equilibrium's tolerance; it is taken as proportional to that of the depths.
 """
 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
-from wear_fmu.contacts import publish_profile_errors
+from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
@@ -40,7 +40,7 @@ def measure_lost_motion(records):
         r.kept[i] = r.cells[i]
     p.ideal_output = p.cage = 0.0
     p.crank_angle = p.output_angle = p.cage_angle = 0.0
-    publish_profile_errors(w, 0.0)
+    read_profiles(w, 0.0, w.mesh_profile_error, w.roller_profile_error)
     torque = LOST_MOTION_SHARE * r.rated_torque
     found_forward, forward = turning_under(p, torque, r.z_forward)
     found_backward, backward = turning_under(p, -torque, r.z_backward)
@@ -52,14 +52,22 @@ def measure_lost_motion(records):
 
 @kernel
 def find_worst_depths(r):
-    r.worst_flank_depth = r.worst_pin_depth = r.worst_race_depth = 0.0
+    """And the volume of the races of which one is the deepest."""
+    r.worst_flank_depth = r.worst_pin_depth = inner = outer = 0.0
     for d in range(r.flank_depth.shape[0]):
         r.worst_flank_depth = max(r.worst_flank_depth, r.flank_depth[d])
         for j in range(r.pin_depth.shape[1]):
             r.worst_pin_depth = max(r.worst_pin_depth, r.pin_depth[d, j])
         for c in range(r.inner_race_depth.shape[1]):
-            deeper = max(r.inner_race_depth[d, c], r.outer_race_depth[d, c])
-            r.worst_race_depth = max(r.worst_race_depth, deeper)
+            inner, outer = max(inner, r.inner_race_depth[d, c]), max(outer, r.outer_race_depth[d, c])
+    r.worst_race_depth = max(inner, outer)
+    return r.inner_race_volume if inner > outer else r.outer_race_volume
+
+
+@kernel
+def growth(depth, volume, judged_volume, passed):
+    """Rate of a depth [m/s] whose volume has grown since the last judgement ``passed`` [s] ago."""
+    return depth * (volume - judged_volume) / (volume * passed) if volume > 0.0 else 0.0
 
 
 @kernel
@@ -105,15 +113,17 @@ def start_judgement(records):
 def judge(records, turned):
     """After a step in which the cranks turned by ``turned`` [rad]."""
     r = records[0]
-    find_worst_depths(r)
+    race_volume = find_worst_depths(r)
     r.turned += turned
     passed = r.operating_time - r.judged_time
-    # A step may miss the interval by rounding.
-    if r.turned < r.judgement_interval * (1.0 - 1e-9) or not passed > 0.0:
+    # Judged is where the surfaces wear, next to the end of the interval.
+    if r.turned < r.judgement_interval - 0.25 * r.largest_crank_step or not passed > 0.0:
         return
     measure_lost_motion(records)
-    flank_rate = (r.worst_flank_depth - r.judged_flank_depth) / passed
-    race_rate = (r.worst_race_depth - r.judged_race_depth) / passed
-    extrapolate_life(r, flank_rate, race_rate)
-    r.judged_time, r.turned = r.operating_time, 0.0
-    r.judged_flank_depth, r.judged_race_depth = r.worst_flank_depth, r.worst_race_depth
+    judged_race = r.judged_inner_volume if race_volume == r.inner_race_volume else r.judged_outer_volume
+    flank_rate = growth(r.worst_flank_depth, r.flank_volume, r.judged_flank_volume, passed)
+    extrapolate_life(r, flank_rate, growth(r.worst_race_depth, race_volume, judged_race, passed))
+    # What is missing comes on top of the next interval.
+    r.judged_time, r.turned = r.operating_time, min(r.turned - r.judgement_interval, 0.0)
+    r.judged_flank_volume = r.flank_volume
+    r.judged_inner_volume, r.judged_outer_volume = r.inner_race_volume, r.outer_race_volume

@@ -4,6 +4,7 @@ from fmu_src.unit import Specification, Unit
 from rv_plant.topology import Topology
 from rv_reducer.reducer import FAULTS, initialise, step
 from rv_reducer.variables import reducer_table
+from wear_fmu.accumulator import CAUTIONS
 from wear_fmu.variables import Resolution
 
 
@@ -13,4 +14,4 @@ def make_unit(specification: Specification) -> Unit:
     table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))
     table = table.with_starts(specification["starts"], specification["sources"])
     # The wear refuses before it changes anything; what the plant changes is what a look at lost motion puts back.
-    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size)
+    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size, cautions=CAUTIONS)

@@ -97,7 +97,5 @@ def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear
     """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
     return export_ssp(
         folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step),
-        # Tools exchange values at the step's start: each unit sees the other one step later.
-        {"wear": {"contact_lead": 2.0}}, f"RV reducer {reducer.name} and its wear", tool,
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool,
     )  # fmt: skip

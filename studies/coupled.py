@@ -19,13 +19,16 @@ def give_forces(p, w):
     """What the plant gives the wear unit."""
     w.crank_angle, w.crank_speed, w.output_angle, w.cage_angle = p.crank_angle, p.crank_speed, p.output_angle, p.cage_angle
     w.temperature = p.reducer_temperature
-    copy_contacts(p.mesh_force, p.roller_force, w.mesh_force, w.roller_force)
+    w.crank_path = p.crank_path
+    copy_contacts(p.mesh_force_path, p.roller_force_path, w.mesh_force_path, w.roller_force_path)
 
 
 @kernel
 def give_profiles(w, p):
     """What the wear unit gives the plant."""
+    p.profile_angle = w.profile_angle
     copy_contacts(w.mesh_profile_error, w.roller_profile_error, p.mesh_profile_error, p.roller_profile_error)
+    copy_contacts(w.mesh_profile_slope, w.roller_profile_slope, p.mesh_profile_slope, p.roller_profile_slope)
 
 
 @kernel

@@ -109,9 +109,6 @@ def make_pair(
     apply(settings, components)
     step = crank_turn_time(reducer, plant) / positions
     master = master_kind(components, CONNECTIONS, step, scheme=scheme)
-    if scheme == "jacobi":
-        # Each unit then sees the other one step later than with Gauss-Seidel.
-        wear.set("contact_lead", 2.0)
     master.initialise()
     pair = Pair(reducer, master, plant, wear, positions, duty)
     if duty:

@@ -4,10 +4,13 @@ import numpy as np
 
 from rv_plant import plant
 from rv_plant.faults import FAULTS
+from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
 from wear_fmu import accumulator
 
+# What a plant without running totals gives, and what ours gives and gets (the temperature stays as it is).
 SHARED = ("crank_angle", "crank_speed", "output_angle", "cage_angle", "mesh_force", "roller_force")
-BACK = ("mesh_profile_error", "roller_profile_error")
+GIVEN = tuple(name for name, target in PLANT_TO_WEAR if name == target)
+BACK = tuple(name for name, _ in WEAR_TO_PLANT)
 ARCSEC = np.degrees(1.0) * 3600.0
 
 
@@ -82,11 +85,11 @@ def pair_of(reducer, **values):
 
 def steps_together(machine, surface, step, count):
     """Initialises the wear unit of an initialised plant and steps both; yields after each step [s]."""
-    exchange(machine, surface, SHARED)
+    exchange(machine, surface, GIVEN)
     assert accumulator.initialise(surface) == 0
     for i in range(count):
         assert plant.step(machine, i * step, step) == 0
-        exchange(machine, surface, SHARED)
+        exchange(machine, surface, GIVEN)
         assert accumulator.step(surface, i * step, step) == 0
         exchange(surface, machine, BACK)
         yield

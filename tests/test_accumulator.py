@@ -155,22 +155,26 @@ def test_wear_goes_with_acceleration_and_does_not_mind_the_direction(rv20e):
     assert fast.crank_travel == pytest.approx(7 * plain.crank_travel, rel=1e-12, abs=0)
 
 
-def test_profile_errors_are_those_at_the_contacts_a_step_ahead(rv20e, coupled):
-    """With a lead of one step they equal what is found, without lead, after that step of ideal kinematics."""
+@pytest.mark.parametrize("sense", [1, -1])
+def test_the_line_of_a_profile_error_meets_the_surface_where_a_step_like_the_last_leads(rv20e, coupled, sense):
     _, worn = coupled[STANDING]
     step, angles = 2e-3, ("crank_angle", "output_angle", "cage_angle")
-    both = [records_of(rv20e.wear, pins=STANDING, contact_lead=lead) for lead in (1.0, 0.0)]
+    both = [records_of(rv20e.wear, pins=STANDING) for _ in range(2)]
     for records in both:
-        exchange(worn, records, (*SURFACES, *angles, *(f"{a}_before" for a in angles), "crank_speed"))
-    ahead, here = (only(records) for records in both)
-    advance = here.crank_speed * step
-    here.crank_angle += advance
-    here.output_angle -= advance / LOBES
-    here.cage_angle += cage_angle(here, advance)
+        exchange(worn, records, (*SURFACES, *angles, *(f"{a}_before" for a in angles), "crank_speed", "lateness"))
+        only(records).crank_speed *= sense
+    ahead, there = (only(records) for records in both)
+    advance = ahead.crank_speed * step
+    there.crank_angle += advance
+    there.output_angle -= advance / LOBES
+    there.cage_angle += cage_angle(there, advance)
+    there.crank_speed = 0.0
     assert [accumulator.step(records, 0.0, step) for records in both] == [0, 0]
-    assert ahead.mesh_profile_error.max() > 1e-7 and ahead.roller_profile_error.max() > 1e-8
-    assert ahead.mesh_profile_error == pytest.approx(here.mesh_profile_error, abs=1e-15)
-    assert ahead.roller_profile_error == pytest.approx(here.roller_profile_error, abs=1e-15)
+    assert there.profile_angle == there.crank_angle and not there.mesh_profile_slope.any()
+    for name in ("mesh_profile", "roller_profile"):
+        line = ahead[f"{name}_error"] + ahead[f"{name}_slope"] * (there.crank_angle - ahead.profile_angle)
+        assert there[f"{name}_error"].max() > 1e-8
+        assert line == pytest.approx(there[f"{name}_error"], abs=1e-15)
 
 
 def test_a_warmer_grease_wears_the_raceways_by_its_pressure_viscosity(rv20e):
@@ -206,9 +210,18 @@ def test_impossible_geometry_gives_its_fault(rv20e, fault, values):
     assert status == fault
 
 
-@pytest.mark.parametrize("angle", [3.2, -3.2, np.nan])
-def test_a_step_over_half_a_turn_is_a_fault(rv20e, angle):
-    records = records_of(rv20e.wear)
-    assert accumulator.initialise(records) == 0
-    records["crank_angle"] = angle
-    assert accumulator.step(records, 0.0, 1.0) == accumulator.LONG_STEP
+@pytest.mark.parametrize("name", ["crank_angle", "output_angle", "cage_angle"])
+def test_angles_that_are_none_or_not_of_one_reducer_are_a_fault(rv20e, name):
+    for angle in (np.nan, 1e6, 4.0):
+        records = records_of(rv20e.wear)
+        assert accumulator.initialise(records) == 0
+        before = records.tobytes()
+        records[name] = angle
+        status = accumulator.step(records, 0.0, 1.0)
+        if name == "crank_angle":
+            assert status == (accumulator.LONG_STEP if angle != 4.0 else 0)
+        else:
+            assert status == accumulator.CAGE_ASTRAY
+        if status:
+            records[name] = 0.0
+            assert records.tobytes() == before

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import equilibrium, motion
+from benchmarks import equilibrium, exchange, motion
 from benchmarks.equilibrium import FREE, compiled, start
 from benchmarks.exudyn_peer import ExudynPlant
 from benchmarks.integrators import first_order
@@ -74,3 +74,10 @@ def test_exudyn_moves_as_the_plant_does(rv20e, numpy):
     problem = Problem(stretch)
     seen = problem.seen(ExudynPlant(problem, numpy).states((8, 1e-3, True, 0.8)))
     assert errors(seen, with_alpha(stretch, 1e-3)[0])[0] < 3e-3
+
+
+def test_the_exchange_converges_with_its_orders():
+    found = exchange.measure(quick=True)
+    assert all(figure.met for figure in found.figures), found.figures
+    (curve,) = found.curves
+    assert len(curve.lines) == 6 and all(points for points in curve.lines.values())

@@ -72,7 +72,7 @@ def test_nothing_at_a_bound_is_a_plain_member():
 def test_an_effect_whose_shape_nothing_tells_is_a_simpler_one_in_disguise():
     """A seat that slips at any small torque is a spring."""
     assert names([rival("slip", 99.0, shape=5.0, known=30.0), rival("spring", 100.0)]) == ["spring"]
-    assert names([rival("slip", 99.0, shape=5.0, known=1.0), rival("spring", 100.0)]) == ["slip", "spring"]
+    assert names([rival("slip", 99.0, shape=5.0, known=1.0), rival("spring", 100.0)]) == ["spring", "slip"]
 
 
 def judged(before, after, p=0.5):

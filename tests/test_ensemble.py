@@ -14,6 +14,7 @@ pytest.importorskip("SALib")
 
 from cli.main import main
 from fmu_src.faults import InputFault
+from rv_reducer.exchange import WEAR_TO_PLANT
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import load_ensemble
@@ -51,8 +52,8 @@ def test_compiled_steps_are_those_of_the_master(rv20e):
         pair.set_operation(-100.0, 50.0)
         pair.master.run(30)
     # The master hands profile errors over when the next step begins, the compiled loop when one ends.
-    pairs[0].plant.records["mesh_profile_error"] = pairs[0].wear.records["mesh_profile_error"]
-    pairs[0].plant.records["roller_profile_error"] = pairs[0].wear.records["roller_profile_error"]
+    for source, target in WEAR_TO_PLANT:
+        pairs[0].plant.records[target] = pairs[0].wear.records[source]
     assert pairs[0].master.save() == pairs[1].master.save()
 
 

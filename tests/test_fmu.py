@@ -63,7 +63,7 @@ def test_every_quantity_has_a_unit_that_is_defined(path):
     defined = {unit.get("name") for unit in root.iter("Unit")}
     bare = {"loaded_teeth", "residual", "first_stage_ratio", "poisson_ratio", "exponent_lankarani", "tolerance",
             "mesh_wear_coefficient", "raceway_wear_coefficient", "run_in_ratio", "load_exponent", "slip_ratio_inner",
-            "slip_ratio_outer", "acceleration", "contact_lead", "restitution", "sun_teeth", "tooth_stiffness_variation",
+            "slip_ratio_outer", "acceleration", "restitution", "sun_teeth", "tooth_stiffness_variation",
             "spectral_radius", "dynamic_tolerance", "energy_error", "pin_wear_share"}  # fmt: skip
     bare |= {v.name for effect in (*PLANT.values(), *WEAR.values()) for v in effect.variables() if v.unit == "1"}
     for variable in root.iter("ScalarVariable"):

@@ -128,7 +128,7 @@ class Fmpy:
 
 
 def test_fmpy_couples_the_units(folder, tmp_path):
-    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}, tmp_path), "wear": Fmpy(folder / "RvWear.fmu", {"contact_lead": 2.0}, tmp_path)}
+    units = {"plant": Fmpy(folder / "RvPlant.fmu", {}, tmp_path), "wear": Fmpy(folder / "RvWear.fmu", {}, tmp_path)}
 
     def exchange():
         moved = [(b, units[a.split(".")[0]].get(a.split(".")[1])) for a, b in CONNECTIONS]
@@ -156,7 +156,7 @@ def test_fmpy_reads_the_package(folder):
     system = ssd.read_ssd(str(folder / "RvReducer.ssp")).system
     assert [element.name for element in system.elements] == ["plant", "wear"]
     pairs = ssd.get_connections(system)
-    assert len(pairs) == (9 if folder.name == "fmi3" else 5 + 2 * 80 + 2 * 64)
+    assert len(pairs) == (13 if folder.name == "fmi3" else 7 + 3 * 80 + 3 * 64)
 
 
 @pytest.mark.parametrize("file, schema", [

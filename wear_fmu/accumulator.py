@@ -10,8 +10,8 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
-from wear_fmu.chosen_surfaces import FLANK, GUARDS, INNER, OUTER, PIN
-from wear_fmu.contacts import first_roller, flank_position, pin_position, publish_profile_errors, shortening
+from wear_fmu.chosen_surfaces import GUARDS
+from wear_fmu.contacts import publish_profiles, shortening
 from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
@@ -21,11 +21,18 @@ from wear_fmu.kinematics import (
     printed_sliding_per_crank_angle,
     sliding_per_crank_angle,
 )
-from wear_fmu.surfaces import add_flank_pass, add_footprint, add_pass, interpolate_closed
-from wear_fmu.wear_laws import run_in_factor, wear_coefficient
+from wear_fmu.received import keep_received, receive
+from wear_fmu.sweeps import swept_part, wear_meshes, wear_raceways
+from wear_fmu.wear_laws import mean_run_in_factor
 
 effects = compose("wear_fmu.effects", HOOKS, GUARDS)
-prepare_effects, advance_effects, effect_factor = effects.prepare, effects.advance, effects.factor
+prepare_effects, advance_effects = effects.prepare, effects.advance
+
+# A step in which the cranks turn further is divided [rad], into at most so many parts.
+LONGEST_SWEEP = math.radians(5.0)
+MOST_SWEEPS = 100_000
+# Whether the inputs are those of a step's end or of its beginning.
+UNDECIDED, ON_TIME, LATE = 0, 1, 2
 
 PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
 FAULTS = {
@@ -34,10 +41,14 @@ FAULTS = {
     UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
     " centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
     LONG_STEP: "the cranks moved from {crank_angle_before:.6g} to {crank_angle:.6g} rad in one communication step,"
-    " more than half a turn: the wear cannot be placed. Use a shorter communication step",
-    CAGE_ASTRAY: "carrier or cages moved more than half a turn in one communication step, output_angle to"
-    " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect both angles, or use"
-    " a shorter communication step",
+    " more than a unit can be meant to follow. Use a shorter communication step",
+    CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output_angle to"
+    " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank_angle, output_angle and"
+    " cage_angle of the same reducer",
+}
+CAUTIONS = {
+    "coarse_steps": "between two communication points the cranks turned by more than 20 degrees, or to and fro by more than 1: where the"
+    " wear was and under which forces is not known there, coarse_steps counts such steps. Use a shorter communication step",
 }
 
 
@@ -50,10 +61,6 @@ def variables(sizes: Sizes) -> list[Variable]:
         Variable("cage_angle", "input", "rad", "angle of the roller cages against the discs"),
         Variable("temperature", "input", "K", "temperature of the contacts", 293.15, minimum=200.0, maximum=500.0,
                  nominal=300.0, source="assumed: room temperature"),
-        Variable("mesh_force", "input", "N", "force between disc and pin, mean over the communication step",
-                 **contact, nominal=100.0),
-        Variable("roller_force", "input", "N", "force on a roller, mean over the communication step",
-                 **roller, nominal=100.0),
         parameter("pins", "1", "whether the pins turn in their grooves and wear all round, or stand", 0,
                   choices=("turn", "stand"), source="assumed: they turn, which agrees with ten times less wear than"
                   " the disc"),
@@ -61,11 +68,11 @@ def variables(sizes: Sizes) -> list[Variable]:
                   source="assumed: as hard as the discs, either loses the same area"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
-        parameter("contact_lead", "1", "profile errors are given for the contact this many communication steps"
-                  " ahead; 0 gives the present contact", 1.0, 0.0, 10.0, tunable=True,
-                  source="1 makes the exchange of plant and wear second order in the step"),
+        output("profile_angle", "rad", "crank angle that the profile errors hold for"),
         output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
         output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        output("mesh_profile_slope", "m/rad", "change of mesh_profile_error as the cranks turn on", **contact, nominal=1e-4),
+        output("roller_profile_slope", "m/rad", "change of roller_profile_error as the cranks turn on", **roller, nominal=1e-4),
         output("operating_time", "s", "time that the wear stands for", nominal=1e6),
         output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
         state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
@@ -73,6 +80,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
         state("cage_angle_before", "rad", "cage angle at the last step"),
+        state("temperature_before", "K", "temperature at the last step"),
+        state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True),
     ]
 
 
@@ -122,166 +131,61 @@ def initialise(records):
     r.standing = 1.0 if r.pins == 1 else 0.0
     prepare_effects(r)
     r.standing = min(1.0, r.standing)
-    r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
+    keep_received(r)
     return 0
 
 
 @kernel
-def wear_meshes(r, modulus, viscosity, run_in):
-    """Flanks and pins."""
-    discs, pins = r.mesh_force.shape
-    lobes = pins - 1
-    bins = r.arc.shape[0]
-    k1 = shortening(r)
-    contact_modulus = 0.5 * modulus
-    for d in range(discs):
-        for j in range(pins):
-            force = r.mesh_force[d, j]
-            if force <= 0.0:
-                continue
-            start, end = flank_position(r, d, j, r.crank_angle_before), flank_position(r, d, j, r.crank_angle)
-            line_load = force / r.mesh_width
-            curvature = equivalent_curvature(
-                math.pi * (start + end) / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
-            )
-            k = wear_coefficient(
-                r.mesh_wear_law, r.mesh_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                r.reference_line_load, r.roughness, viscosity, modulus, line_load, 1.0 / curvature,
-            )
-            of_flank = of_pin = r.acceleration * k * line_load
-            if r.effects_on:
-                middle = 0.5 * (start + end)
-                speed = abs(r.crank_speed) * sliding_per_crank_angle(
-                    2.0 * math.pi * middle / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
-                )
-                depth = interpolate_closed(r.disc_wear[d], middle)
-                of_flank *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth, FLANK)
-                of_pin *= effect_factor(r, FLANK, line_load, 1.0 / curvature, abs(speed), depth, PIN)
-            deepest, place, slid = add_flank_pass(
-                r.disc_wear[d], start, end, of_flank, r.slide, r.slide_before, r.arc
-            )
-            r.flank_volume += of_flank * slid * r.mesh_width
-            if deepest > r.flank_depth[d]:
-                r.flank_depth[d] = deepest
-                r.flank_lobe[d] = place // bins + 1
-                r.flank_phase[d] = 2.0 * math.pi * (place % bins + 0.5) / bins
-            # The pin loses its share of the same area, all round or where it is touched.
-            worn = r.pin_wear_share * of_pin * slid
-            r.pin_volume += worn * r.mesh_width
-            round_share = 1.0 - r.standing
-            r.pin_even_wear[d, j] += round_share * worn / (2.0 * math.pi * r.pin_radius)
-            if r.standing == 0.0:
-                r.pin_depth[d, j] = r.pin_even_wear[d, j]
-            else:
-                deepest = wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, r.standing * worn)
-                r.pin_depth[d, j] = max(r.pin_depth[d, j], r.pin_even_wear[d, j] + deepest)
+def wear_part(r, count, i, duration):
+    """Part ``i`` of ``count`` equal ones of a step of ``duration`` [s]."""
+    swept_part(r, float(i) / count, (i + 1.0) / count)
+    modulus = r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
+    warmer = 0.5 * (r.temperature_before + r.temperature) - r.reference_temperature
+    viscosity = r.pressure_viscosity * math.exp(-r.pressure_viscosity_slope * warmer)
+    path, time = r.acceleration * r.path / count, r.acceleration * duration / count
+    run_in = mean_run_in_factor(r.run_in_ratio, r.crank_travel, path, r.run_in_time * r.run_in_crank_speed)
+    travelled, passed = r.crank_travel, r.operating_time
+    if path > 0.0:
+        # What effects take from travel and time they take at the part's middle.
+        r.crank_travel, r.operating_time = travelled + 0.5 * path, passed + 0.5 * time
+        after = (i + 0.5) / count - 0.5
+        wear_meshes(r, modulus, viscosity, run_in, after)
+        wear_raceways(r, modulus, viscosity, run_in, after)
+    r.crank_travel, r.operating_time = travelled + path, passed + time
+    advance_effects(r, time)
 
 
-@kernel
-def wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus, worn):
-    """Spread the worn area over what the contact sweeps on the pin; returns the deepest depth touched.
-
-    Where the contact turns back within the step the sweep has two parts.
-    """
-    bins, flank_bins = r.pin_wear.shape[2], r.arc.shape[0]
-    bin_arc = math.pi * r.pin_radius / bins
-    half_width = math.sqrt(4.0 * line_load / (math.pi * curvature * contact_modulus)) / bin_arc
-    # The contact on the pin turns back at the phase acos(K1), on either flank.
-    turning = math.acos(shortening(r)) / (2.0 * math.pi) * flank_bins
-    lobe = math.floor(0.5 * (start + end) / flank_bins) * flank_bins
-    split = middle = 0.0
-    for side in (lobe + turning, lobe + flank_bins - turning):
-        if (start - side) * (end - side) < 0.0:
-            split = (side - start) / (end - start)
-            middle = pin_position(r, side)
-    if split == 0.0:
-        return add_footprint(
-            r.pin_wear[d, j], pin_position(r, start), pin_position(r, end), half_width, worn / bin_arc
-        )[0]
-    first = add_footprint(r.pin_wear[d, j], pin_position(r, start), middle, half_width, split * worn / bin_arc)[0]
-    second = add_footprint(
-        r.pin_wear[d, j], middle, pin_position(r, end), half_width, (1.0 - split) * worn / bin_arc
-    )[0]
-    return max(first, second)
-
-
-@kernel
-def wear_raceways(r, modulus, viscosity, run_in):
-    """Cranks' lobes and holes of the discs: depth k q xi per pass of a roller."""
-    discs, cranks, rollers = r.roller_force.shape
-    bins = r.inner_race_wear.shape[2]
-    bin_angle = 2.0 * math.pi / bins
-    inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
-    outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)
-    race_speed = abs(r.crank_speed) * 0.5
-    for d in range(discs):
-        for c in range(cranks):
-            inner_start, outer_start = first_roller(
-                r, d, c, r.crank_angle_before, r.output_angle_before, r.cage_angle_before
-            )
-            inner_end, outer_end = first_roller(r, d, c, r.crank_angle, r.output_angle, r.cage_angle)
-            for i in range(rollers):
-                force = r.roller_force[d, c, i]
-                if force <= 0.0:
-                    continue
-                line_load = force / r.roller_length
-                ahead = 2.0 * math.pi * i / rollers
-                k_inner = wear_coefficient(
-                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, inner_radius,
-                )
-                k_outer = wear_coefficient(
-                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, outer_radius,
-                )
-                amount = r.acceleration * k_inner * line_load * r.slip_ratio_inner
-                if r.effects_on:
-                    speed = race_speed * r.slip_ratio_inner * r.inner_race_radius
-                    depth = interpolate_closed(r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, INNER, line_load, inner_radius, speed, depth, INNER)
-                deepest, place = add_pass(
-                    r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle, (inner_end + ahead) / bin_angle, amount
-                )
-                if deepest > r.inner_race_depth[d, c]:
-                    r.inner_race_depth[d, c] = deepest
-                    r.inner_race_angle[d, c] = (place + 0.5) * bin_angle
-                swept = abs(inner_end - inner_start) * r.inner_race_radius
-                r.inner_race_volume += amount * swept * r.roller_length
-                amount = r.acceleration * k_outer * line_load * r.slip_ratio_outer
-                if r.effects_on:
-                    speed = race_speed * r.slip_ratio_outer * r.outer_race_radius
-                    depth = interpolate_closed(r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, OUTER, line_load, outer_radius, speed, depth, OUTER)
-                deepest, place = add_pass(
-                    r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle, (outer_end + ahead) / bin_angle, amount
-                )
-                if deepest > r.outer_race_depth[d, c]:
-                    r.outer_race_depth[d, c] = deepest
-                    r.outer_race_angle[d, c] = (place + 0.5) * bin_angle
-                swept = abs(outer_end - outer_start) * r.outer_race_radius
-                r.outer_race_volume += amount * swept * r.roller_length
+@entry_point
+def take_off(records, duration):
+    """What the contacts take off on their way to the present input angles."""
+    r = records[0]
+    turned = abs(r.crank_angle - r.crank_angle_before)
+    if not turned <= MOST_SWEEPS * LONGEST_SWEEP:
+        return LONG_STEP
+    carried, rolled = abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before)
+    if not (carried <= math.pi + turned and rolled <= math.pi + turned):
+        return CAGE_ASTRAY
+    receive(r)
+    if not r.path <= MOST_SWEEPS * LONGEST_SWEEP:
+        return LONG_STEP
+    count = max(1, math.ceil(turned / LONGEST_SWEEP - 1e-3))
+    for i in range(count):
+        wear_part(r, count, i, duration)
+    keep_received(r)
+    return 0
 
 
 @entry_point
 def step(records, time, duration):
     """Wear of one communication step: contacts moved to the present input angles."""
     r = records[0]
-    moved = abs(r.crank_angle - r.crank_angle_before)
-    if not moved <= math.pi:
-        return LONG_STEP
-    turned = max(abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before))
-    if not turned <= math.pi:
-        return CAGE_ASTRAY
-    modulus = r.elastic_modulus / (1.0 - r.poisson_ratio * r.poisson_ratio)
-    warmer = r.temperature - r.reference_temperature
-    viscosity = r.pressure_viscosity * math.exp(-r.pressure_viscosity_slope * warmer)
-    run_in = run_in_factor(r.run_in_ratio, r.crank_travel, r.run_in_time * r.run_in_crank_speed)
-    if r.acceleration > 0.0 and moved > 0.0:
-        wear_meshes(r, modulus, viscosity, run_in)
-        wear_raceways(r, modulus, viscosity, run_in)
-    r.operating_time += r.acceleration * duration
-    r.crank_travel += r.acceleration * moved
-    advance_effects(r, r.acceleration * duration)
-    r.crank_angle_before, r.output_angle_before, r.cage_angle_before = r.crank_angle, r.output_angle, r.cage_angle
-    publish_profile_errors(r, r.contact_lead * duration)
+    if r.lateness == UNDECIDED and r.crank_speed * duration != 0.0:
+        # Who exchanges at the steps' beginning hands over in the first one what was there before it.
+        moved = abs(r.crank_angle - r.crank_angle_before)
+        r.lateness = LATE if moved < 0.25 * abs(r.crank_speed) * duration else ON_TIME
+    fault = take_off(records, duration)
+    if fault != 0:
+        return fault
+    turning = r.crank_speed * duration
+    publish_profiles(r, turning if r.lateness == LATE else 0.0, r.crank_speed, turning)
     return 0

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from fmu_src.unit import Specification, Unit
-from wear_fmu.accumulator import FAULTS, initialise, step
+from wear_fmu.accumulator import CAUTIONS, FAULTS, initialise, step
 from wear_fmu.variables import Resolution, wear_table
 
 
@@ -12,4 +12,4 @@ def make_unit(specification: Specification) -> Unit:
     sizes = specification["sizes"]
     table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))
     table = table.with_starts(specification["starts"], specification["sources"])
-    return Unit(table, initialise, step, FAULTS, fault_reach=0)
+    return Unit(table, initialise, step, FAULTS, fault_reach=0, cautions=CAUTIONS)

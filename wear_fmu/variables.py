@@ -6,11 +6,11 @@ from typing import Any
 
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Sizes, Table, Variable
-from wear_fmu import accumulator, kinematics, surfaces, wear_laws
+from wear_fmu import accumulator, kinematics, received, surfaces, sweeps, wear_laws
 from wear_fmu.effects import EFFECTS
 
 # In this order they stand in the table, within each role.
-PIECES = (kinematics, wear_laws, accumulator, surfaces)
+PIECES = (kinematics, wear_laws, accumulator, received, sweeps, surfaces)
 
 
 @dataclass(frozen=True)

@@ -61,6 +61,14 @@ def run_in_factor(ratio, travel, run_in_travel):
 
 
 @kernel
+def mean_run_in_factor(ratio, travel, turned, run_in_travel):
+    """Mean of it over the next ``turned`` [rad], exact: parts of a way add up."""
+    decay = turned / run_in_travel
+    share = -math.expm1(-decay) / decay if decay > 1e-12 else 1.0
+    return 1.0 + (ratio - 1.0) * math.exp(-travel / run_in_travel) * share
+
+
+@kernel
 def load_factor(line_load, reference_line_load, exponent):
     """(q/q0)^m."""
     if exponent == 0.0:

@@ -224,7 +224,7 @@ class Bench:
                 wears = self.worn(condition, values, condition.hours).copy()
                 for name in ("crank_angle", "output_angle", "cage_angle"):
                     wears[name] = wears[f"{name}_before"] = plants[name]
-                wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
+                wears["acceleration"] = 0.0
             out_speed = condition.speed / abs(self.ratio)
             durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
@@ -232,7 +232,7 @@ class Bench:
             similar = self.running_places(condition, {}, angles)[1] if relevant else places
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
-                self.check(coupled.step_pair(plants, wears, 0.0, 0.0), plants, wears)
+                self.put_wear(condition, values, plants)
             status = coupled.sweep(plants, wears, durations, series, condition.hours > 0.0, places, similar, bool(relevant))
             self.check(status, plants, wears)
             return series, places
@@ -329,7 +329,7 @@ class Bench:
         wears = self.worn(condition, values, condition.hours).copy()
         for name in ("crank_angle", "output_angle", "cage_angle"):
             wears[name] = wears[f"{name}_before"] = plants[name]
-        wears["acceleration"], wears["contact_lead"] = 0.0, 0.0
+        wears["acceleration"] = wears["crank_speed"] = 0.0
         self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]

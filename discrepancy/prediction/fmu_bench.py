@@ -100,15 +100,16 @@ class FmuBench(Bench):
         wear, plant = self.wear, self.plant
         wear.restore(state)
         wear.set("acceleration", 0.0)
-        wear.set("contact_lead", 0.0)
+        wear.set("crank_speed", 0.0)
         names = ("crank_angle", "output_angle", "cage_angle")
         start, end = (np.array([unit.get(name) for name in names]) for unit in (wear, plant))
         for angles in np.linspace(start, end, 2 + int(np.abs(end - start).max() / LONGEST_WEAR_STEP))[1:]:
             for name, angle in zip(names, angles):
                 wear.set(name, angle)
             wear.step(self.time, MOMENT)
-        for name in ("mesh_profile_error", "roller_profile_error"):
-            plant.set(name, wear.get(name))
+        for source, target in CONNECTIONS:
+            if source.startswith("wear."):
+                plant.set(target.partition(".")[2], wear.get(source.partition(".")[2]))
 
     def worn_state(self, condition: Condition, values: Mapping[str, float]) -> bytes | None:
         """The wear unit's FMU state after the condition's hours, if there are any."""

@@ -106,6 +106,16 @@ static enum status check_step(struct instance *i, const char *function, double t
     return OK;
 }
 
+static void say_cautions(struct instance *i)
+{
+    for (int k = 0; k < unit.caution_count; k++) {
+        if (i->cells[unit.cautions[k].cell].integer == 0 || i->cautioned >> k & 1)
+            continue;
+        i->cautioned |= (uint32_t)1 << k;
+        report(i, WARNING, "at time %.9g s: %s", i->time, unit.cautions[k].text);
+    }
+}
+
 enum status do_step(struct instance *i, const char *function, double time, double duration)
 {
     enum status status = check_step(i, function, time, duration);
@@ -118,6 +128,7 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     const struct variable *spoilt = code ? NULL : spoilt_output(i);
     if (!code && !spoilt) {
         i->time = time + duration;
+        say_cautions(i);
         return status;
     }
     if (code)

@@ -31,6 +31,7 @@ struct instance {
     int is_stale;    /* initialisation mode: outputs do not fit the values set */
     double time, stop_time;
     enum status last_step;
+    uint32_t cautioned; /* one bit per caution that was said */
     union cell *cells;
     union cell *backup; /* guarded cells before a step; NULL if failing steps change nothing */
     struct state *states; /* those handed out, see state.c */

@@ -20,6 +20,7 @@ static void set_starts(struct instance *i)
     i->time = 0.0;
     i->stop_time = INFINITY;
     i->last_step = OK;
+    i->cautioned = 0;
 }
 
 static struct instance *new_instance(const char *name)

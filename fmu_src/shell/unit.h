@@ -53,6 +53,12 @@ struct fault {
     int piece_count;
 };
 
+/* Said once when the integer in the cell is no longer 0. */
+struct caution {
+    uint32_t cell;
+    const char *text;
+};
+
 struct unit {
     const char *name;
     const char *identity; /* FMI 2 guid, FMI 3 instantiation token */
@@ -63,6 +69,8 @@ struct unit {
     int run_count;
     const struct fault *faults;
     int fault_count;
+    const struct caution *cautions; /* at most 32 */
+    int caution_count;
     const char *const *categories;
     int category_count;
     uint32_t guarded_cells; /* leading cells that a failing step may have changed */

@@ -76,6 +76,7 @@ class KernelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
         self.initialising = self.stale = False
         self.first_output = self.table.offset[self.table.of_role("output")[0].name]
         self.time = 0.0
+        self.cautioned: set[str] = set()
         self.lists: dict[tuple[bool, int, int], tuple[list[int], Integers]] = {}
         self.initialise, self.step = self.entry_points(folder)
 
@@ -145,6 +146,10 @@ class KernelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
             )
         self.attempt(lambda: self.step(current_time, step_size), current_time, self.unit.guarded_cells)
         self.time = current_time + step_size
+        for name, text in self.unit.due_cautions(self.records).items():
+            if name not in self.cautioned:
+                self.cautioned.add(name)
+                self.log(f"{self.table.name}: at time {self.time:.9g} s: {text}", Fmi2Status.warning)
         return True
 
     def attempt(self, entry_point: Callable[[], int], time: float, guarded: int) -> None:

@@ -117,7 +117,8 @@ class Master:
     def warnings(self) -> list[str]:
         """What the user should know of this run: each thing once."""
         residuals = [warning for bond in self.bonds if (warning := bond.warning()) is not None]
-        return [*self.notes, *residuals]
+        of_units = [text for component in self.components.values() for text in component.cautions()]
+        return [*self.notes, *residuals, *of_units]
 
     def warn(self, text: str) -> None:
         # The same kind of warning again and again would bury the others.

@@ -21,6 +21,7 @@ only: where positions are exchanged but the error enters velocities, name these 
 """
 
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, Protocol
 
 import numpy as np
@@ -64,22 +65,24 @@ class Probe:
 
     def __init__(self, components: dict[str, Component], outputs: list[tuple[str, Signal]]):
         chosen = list({(name, signal.name): (name, signal) for name, signal in outputs if signal.dtype == "f8"}.values())
+        # All of a component together: a package of FMI 2 connects hundreds of scalars, each a signal of its own.
+        chosen.sort(key=lambda pair: pair[0])
         self.values = np.zeros(sum(len(signal.references) for _, signal in chosen))
         self.size = np.array([signal.nominal or 0.0 for _, signal in chosen])
-        self.parts, self.reads = [], []
+        self.lengths = [len(signal.references) for _, signal in chosen]
+        self.firsts = np.cumsum([0, *self.lengths[:-1]], dtype=int)
+        self.reads = []
         first = 0
-        for name, signal in chosen:
-            part = self.values[first : first + len(signal.references)]
-            first += part.size
-            self.parts.append(part)
-            self.reads.append(components[name].reader(signal.references, part))
-        self.lengths = [part.size for part in self.parts]
+        for name, group in groupby(chosen, key=lambda pair: pair[0]):
+            references = tuple(r for _, signal in group for r in signal.references)
+            self.reads.append(components[name].reader(references, self.values[first : first + len(references)]))
+            first += len(references)
 
     def read(self) -> Floats:
         for read in self.reads:
             read()
-        for i, part in enumerate(self.parts):
-            self.size[i] = max(self.size[i], np.abs(part).max(initial=0.0))
+        if self.values.size:
+            np.maximum(self.size, np.maximum.reduceat(np.abs(self.values), self.firsts), out=self.size)
         return self.values.copy()
 
     def error(self, one: Floats, other: Floats) -> float:

@@ -41,12 +41,12 @@ def advance(r, duration):
     r.skid = 0.0
     if r.skid_share == 0.0:
         return
-    discs, cranks, rollers = r.roller_force.shape
+    discs, cranks, rollers = r.roller_mean.shape
     total = 0.0
     for d in range(discs):
         for c in range(cranks):
             for k in range(rollers):
-                total += r.roller_force[d, c, k]
+                total += r.roller_mean[d, c, k]
     r.skid = r.skid_share * math.exp(-total / (discs * cranks) / r.skid_load)
 
 

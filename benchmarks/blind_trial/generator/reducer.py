@@ -85,7 +85,7 @@ class Plain:
         require(accumulator.initialise(w) == 0)
         if surfaces is not None:
             surfaces(w)
-        w["acceleration"] = w["contact_lead"] = 0.0
+        w["acceleration"] = 0.0
         return p, w
 
     def sweep(
@@ -150,7 +150,6 @@ class Plain:
         ``mild`` as in ``stepping.run``; ``life`` has the keys hours, travel, depth (by surface), iron (kg).
         """
         p, w = self.start(setting, parts)
-        w["contact_lead"] = 1.0  # profile errors for the next contact: second order in the step
         turn = 2.0 * math.pi * self.ratio / (setting.speed * self.lobes)
         turns, positions = self.cycle
         step, steps = turn / positions, turns * positions

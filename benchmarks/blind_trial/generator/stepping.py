@@ -34,12 +34,15 @@ def wear_with(plants, wears, time, duration, mild):
             for k in range(rollers):
                 w.roller_force[d, c, k] = that_wears(p.roller_force[d, c, k], mild[2], mild[0], RACE_POWER)
     status = step_wear(wears, time, duration)
+    p.profile_angle = w.profile_angle
     for d in range(discs):
         for j in range(pins):
             p.mesh_profile_error[d, j] = w.mesh_profile_error[d, j]
+            p.mesh_profile_slope[d, j] = w.mesh_profile_slope[d, j]
         for c in range(cranks):
             for k in range(rollers):
                 p.roller_profile_error[d, c, k] = w.roller_profile_error[d, c, k]
+                p.roller_profile_slope[d, c, k] = w.roller_profile_slope[d, c, k]
     return status
 
 
