@@ -7,7 +7,7 @@ import pytest
 
 from discrepancy.inference.diagnose import against
 from discrepancy.inference.held_out.held_out import HeldOut
-from discrepancy.inference.refit.confusable import PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
+from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
 from discrepancy.problem import Candidate, Parameter
 
@@ -18,6 +18,11 @@ class Fit:
     values: dict
     at_bounds: tuple = ()
     parameters: list = field(default_factory=list)
+
+    @property
+    def normal(self):
+        return np.eye(len(self.parameters))
+
 
 
 @dataclass
@@ -56,8 +61,8 @@ def test_membership_follows_the_likelihood():
 
 def test_a_gain_of_500_percent_stands_beside_nothing():
     """Fits as well, but its size is 500 times what is usual."""
-    assert implausible(rival("gain", 100.0, 5.0, 0.01)) == pytest.approx((500.0 / PLAUSIBLE - 1.0) ** 2)
-    assert names([rival("gain", 95.0, 5.0, 0.01), rival("stiffness", 100.0)]) == ["stiffness"]
+    assert implausible(rival("gain", 100.0, 5.0, 0.01)) == pytest.approx((np.log10(500.0 / PLAUSIBLE) / DECADE) ** 2)
+    assert names([rival("gain", 80.0, 5.0, 0.01), rival("stiffness", 100.0)]) == ["stiffness"]
 
 
 def test_nothing_at_a_bound_is_a_plain_member():

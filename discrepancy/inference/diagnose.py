@@ -1,5 +1,6 @@
 """The diagnosis: base fit, localisation, screening, refits, rivals, verdict."""
 
+import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
@@ -12,8 +13,8 @@ from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation, Localiser
-from discrepancy.inference.refit.confusable import FORM, canonical_correlation, confusable_set, ends_at_a_bound, penalised
-from discrepancy.inference.refit.curvature import with_secants
+from discrepancy.inference.refit.confusable import FORM, canonical_correlation, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised
+from discrepancy.inference.refit.curvature import covariance_by_secants
 from discrepancy.inference.refit.effect_fit import renew
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
@@ -27,6 +28,10 @@ HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 # Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
 FAR_SHORT = 0.2
+# A one-sided effect whose score is below this chi-square may begin with no slope; so many of them are tried beside others.
+SEEN_AT_ONCE, MOST_THRESHOLDS = 4.0, 3
+# So many further effects are tried beside what is there already.
+MOST_TRIALS = 7
 # So many of the best fits are looked for from other starts too.
 FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained.
@@ -45,6 +50,11 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
         if counts[effect] <= 2:
             kept.append(s)
     return kept
+
+
+def foremost(trials: Sequence[Refit]) -> Refit:
+    """The best of joint fits, those whose newest effect ends at a bound after all others."""
+    return min([t for t in trials if not newest_at_a_bound(t)] or trials, key=penalised)
 
 
 def against(judged: HeldOut | None) -> str:
@@ -155,7 +165,8 @@ class Diagnostician:
         if key in self.final_fits:
             return self.final_fits[key]
         self.space.predictions.settle(result.fit.values)
-        better = finished(self.space, result.candidates, with_secants(self.space, renew(self.space, result.fit, result.candidates), result.candidates))
+        better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
+        better = dataclasses.replace(better, covariance=covariance_by_secants(self.space, better.fit, result.candidates))
         self.fitted[key] = self.final_fits[key] = better
         return better
 
@@ -165,15 +176,17 @@ class Diagnostician:
         while len(current.candidates) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
-            promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:4]
+            promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
             least, lenient = self.least_gain(current, best)
             promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
+            if lenient:
+                promising += self.thresholds(more, [*names, *(s.name for s in promising)])
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
             trials = self.space.threads.map(partial(self.beside, names, own), promising)
             # exchange of an earlier member: the first choice was made without the second
-            challenger = min(trials, key=penalised)
+            challenger = foremost(trials)
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 for other in few_of_each(self.screening.scores)[:5]:
@@ -181,7 +194,7 @@ class Diagnostician:
                         continue
                     if joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * challenger.gain:
                         trials.append(self.fit([other.name, newest]))
-            challenger = self.renewed(min(trials, key=penalised))
+            challenger = self.renewed(foremost(trials))
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
                 break
@@ -191,6 +204,17 @@ class Diagnostician:
             if len(current.candidates) <= len(names):
                 break
         return current
+
+    def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
+        """Effects that begin with no slope (play): beside others a score test may not see them, so they are tried at their typical size."""
+        found = []
+        for s in more.scores:
+            c = self.by_name[s.name]
+            alone = len(c.amplitudes) == 1 and c.amplitudes[0].sign != 0 and not c.shapes
+            if alone and s.name not in known and s.statistic < SEEN_AT_ONCE:
+                p = c.amplitudes[0]
+                found.append(dataclasses.replace(s, start={p.name: p.off + p.sign * p.scale}))
+        return found[:MOST_THRESHOLDS]
 
     def least_gain(self, current: Refit, first: Refit) -> tuple[float, bool]:
         """What a further effect must gain, and whether that is less than a fixed part of the first: then it must be seen elsewhere too."""
@@ -309,7 +333,7 @@ class Diagnostician:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
         margin = self.settings.adequate_margin + FORM * max(members[0].gain, 0.0)
-        near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and penalised(r) - least <= margin]
+        near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
         return [r for r in near if not self.leftover(r)[0]]
 
     def _dof(self, result: Refit) -> float:

@@ -8,7 +8,7 @@ from scipy.stats import t as student
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.refit.refit import UNDETERMINED, Refit
 from discrepancy.problem import Parameter
 
 MARGIN = 6.0
@@ -16,7 +16,9 @@ MARGIN = 6.0
 PER_PARAMETER = 2.0
 """Price of a further parameter, in chi-square (Akaike)."""
 PLAUSIBLE = 10.0
-"""Amplitudes up to this many times their typical size cost nothing (assumed); beyond, the price grows with the square."""
+"""Amplitudes up to this many times their typical size cost nothing (assumed)."""
+DECADE = 0.3
+"""Beyond, an amplitude twice as large is one standard deviation less plausible (assumed): real parts may be far softer than typical."""
 IDLE = 0.25
 """A shape known no better than this share of its whole range, in the logarithm, is not known."""
 NEAR = 0.01
@@ -29,7 +31,7 @@ def implausible(rival: Refit) -> float:
     """Chi-square of the amplitudes' disagreement with their plausible range."""
     amplitudes = [p for c in rival.candidates for p in c.amplitudes]
     sizes = (abs(rival.fit.values[p.name] - p.off) / (PLAUSIBLE * p.scale) for p in amplitudes)
-    return float(sum(max(size - 1.0, 0.0) ** 2 for size in sizes))
+    return float(sum((np.log10(max(size, 1.0)) / DECADE) ** 2 for size in sizes))
 
 
 def penalised(rival: Refit) -> float:
@@ -39,15 +41,27 @@ def penalised(rival: Refit) -> float:
 
 def ends_at_a_bound(rival: Refit) -> bool:
     """Whether a parameter ended at a bound, or a shape so near to one that the effect stands for another, simpler one."""
-    return any(p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name]) for p in rival.own)
+    return any(_at_a_bound(rival, p) for p in rival.own)
+
+
+def newest_at_a_bound(joint: Refit) -> bool:
+    """The same of the effect that came last to a joint fit."""
+    return any(_at_a_bound(joint, p) for p in joint.candidates[-1].parameters)
+
+
+def _at_a_bound(rival: Refit, p: Parameter) -> bool:
+    return p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name])
 
 
 def has_idle_shapes(rival: Refit) -> bool:
     """Whether the data say nothing about one of its shapes: then it is a simpler effect in disguise."""
     names = [p.name for p in rival.fit.parameters]
-    shapes = [p for c in rival.candidates for p in c.shapes if p.lower > 0.0]
-    deviations = [(p, float(np.sqrt(max(rival.covariance[names.index(p.name), names.index(p.name)], 0.0)))) for p in shapes]
-    return any(d == 0.0 or d / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower) for p, d in deviations)
+    for p in (p for c in rival.candidates for p in c.shapes if p.lower > 0.0):
+        k = names.index(p.name)
+        deviation = float(np.sqrt(max(rival.covariance[k, k], 0.0)))
+        if rival.fit.normal[k, k] * p.scale**2 < UNDETERMINED or deviation / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower):
+            return True
+    return False
 
 
 def _near_a_bound(p: Parameter, value: float) -> bool:

@@ -10,9 +10,10 @@ from functools import partial
 
 import numpy as np
 
-from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
+from discrepancy.inference.base_fit.fit import Box, Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.problem import Candidate
+from fmu_src.arrays import Floats
 
 # The first axes are those of the derivatives; the second time they are the right ones.
 ROUNDS = 2
@@ -20,23 +21,23 @@ ROUNDS = 2
 LEAST, MOST = 1e-3, 1.0
 
 
-def with_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
-    """The fit with the sensitivities of its effects' parameters taken over a standard deviation, and one step further."""
+def covariance_by_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Floats:
+    """Covariance (p, p) of all parameters, the sensitivities of the effects' own taken over a standard deviation."""
     own = [p for c in candidates for p in c.parameters]
     places = [fit.names.index(p.name) for p in own]
-    if not own:
-        return fit
     box, part = Box(fit.parameters), Box(own)
-    for _ in range(ROUNDS):
-        x = box.array(fit.values)
-        covariance = np.linalg.pinv(fit.normal * np.outer(box.scale, box.scale), rcond=1e-11, hermitian=True)[np.ix_(places, places)]
-        variances, axes = np.linalg.eigh(covariance)
+    x, units = box.array(fit.values), np.outer(box.scale, box.scale)
+    covariance = np.linalg.pinv(fit.normal * units, rcond=1e-11, hermitian=True)
+    for _ in range(ROUNDS if own else 0):
+        variances, axes = np.linalg.eigh(covariance[np.ix_(places, places)])
         steps = axes * np.clip(np.sqrt(np.maximum(variances, 0.0)), LEAST, MOST)
         columns = fit.jacobian.copy()
         along = np.column_stack(space.threads.map(partial(_along, space, box, part, x, places), list(steps.T)))
         columns[:, places] = along @ np.linalg.inv(steps) / part.scale
-        fit = _further(space, fit, box, x, columns)
-    return fit
+        normal = columns.T @ columns + np.diag(box.precision)
+        covariance = np.linalg.pinv(normal * units, rcond=1e-11, hermitian=True)
+    found: Floats = covariance * units
+    return found
 
 
 def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequence[int], step: np.ndarray) -> np.ndarray:
@@ -54,17 +55,3 @@ def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequenc
         parts.append(share)
     whole = parts[0] + parts[1]
     return (ends[1] - ends[0]) / whole if whole > 0.0 else np.zeros_like(ends[0])
-
-
-def _further(space: Workspace, fit: Fit, box: Box, x: np.ndarray, columns: np.ndarray) -> Fit:
-    """One step with these sensitivities, if it is downhill."""
-    normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
-    gradient = box.scale * (columns.T @ fit.residual - box.prior_gradient(x))
-    best, residual = x, fit.residual
-    for share in (1.0, 0.3):
-        trial = np.clip(x + share * box.step(x, normal, gradient), box.lower, box.upper)
-        other = space.residual(box.named(trial))
-        if float(other @ other) + box.prior_cost(trial) < fit.chi2:
-            best, residual = trial, other
-            break
-    return fit_of(fit.parameters, box.named(best), residual, columns, fit.candidates, fit.converged)
