@@ -97,6 +97,19 @@ COLUMNS = (
 
 
 @kernel
+def step_beside(p, similar, i):
+    """One Newton step from equilibrium i of a similar run; False if there is none."""
+    for k in range(similar.shape[1]):
+        p.z[k] = similar[i, k]
+    assemble_at_input(p)
+    if not newton_direction(p):
+        return False
+    for a in range(p.free_count):
+        p.z[p.free[a]] += p.direction[a]
+    return True
+
+
+@kernel
 def sweep_beside(plants, durations, errors, similar):
     """Transmission error [rad] after each of the ``durations`` [s], to first order beside a similar run.
 
@@ -106,13 +119,8 @@ def sweep_beside(plants, durations, errors, similar):
     p = plants[0]
     for i in range(durations.shape[0]):
         output_speed = turn_input(p, durations[i])
-        for k in range(similar.shape[1]):
-            p.z[k] = similar[i, k]
-        assemble_at_input(p)
-        if not newton_direction(p):
+        if not step_beside(p, similar, i):
             return NO_EQUILIBRIUM
-        for a in range(p.free_count):
-            p.z[p.free[a]] += p.direction[a]
         publish(p, output_speed)
         advance_effects(p, durations[i])
         errors[i] = p.transmission_error
@@ -126,13 +134,8 @@ def torque_sweep_beside(plants, torques, turning, similar):
     output_speed = turn_input(p, 1.0)
     for i in range(torques.shape[0]):
         p.load_torque = torques[i]
-        for k in range(similar.shape[1]):
-            p.z[k] = similar[i, k]
-        assemble_at_input(p)
-        if not newton_direction(p):
+        if not step_beside(p, similar, i):
             return NO_EQUILIBRIUM
-        for a in range(p.free_count):
-            p.z[p.free[a]] += p.direction[a]
         publish(p, output_speed)
         turning[i] = -p.transmission_error
     return 0

@@ -1,0 +1,114 @@
+"""What a diagnosis tells: effects with estimates and errors, what was turned down and why, warnings."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.refit.confusable import canonical_correlation
+from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, leave_condition_out
+from discrepancy.inference.screening.screen import Score
+from discrepancy.inference.verdict import Diagnosis, Effect, Fits
+from discrepancy.problem import Candidate
+
+# A nuisance further off than so many of its assumed standard deviations is said.
+UNLIKELY = 2.5
+
+
+@dataclass(frozen=True)
+class Teller:
+    """What there is to tell from: ``inflation`` widens the intervals of a fit, ``started`` is when the diagnosis began [s]."""
+
+    space: Workspace
+    localisation: Localisation
+    scores: Mapping[str, Score]
+    fitted: Mapping[frozenset[str], Refit]
+    inflation: Callable[[Refit], float]
+    coverage: float
+    started: float
+
+    def diagnosis(
+        self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
+        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None,
+    ) -> Diagnosis:  # fmt: skip
+        """Everything that is told, in plain data."""
+        effects = []
+        held_out: dict[str, dict[str, Any]] = {}
+        several = bool(members) and len(members[0].candidates) > 1
+        warnings = list(self.space.noise.warnings)
+        for member in members:
+            before, after = self._errors(judge, member, captured, held_out)
+            numbers = {e.name: e for e in estimates(self.space, member, self.coverage, self.inflation(member))}
+            for c in member.candidates:
+                gain = self._gain_of(member, c) if several else member.gain
+                bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
+                if bounds:
+                    warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
+                share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
+                    captured * member.gain / max(members[0].gain, 1e-300)
+                effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() for p in c.parameters},
+                                      float(min(share, 1.0)), float(gain), before, after, bounds,
+                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
+                if after > before:
+                    warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
+        if several:
+            effects.sort(key=lambda e: -e.gain)
+        if self.space.held_out == []:
+            warnings.append("no runs are held out: the errors given are by leaving out one condition at a time")
+        names = {e.name for e in effects}
+        rejected: list[dict[str, Any]] = []
+        least = min((r.fit.chi2 for r in rivals), default=0.0)
+        for r in rivals:
+            if r.name not in names:
+                worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
+                rejected.append({"name": r.name, "chi2_difference": float(worse),
+                                 "reason": f"fits worse by {worse:.1f} in chi-square" if members else
+                                 "not significant after correction for multiplicity"})
+        for s in self.scores.values():
+            if s.name not in names and not any(x["name"] == s.name for x in rejected):
+                rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: p = {s.p_adjusted:.2g} over all effects, "
+                                 f"explains {s.statistic:.1f} of chi-square alone"})
+        correlations = {}
+        if len(members) > 1 and not several:
+            for k, a in enumerate(members):
+                for b in members[k + 1:]:
+                    correlations[f"{a.name} ~ {b.name}"] = canonical_correlation(self.space, a, b)
+        confusable = [m.name for m in members] if not several and len(members) > 1 else []
+        base = self.space.base
+        fit = members[0].fit if members else base
+        warnings += [f"{p.description or p.name}: {fit.values[p.name]:.3g} {p.unit}, which is {abs(fit.values[p.name] - p.off) / p.prior:.1f} times"
+                     f" what was assumed of it ({p.off:.3g} +- {p.prior:.2g}): the base model is off there"
+                     for p in base.parameters if p.prior and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
+        return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
+                         float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
+                         {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
+                         time.perf_counter() - self.started, reason,
+                         Fits(self.space, list(members), list(rivals)))
+
+    def _gain_of(self, joint: Refit, candidate: Candidate) -> float:
+        """What one of several effects adds to the others."""
+        rest = self.fitted.get(frozenset(c.name for c in joint.candidates if c is not candidate))
+        return drop_cost(joint, candidate) if rest is None else rest.fit.chi2 - joint.fit.chi2
+
+    def _errors(
+        self, judge: HeldOutJudge | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
+    ) -> tuple[float, float]:
+        if judge is not None and self.space.held_out:
+            judged = judge.judge(member)
+            if judged is not None:
+                held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after,
+                                         "unit": "noise"}
+                return judged.before, judged.after
+        base = sum(leave_condition_out(self.space, self.space.base).values())
+        left = sum(leave_condition_out(self.space, member.fit).values())
+        whole = member.gain / max(captured, 0.05)
+        conditions = len({self.space.records[i].condition for i in self.space.training})
+        before = np.sqrt(1 + whole / conditions)
+        after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
+        held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}
+        return float(before), float(after)
