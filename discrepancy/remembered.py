@@ -4,11 +4,10 @@
 changes, it is computed anew.
 """
 
+import contextlib
 import hashlib
-import io
 import os
 import pickle
-import tempfile
 from functools import cache
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.verdict import Answer, diagnose
+from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
 from fmu_src.source_hash import ROOT
 
@@ -74,39 +74,21 @@ def program() -> str:
 
 def read(place: Path) -> Answer | None:
     """What is kept there, if it is whole and one's own."""
-    try:
-        with place.open("rb") as stream:
-            if os.name == "posix" and os.fstat(stream.fileno()).st_uid != os.getuid():
-                return None
-            content = stream.read()
-        # Its age says when it was last of use.
-        os.utime(place)
-    except OSError:
+    content = checked_file.read(place, MARK)
+    if content is None:
         return None
-    head = len(MARK) + 32
-    if not content.startswith(MARK) or content[len(MARK) : head] != hashlib.sha256(content[head:]).digest():
-        return None
-    answer: Answer = pickle.loads(content[head:])  # noqa: S301 - one's own file in a private folder, and whole
+    answer: Answer = pickle.loads(content)  # noqa: S301 - one's own file in a private folder, and whole
     return answer
 
 
 def write(place: Path, answer: Answer) -> None:
-    """At once or not at all; a folder that cannot be written, or a full disk, ends nothing."""
-    stream = io.BytesIO()
-    pickle.dump(answer, stream, protocol=pickle.HIGHEST_PROTOCOL)
-    content = stream.getvalue()
-    if len(content) > MOST:
-        return
-    partial = None
-    try:
-        handle, partial = tempfile.mkstemp(dir=place.parent, prefix="new-")
-        with os.fdopen(handle, "wb") as file:
-            file.write(MARK + hashlib.sha256(content).digest() + content)
-        os.replace(partial, place)
-        make_room(place.parent)
-    except OSError:
-        if partial is not None:
-            Path(partial).unlink(missing_ok=True)
+    """Keep the answer unless it is too large; what is older may have to go."""
+    content = pickle.dumps(answer, protocol=pickle.HIGHEST_PROTOCOL)
+    if len(content) <= MOST:
+        checked_file.write(place, MARK, content)
+        with contextlib.suppress(OSError):
+            # Another process may be at it.
+            make_room(place.parent)
 
 
 def make_room(folder: Path) -> None:

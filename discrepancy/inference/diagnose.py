@@ -67,6 +67,11 @@ def against(judged: HeldOut | None) -> str:
     return ""
 
 
+def widening(over: bool, inflation: float) -> float:
+    """Of intervals, for a misfit that is ``over`` the noise by this factor in chi-square; twice at most."""
+    return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+
+
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
     """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
     return Diagnostician(model, settings, orders).run()
@@ -302,7 +307,7 @@ class Diagnostician:
         if unproved:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
-        self.inflations.update((frozenset(c.name for c in m.candidates), float(np.sqrt(min(inflation, 4.0))) if over else 1.0) for m in members)
+        self.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
         one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
         verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
@@ -329,7 +334,7 @@ class Diagnostician:
         key = frozenset(c.name for c in result.candidates)
         if key not in self.inflations:
             over, _, _, inflation = self.leftover(result)
-            self.inflations[key] = float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+            self.inflations[key] = widening(over, inflation)
         return self.inflations[key]
 
     def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:

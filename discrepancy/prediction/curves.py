@@ -93,7 +93,9 @@ class OverTorque:
         return held_condition(self.bench, self.record)
 
     def nodes(self, level: int) -> TorqueNodes | None:
-        return torque_nodes(self.places({}), NEAR_NOTHING * self.bench.rated_load, level)
+        torques = self.places({})
+        # Where a way turns back is looked for sample by sample: once.
+        return self.bench.kept(("nodes", torques.tobytes(), level), lambda: torque_nodes(torques, NEAR_NOTHING * self.bench.rated_load, level))
 
     def places(self, values: Values) -> Floats:
         return np.asarray(self.record.axes["torque"], np.float64)

@@ -29,10 +29,3 @@ def amplitude_for(space: Workspace, response: Callable[[float], Mapping[int, Flo
             break
         amplitude *= float(np.clip(ratio, 0.2, 5.0))
     return amplitude
-
-
-def detection_sizes(space: Workspace, columns: Floats) -> Floats:
-    """d' of each whitened column: what one unit of each parameter would be worth."""
-    squares = np.sum(columns * project_out(columns, space.base.jacobian, space.base.normal), axis=0)
-    sizes: Floats = np.sqrt(np.maximum(squares, 0.0))
-    return sizes
