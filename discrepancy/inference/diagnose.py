@@ -115,18 +115,34 @@ class Diagnostician:
         self.scores = {s.name: s for s in self.screening.scores}
         return self.screening
 
-    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None) -> Refit:
-        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``."""
+    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
+            least: float = np.inf) -> Refit:  # fmt: skip
+        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``.
+
+        What will not come below the chi-square ``least`` is left where that became clear.
+        """
         key = frozenset(names)
         if key not in self.fitted:
             found = list(scores or [self.scores[n] for n in names if n in self.scores])
             with self.space.predictions.roughly():
-                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
+                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start, least=least)
         return self.fitted[key]
 
-    def beside(self, names: Sequence[str], own: dict[str, float], score: Score) -> Refit:
-        """Joint refit of the named effects, which stand at ``own``, and the scored one."""
-        return self.fit([*names, score.name], own, [score])
+    def race(self, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
+        """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""
+
+        def one(least: float, score: Score) -> Refit:
+            return self.fit([*names, score.name], own, [score], least)
+
+        ahead = self.space.threads.map(partial(one, np.inf), scores[:2])
+        if not ahead:
+            return []
+        best = min(ahead, key=penalised)
+        return [*ahead, *self.space.threads.map(partial(one, self.near(best) + penalised(best) - best.fit.chi2), scores[2:])]
+
+    def near(self, best: Refit) -> float:
+        """Chi-square below which a rough fit may be as good as ``best``."""
+        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
 
     def singles(self) -> list[Refit]:
         """Refits of the candidates that may win alone."""
@@ -138,24 +154,24 @@ class Diagnostician:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted(self.space.threads.map(lambda s: self.fit([s.name]), chosen), key=penalised)
+        fits = sorted(self.race(chosen), key=penalised)
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.space.threads.map(lambda s: self.fit([s.name]), twins)], key=penalised)
-        fits = sorted([*self.space.threads.map(self.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
-        near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
+        fits = sorted([*self.space.threads.map(partial(self.widened, least=self.near(fits[0])), fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        near = self.near(fits[0])
         fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
         return sorted(fits, key=penalised)
 
-    def widened(self, result: Refit) -> Refit:
+    def widened(self, result: Refit, least: float = np.inf) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
         key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
         if key not in self.widely and key not in self.final_fits:
             self.widely.add(key)
             with self.space.predictions.roughly():
-                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, widely=True)
+                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
             self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
         return self.fitted[key]
 
@@ -188,7 +204,7 @@ class Diagnostician:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = self.space.threads.map(partial(self.beside, names, own), promising)
+            trials = self.race(promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
             challenger = foremost(trials)
             newest = challenger.candidates[-1].name
