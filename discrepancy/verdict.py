@@ -56,7 +56,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
-    reason = found.reason
+    reason = found.reason + (f"; beside that the base model is off: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
     if verdict in (SET, SEVERAL) and len(names) == 1:
         reason = reason_of(effects[0], verdict)
         verdict = ONE

@@ -11,7 +11,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
-from discrepancy.wording import error_text, left_text, share_text
+from discrepancy.wording import base_texts, error_text, left_text, share_text
 
 LONGEST = 12
 WIDTH = 120
@@ -65,6 +65,8 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
 def show_answer(answer: Answer) -> None:
     out = console(WIDTH)
     out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
+    for text in base_texts(answer):
+        out.print(f"\nbase off: {text}")
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))

@@ -4,23 +4,30 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement, against, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
-from discrepancy.inference.refit.confusable import confusable_set
+from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
-from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Settings, decide
-from discrepancy.problem import Candidate, Model
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, UNKNOWN, Diagnosis, Settings, decide
+from discrepancy.problem import BASE, Candidate, Model
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
     """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
     return Diagnostician(model, settings, orders).run()
+
+
+def likeliest(rivals: Sequence[Refit], margin: float) -> Refit:
+    """The best of single fits; before an effect that is hardly better, a number of the base model: some of these are always off a little."""
+    numbers = [r for r in rivals if r.candidates[0].part == BASE and not ends_at_a_bound(r) and penalised(r) - penalised(rivals[0]) < margin]
+    return numbers[0] if numbers else rivals[0]
 
 
 class Diagnostician:
@@ -70,24 +77,28 @@ class Diagnostician:
         by_candidate = p_screen < (settings.naming_level if by_place else settings.screen_level)
         if not by_candidate:
             verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
+            if verdict == NONE and computed_wrongly(self.space.base, settings.coverage):
+                verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
             rivals = self.selection.singles() if by_place else []
             return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
         selection, judgement = self.selection, self.judgement
         rivals = selection.singles()
-        final = selection.several(rivals[0])
+        final = selection.several(likeliest(rivals, settings.margin))
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = min((e.dof for e in estimates(self.space, final)), default=1e6)
         alternatives: dict[str, list[str]] = {}
+        # What is left speaks for none of the rivals; it may have hidden no more than all of it.
+        widened = min(inflation, 1.0 + size / settings.margin) if over else 1.0
         if len(final.candidates) == 1:
-            members = confusable_set(rivals, inflation if over else 1.0, dof, settings.margin)
+            members = confusable_set(rivals, widened, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)
             members += selection.adequate(rivals, members)
         else:
             members = [final]
             for c in final.candidates:
-                stand_ins = selection.stand_ins(final, c, inflation if over else 1.0, dof)
+                stand_ins = selection.stand_ins(final, c, widened, dof)
                 if stand_ins:
                     alternatives[c.name] = stand_ins
         self.report([*members, *rivals])
@@ -99,7 +110,13 @@ class Diagnostician:
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
         judgement.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
         one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
-        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
+        named = sum(c.part != BASE for c in final.candidates)
+        verdict, reason = decide(True, by_place, named, len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
+        if verdict == BASE_OFF:
+            others = [m.name for m in members if m.candidates[0].part != BASE]
+            alternatives |= {final.name: others} if others else {}
+            if len(members) - len(others) > 1:
+                reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.

@@ -11,7 +11,7 @@ from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import Candidate
+from discrepancy.problem import BASE, Candidate
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
@@ -31,11 +31,14 @@ SURELY = 3.0
 
 
 def few_of_each(scores: Sequence[Score]) -> list[Score]:
-    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects."""
+    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects.
+
+    Numbers of the base model are no variants of each other.
+    """
     counts: dict[str, int] = {}
     kept = []
     for s in scores:
-        effect = s.name.partition(".")[0]
+        effect = s.name if s.name.startswith(BASE) else s.name.partition(".")[0]
         counts[effect] = counts.get(effect, 0) + 1
         if counts[effect] <= 2:
             kept.append(s)

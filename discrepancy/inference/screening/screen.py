@@ -218,8 +218,10 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         candidate = candidates[block.candidate]
         if candidate.name in exclude:
             continue
-        statistic, amplitude = cone_statistic(everything[:, own], gram[own, own], block.signs)
-        shares = {c: float(np.trace(np.linalg.pinv(gram[own, own], rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
+        # An amplitude that is known beforehand to be small gains less.
+        known = gram[own, own] + np.diag([0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in candidate.amplitudes])
+        statistic, amplitude = cone_statistic(everything[:, own], known, block.signs)
+        shares = {c: float(np.trace(np.linalg.pinv(known, rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
         entry = results.setdefault(block.candidate, _Tested(np.zeros(draws + 1)))
         entry.sup = np.maximum(entry.sup, statistic)
         entry.starts.append((float(statistic[0]), index, amplitude[0]))
