@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import warnings_of
+from discrepancy.compare import figures_of, warnings_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
+from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -33,6 +34,7 @@ class Answer:
     confusable: list[str]
     laws: list[Recovered]
     warnings: list[str]
+    figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
 
     def as_json(self) -> dict[str, Any]:
@@ -41,6 +43,7 @@ class Answer:
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
+            "key_figures": [f.as_json() for f in self.figures],
         }  # fmt: skip
 
 
@@ -52,7 +55,9 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
     """
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
     doctor = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
-    found = doctor.run()
+    doctor.prepare()
+    figures = figures_of(doctor, model)
+    found = doctor.run(calibrated_first(figures))
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
@@ -68,7 +73,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         laws = recover(space, fit, sorted(touched) or None, told_in(model))
     warnings = warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), doctor)
+    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

@@ -33,6 +33,8 @@ def likeliest(rivals: Sequence[Refit], margin: float) -> Refit:
 class Diagnostician:
     """One diagnosis; the steps can be called one by one."""
 
+    localisation: Localisation
+
     def __init__(self, model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS):
         self.model, self.settings, self.orders = model, settings, orders
         self.started = time.perf_counter()
@@ -47,30 +49,46 @@ class Diagnostician:
 
     # steps --------------------------------------------------------------------------------
     def prepare(self) -> Localisation:
-        """Base fit with the noise, and localisation of its misfit."""
+        """Base fit with the noise, and localisation of its misfit; once."""
+        if hasattr(self, "localisation"):
+            return self.localisation
         self.space.fit_base()
         self.localisation = self.judgement.localiser.test(self.space.base, self.settings.localise_level)
         self.judgement.localisation = self.localisation
         return self.localisation
 
-    def screened(self, candidates: Sequence[Candidate] | None = None) -> Screen:
-        """Score tests of all candidates, or of some, against the base fit."""
-        chosen = self.candidates if candidates is None else candidates
+    def screened(self, candidates: Sequence[Candidate] | None = None, beside: Refit | None = None) -> Screen:
+        """Score tests of all candidates, or of some, against the base fit or ``beside`` a fit with effects."""
+        self.chosen = self.candidates if candidates is None else list(candidates)
+        fit, exclude = (self.space.base, []) if beside is None else (beside.fit, [c.name for c in beside.candidates])
         with self.space.predictions.roughly():
-            self.columns = candidate_columns(self.space, chosen, self.space.base.values)
-        self.screening = screen(self.space, chosen, self.columns, self.space.base, self.settings.seed, self.settings.draws)
-        self.refits.scores = {s.name: s for s in self.screening.scores}
+            self.columns = candidate_columns(self.space, self.chosen, fit.values)
+        self.screening = screen(self.space, self.chosen, self.columns, fit, self.settings.seed, self.settings.draws, exclude)
+        self.refits.scores = {**self.refits.scores, **{s.name: s for s in self.screening.scores}}
         return self.screening
 
     @property
     def selection(self) -> Selection:
-        return Selection(self.candidates, self.columns, self.screening, self.refits, self.judgement, self.settings)
+        return Selection(self.chosen, self.columns, self.screening, self.refits, self.judgement, self.settings)
 
-    def run(self) -> Diagnosis:
+    def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], Refit | None]:
+        """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together."""
+        candidates = [c for c in self.candidates if c.name.partition(".")[0] in first]
+        if not candidates:
+            return [], None
+        self.screened(candidates)
+        rivals = self.selection.singles()
+        return rivals, self.selection.several(rivals[0]) if rivals else None
+
+    def run(self, first: Sequence[str] = ()) -> Diagnosis:
+        """The whole diagnosis; ``first`` are names of effects that are calibrated before others are looked for."""
         settings = self.settings
         local = self.prepare()
-        self.screened()
+        rivals, start = self.calibrated(first)
+        p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
+        self.screened(beside=start)
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
+        p_screen = min(p_screen, p_first)
         p_local = min((g.p for g in local.groups), default=1.0)
         by_place = bool(local.findings)
         # where the misfit is beyond doubt, naming needs less
@@ -82,8 +100,10 @@ class Diagnostician:
             rivals = self.selection.singles() if by_place else []
             return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
         selection, judgement = self.selection, self.judgement
-        rivals = selection.singles()
-        final = selection.several(likeliest(rivals, settings.margin))
+        if start is None:
+            rivals = selection.singles()
+            start = likeliest(rivals, settings.margin)
+        final = selection.several(start, len(start.candidates) if first else 0)
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = min((e.dof for e in estimates(self.space, final)), default=1e6)

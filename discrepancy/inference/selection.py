@@ -82,10 +82,13 @@ class Selection:
         return sorted(fits, key=penalised)
 
     # several ------------------------------------------------------------------------------
-    def several(self, best: Refit) -> Refit:
-        """Forward selection with a backward check; what counts is what a further effect gains of that which is left."""
+    def several(self, best: Refit, calibrated: int = 0) -> Refit:
+        """Forward selection with a backward check; what counts is what a further effect gains of that which is left.
+
+        ``calibrated`` of the effects in ``best`` do not count towards the most that are looked for.
+        """
         settings, current = self.settings, best
-        while len(current.candidates) < settings.most_effects:
+        while len(current.candidates) < settings.most_effects + calibrated:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
