@@ -4,7 +4,7 @@ from typing import Any
 
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
@@ -16,7 +16,7 @@ TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
 def share_text(answer: Answer, share: float) -> str:
     """How much of the misfit an effect takes; what leaves something is never said to explain all of it."""
-    if answer.verdict in (INCOMPLETE, UNKNOWN) and share >= NEARLY_ALL:
+    if answer.verdict in (INCOMPLETE, STOPPED, UNKNOWN) and share >= NEARLY_ALL:
         return "explains most of the misfit, not all of it"
     return f"explains {100.0 * share:.0f} % of the misfit"
 

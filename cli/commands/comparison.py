@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -115,27 +116,35 @@ def run_localise(options: argparse.Namespace) -> int:
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
+    """Exit code 130 if it was interrupted: then it shows what was known by then."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
     from discrepancy.remembered import diagnosed
-    from discrepancy.verdict import diagnose
+    from discrepancy.verdict import AnswerSoFar, diagnose
 
     with task("diagnosing"):
         file, campaign = inputs(options)
         fmus = folder(options.fmus)
-        answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
+        stopped = False
+        try:
+            answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
+        except AnswerSoFar as stop:
+            # What is known so far is an answer, too.
+            answer, stopped = stop.answer, True
     write_html(options, answer)
     draft = None
     if options.draft:
-        draft = written_to(answer, Path(options.draft))
+        draft = None if stopped else written_to(answer, Path(options.draft))
     if options.json:
         json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
         show_answer(answer)
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
-    return 0
+    if stopped:
+        print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
+    return 130 if stopped else 0
 
 
 def run_extend(options: argparse.Namespace) -> int:

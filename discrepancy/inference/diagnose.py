@@ -15,7 +15,7 @@ from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, UNKNOWN, Diagnosis, Settings, decide
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, Candidate, Model
 
 
@@ -30,6 +30,14 @@ def likeliest(rivals: Sequence[Refit], margin: float) -> Refit:
     return numbers[0] if numbers else rivals[0]
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in a diagnosis; ``found`` is what was known by then."""
+
+    def __init__(self, found: Diagnosis):
+        super().__init__(found.reason)
+        self.found = found
+
+
 class Diagnostician:
     """One diagnosis; the steps can be called one by one."""
 
@@ -40,6 +48,8 @@ class Diagnostician:
         self.started = time.perf_counter()
         self.space = Workspace(model)
         self.candidates = list(model.candidates)
+        # Said if it is interrupted.
+        self.doing = "fitting the base model"
         self.refits = Refits(self.space, self.candidates)
         self.judgement = Judgement(self.space, orders, settings.leftover_level)
 
@@ -81,9 +91,26 @@ class Diagnostician:
         return rivals, self.selection.several(rivals[0]) if rivals else None
 
     def run(self, first: Sequence[str] = ()) -> Diagnosis:
-        """The whole diagnosis; ``first`` are names of effects that are calibrated before others are looked for."""
+        """The whole diagnosis; ``first`` are names of effects that are calibrated before others are looked for.
+
+        Ctrl-C raises ``Interrupted`` with what is known by then; run again, it goes on with the fits and predictions that it has.
+        """
+        predictions = self.space.predictions
+        predictions.unfinished = True
+        try:
+            found = self.walk(first)
+        except KeyboardInterrupt:
+            if not hasattr(self, "localisation"):
+                raise
+            raise Interrupted(self.stopped()) from None
+        predictions.unfinished = False
+        return found
+
+    def walk(self, first: Sequence[str]) -> Diagnosis:
+        """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
+        self.doing = "screening"
         rivals, start = self.calibrated(first)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
         self.screened(beside=start)
@@ -100,10 +127,13 @@ class Diagnostician:
             rivals = self.selection.singles() if by_place else []
             return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
         selection, judgement = self.selection, self.judgement
+        self.doing = "fitting effects alone"
         if start is None:
             rivals = selection.singles()
             start = likeliest(rivals, settings.margin)
+        self.doing = f"looking for what is missing beside {start.name}"
         final = selection.several(start, len(start.candidates) if first else 0)
+        self.doing = f"looking for what could stand in place of {final.name}"
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = min((e.dof for e in estimates(self.space, final)), default=1e6)
@@ -142,6 +172,20 @@ class Diagnostician:
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else judgement.held_out(members)
         return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def stopped(self) -> Diagnosis:
+        """What is known so far: base fit, localisation, scores, and the best fit."""
+        fits = sorted(self.refits.fitted.values(), key=penalised)
+        done = ["base fit"] + ([f"{len(self.refits.scores)} effects screened"] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
+        reason = f"stopped while {self.doing}; done: {', '.join(done)}" + (f"; best so far: {fits[0].name}" if fits else "")
+        captured = 0.0
+        text: dict[str, Any] = {}
+        if fits:
+            _, size, text, _ = self.judgement.leftover(fits[0])
+            captured = max(fits[0].gain, 0.0) / max(max(fits[0].gain, 0.0) + size, 1e-9)
+        p_screen = min((s.p_adjusted for s in self.refits.scores.values()), default=1.0)
+        p_local = min((g.p for g in self.localisation.groups), default=1.0)
+        return self.teller.diagnosis(STOPPED, reason, fits[:1], fits, captured, text, p_screen, p_local, {}, None)
 
     def report(self, fits: Sequence[Refit]) -> None:
         """The predictions of what is told stay when the diagnosis is kept."""

@@ -1,8 +1,9 @@
 """Which effects are fitted, alone and together: what may win alone, further ones beside it, and what each could be replaced by."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from typing import TypeVar
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
@@ -12,6 +13,9 @@ from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import BASE, Candidate
+
+# What has a name and leads to a refit.
+Named = TypeVar("Named", Score, Refit)
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
@@ -70,16 +74,20 @@ class Selection:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted(self.space.threads.map(lambda s: self.refits.fit([s.name]), chosen), key=penalised)
+        fits = sorted(self.tried("fitting alone", lambda s: self.refits.fit([s.name]), chosen), key=penalised)
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
-        fits = sorted([*fits, *self.space.threads.map(lambda s: self.refits.fit([s.name]), twins)], key=penalised)
-        fits = sorted([*self.space.threads.map(self.refits.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
+        fits = sorted([*self.tried("fitting from other starts", self.refits.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
         near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
-        fits = self.space.threads.map(lambda f: self.refits.renewed(f) if f.fit.chi2 < near else f, fits)
+        fits = [*self.tried("fitting in earnest", self.refits.renewed, [f for f in fits if f.fit.chi2 < near]), *[f for f in fits if f.fit.chi2 >= near]]
         return sorted(fits, key=penalised)
+
+    def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
+        """``function`` of every score or refit, told as it goes."""
+        return self.space.threads.told(what, function, items, lambda item: item.name)
 
     # several ------------------------------------------------------------------------------
     def several(self, best: Refit, calibrated: int = 0) -> Refit:
@@ -99,13 +107,13 @@ class Selection:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = self.space.threads.map(partial(self.refits.beside, names, own), promising)
+            trials = self.tried(f"fitting beside {' + '.join(names)}", partial(self.refits.beside, names, own), promising)
             # exchange of an earlier member: the first choice was made without the second
             challenger = foremost(trials)
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 trials += self.exchanged(names[0], newest, challenger.gain)
-            challenger = self.refits.renewed(foremost(trials))
+            challenger = self.tried("fitting in earnest", self.refits.renewed, [foremost(trials)])[0]
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
                 break
@@ -169,15 +177,10 @@ class Selection:
     def stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
         """Effects that could replace ``member`` beside the others."""
         rest = [c.name for c in final.candidates if c is not member]
-        result = []
         rest_fit = self.refits.fit(rest)
         more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
-        for s in few_of_each(more.scores)[:4]:
-            if s.name == member.name or s.statistic < HOPELESS_STAND_IN * needed:
-                continue
-            rival = self.refits.fit([*rest, s.name], own, [s])
-            if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2:
-                result.append(s.name)
-        return result
+        chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
+        rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s]), chosen)
+        return [s.name for s, rival in zip(chosen, rivals) if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2]

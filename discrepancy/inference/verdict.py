@@ -15,6 +15,9 @@ UNKNOWN = "unknown"
 # What is off is a number of the base model that was not known for sure, or what it computes itself; no effect is missing.
 BASE_OFF = "base off"
 
+# Interrupted: what was known by then.
+STOPPED = "stopped"
+
 
 @dataclass(frozen=True)
 class Settings:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from discrepancy import wording
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.page import amounts, comparison, profiles, response
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
@@ -65,6 +65,7 @@ def sentence(answer: Answer) -> str:
             f"that no effect of the catalogue explains{f': {left}' if left else ''}."
         ),
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed([e.name for e in answer.diagnosis.base_off])}.",
+        STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     reason = answer.reason

@@ -69,7 +69,7 @@ class Screen:
 
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
-    made = space.threads.map(lambda candidate: _blocks(space, candidate, values), candidates)
+    made = space.threads.told("screening", lambda candidate: _blocks(space, candidate, values), candidates, lambda candidate: candidate.name)
     stacks, blocks, width = [], [], 0
     for k, own in enumerate(made):
         for shape, block, signs in own:
