@@ -142,3 +142,13 @@ class Cheaper(Protocol):
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``Model.predict`` with errors of a few parts in a hundred of what ``values`` change."""
         ...
+
+
+@runtime_checkable
+class Glimpsing(Protocol):
+    """What a model may have besides: a look at a few places of the records, to compare directions by."""
+
+    def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
+        """What ``values`` change next to ``base`` at a few places of the records ``which``, one after the other, roughly in units of
+        their noise; whole or to first order."""
+        ...

@@ -5,6 +5,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TypeVar
 
+import numpy as np
+
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
 from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised
@@ -74,16 +76,34 @@ class Selection:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted(self.tried("fitting alone", lambda s: self.refits.fit([s.name]), chosen), key=penalised)
+        fits = sorted(self.race("fitting alone", chosen), key=penalised)
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
-        fits = sorted([*self.tried("fitting from other starts", self.refits.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
-        near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
+        widened = partial(self.refits.widened, least=self.near(fits[0]))
+        fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        near = self.near(fits[0])
         fits = [*self.tried("fitting in earnest", self.refits.renewed, [f for f in fits if f.fit.chi2 < near]), *[f for f in fits if f.fit.chi2 >= near]]
         return sorted(fits, key=penalised)
+
+    def race(self, what: str, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
+        """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""
+
+        def one(least: float, score: Score) -> Refit:
+            return self.refits.fit([*names, score.name], own, [score], least)
+
+        ahead = self.tried(what, partial(one, np.inf), scores[:2])
+        if len(scores) < 3:
+            return ahead
+        best = min(ahead, key=penalised)
+        least = self.near(best) + penalised(best) - best.fit.chi2
+        return [*ahead, *self.tried(f"{what}, those further behind", partial(one, least), scores[2:])]
+
+    def near(self, best: Refit) -> float:
+        """Chi-square below which a rough fit may be as good as ``best``."""
+        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
 
     def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
         """``function`` of every score or refit, told as it goes."""
@@ -107,7 +127,7 @@ class Selection:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = self.tried(f"fitting beside {' + '.join(names)}", partial(self.refits.beside, names, own), promising)
+            trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
             challenger = foremost(trials)
             newest = challenger.candidates[-1].name

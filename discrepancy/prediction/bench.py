@@ -12,6 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Once
@@ -92,6 +93,10 @@ class Bench:
         other.fineness = self.fineness.roughly() if self.fineness else None
         other.held_angles, other.mean_positions = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS
         return other
+
+    def allowed(self, record: Record) -> float:
+        """What a prediction of this record may err; 0 where nothing is known of its noise."""
+        return self.fineness.allowed.get((record.quantity, record.condition), 0.0) if self.fineness else 0.0
 
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""

@@ -57,14 +57,17 @@ class Refit:
 
 
 def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None,
-          widely: bool = False) -> Refit:  # fmt: skip
-    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts, ``widely`` of more."""
+          widely: bool = False, least: float = np.inf) -> Refit:  # fmt: skip
+    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts, ``widely`` of more.
+
+    ``least``: see ``fit_effects``.
+    """
     first = {k: v for s in scores for k, v in s.start.items()}
     starts = [{**first, **(fixed or {})}]
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely))
+    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely, least))
 
 
 def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit, covariance: Floats | None = None) -> Refit:

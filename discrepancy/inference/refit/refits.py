@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.curvature import covariance_by_secants
 from discrepancy.inference.refit.effect_fit import renew
@@ -21,26 +23,26 @@ class Refits:
         self.final_fits: dict[frozenset[str], Refit] = {}
         self.widely: set[frozenset[str]] = set()
 
-    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None) -> Refit:
-        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``."""
+    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
+            least: float = np.inf) -> Refit:  # fmt: skip
+        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``.
+
+        What will not come below the chi-square ``least`` is left where that became clear.
+        """
         key = frozenset(names)
         if key not in self.fitted:
             found = list(scores or [self.scores[n] for n in names if n in self.scores])
             with self.space.predictions.roughly():
-                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
+                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start, least=least)
         return self.fitted[key]
 
-    def beside(self, names: Sequence[str], own: dict[str, float], score: Score) -> Refit:
-        """Joint refit of the named effects, which stand at ``own``, and the scored one."""
-        return self.fit([*names, score.name], own, [score])
-
-    def widened(self, result: Refit) -> Refit:
+    def widened(self, result: Refit, least: float = np.inf) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
         key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
         if key not in self.widely and key not in self.final_fits:
             self.widely.add(key)
             with self.space.predictions.roughly():
-                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, widely=True)
+                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
             self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
         return self.fitted[key]
 
