@@ -17,6 +17,8 @@ from fmu_src.threads import Threads
 NEAR: ContextVar[Mapping[str, float] | None] = ContextVar("near", default=None)
 # Quantities whose zero nobody knows unless it is said: an encoder starts anywhere.
 FREE_ZERO = ("transmission_error", "hysteresis")
+# ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
+BASE = "base"
 
 
 @contextmanager
@@ -72,6 +74,7 @@ class Parameter:
     effect vanishes); ``scale`` a typical size, for steps and for reports; ``sign`` is +1 or
     -1 where physics allows only values above or below ``off``, else 0.  ``prior`` is a
     standard deviation around ``off`` known from elsewhere (None: nothing is known).
+    ``of_base``: what the base model itself gets wrong; where it is large, the base is off.
     """
 
     name: str
@@ -83,6 +86,7 @@ class Parameter:
     sign: int = 0
     prior: float | None = None
     description: str = ""
+    of_base: bool = False
 
 
 @dataclass(frozen=True)

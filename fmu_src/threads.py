@@ -10,6 +10,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
 from typing import TypeVar
 
+from fmu_src.progress import task
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -49,6 +51,19 @@ class Threads:
                 raise
             finally:
                 self.stopped = False
+
+    def told(self, what: str, function: Callable[[Item], Result], items: Iterable[Item], named: Callable[[Item], str]) -> list[Result]:
+        """``map``, telling whoever listens what is being tried and how much of it is done."""
+        work = list(items)
+        with task(what, total=len(work)) as trying:
+
+            def one(item: Item) -> Result:
+                trying.what = f"{what}, {named(item)}"
+                result = function(item)
+                trying.advance()
+                return result
+
+            return self.map(one, work)
 
     def inside(self, function: Callable[[Item], Result], item: Item) -> Result:
         self.here.inside = True

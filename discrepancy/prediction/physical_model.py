@@ -11,6 +11,7 @@ from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import model_error
+from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
@@ -81,7 +82,7 @@ class PhysicalModel:
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
-        )
+        ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
     def angle_nuisances(self) -> list[Parameter]:

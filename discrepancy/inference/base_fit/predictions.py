@@ -30,9 +30,13 @@ class Predictions:
         self.rough_store: dict[Key, dict[int, Floats]] = {}
         self.calls = 0
         self.reported: set[Key] = set()
+        # While a search is under way all of them may be needed again.
+        self.unfinished = False
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without what only a search needed."""
+        """Without what only a search needed, once it is over."""
+        if self.unfinished:
+            return dict(self.__dict__)
         kept = {key: known for key, known in self.store.items() if key in self.reported}
         return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}}
 

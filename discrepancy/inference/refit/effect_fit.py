@@ -134,8 +134,10 @@ def _search(
 ) -> tuple[dict[str, float], bool, Floats]:  # fmt: skip
     """The best optimum (values, whether it converged, columns) from ``starts``; ``widely`` also from other sizes and along its valley."""
 
+    own = Box(frozen.own)
+
     def cost(values: Mapping[str, float]) -> float:
-        return frozen.cost(values)[0]
+        return frozen.cost(values)[0] + own.prior_cost(own.array(values))
 
     found = [_descend(frozen, start) for start in starts]
     amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()

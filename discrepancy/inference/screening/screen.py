@@ -71,7 +71,7 @@ class Screen:
 
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
-    made = space.threads.map(lambda candidate: _blocks(space, candidate, values), candidates)
+    made = space.threads.told("screening", lambda candidate: _blocks(space, candidate, values), candidates, lambda candidate: candidate.name)
     stacks, blocks, width = [], [], 0
     for k, own in enumerate(made):
         for shape, block, signs in own:
@@ -245,8 +245,10 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         candidate = candidates[block.candidate]
         if candidate.name in exclude:
             continue
-        statistic, amplitude = cone_statistic(everything[:, own], gram[own, own], block.signs)
-        shares = {c: float(np.trace(np.linalg.pinv(gram[own, own], rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
+        # An amplitude that is known beforehand to be small gains less.
+        known = gram[own, own] + np.diag([0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in candidate.amplitudes])
+        statistic, amplitude = cone_statistic(everything[:, own], known, block.signs)
+        shares = {c: float(np.trace(np.linalg.pinv(known, rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
         entry = results.setdefault(block.candidate, _Tested(np.zeros(draws + 1)))
         entry.sup = np.maximum(entry.sup, statistic)
         entry.starts.append((float(statistic[0]), index, amplitude[0]))
