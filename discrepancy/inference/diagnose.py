@@ -13,11 +13,11 @@ from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation, Localiser
-from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised
+from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised, price
 from discrepancy.inference.refit.curvature import covariance_by_secants
 from discrepancy.inference.refit.effect_fit import renew
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
-from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
+from discrepancy.inference.screening.screen import Score, Screen, bounded_gain, candidate_columns, joint_gain, screen
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import Candidate, Model
@@ -134,7 +134,7 @@ class Diagnostician:
         if not scores:
             return []
         top = scores[0].statistic
-        chosen = few_of_each([s for s in scores if s.statistic >= 0.35 * top])[: self.settings.shortlist]
+        chosen = self.first_tried([s for s in scores if s.statistic >= 0.35 * top], top)
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
@@ -148,6 +148,22 @@ class Diagnostician:
         near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
         fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
         return sorted(fits, key=penalised)
+
+    def first_tried(self, scores: list[Score], top: float) -> list[Score]:
+        """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
+        near = 4 * self.settings.margin + ROUGH * top
+        alike = [s for s in scores if s.statistic >= top - near]
+        if len(few_of_each(alike)) <= self.settings.shortlist:
+            return few_of_each(scores)[: self.settings.shortlist]
+        promise = {s.name: self.promise(s) for s in alike}
+        likely = [s for s in alike if promise[s.name] >= max(promise.values()) - near]
+        return few_of_each(sorted(likely, key=lambda s: -promise[s.name]))
+
+    def promise(self, score: Score) -> float:
+        """What an effect could gain within its bounds if it were linear, less the price of its parameters and of an implausible size."""
+        candidate = self.by_name[score.name]
+        gain, sizes = bounded_gain(self.columns, self.space.base, score, candidate.amplitudes)
+        return gain - price(candidate, sizes)
 
     def widened(self, result: Refit) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
