@@ -28,8 +28,7 @@ from wear_fmu.wear_laws import mean_run_in_factor
 effects = compose("wear_fmu.effects", HOOKS, GUARDS)
 prepare_effects, advance_effects = effects.prepare, effects.advance
 
-# A step in which the cranks turn further is divided [rad], into at most so many parts.
-LONGEST_SWEEP = math.radians(5.0)
+# A step is divided into at most so many parts.
 MOST_SWEEPS = 100_000
 # Whether the inputs are those of a step's end or of its beginning.
 UNDECIDED, ON_TIME, LATE = 0, 1, 2
@@ -68,6 +67,8 @@ def variables(sizes: Sizes) -> list[Variable]:
                   source="assumed: as hard as the discs, either loses the same area"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
+        parameter("largest_sweep", "rad", "a communication step is divided so that no crank turns further in a part", math.radians(5.0), 1e-6,
+                  1.0, source="assumed: 72 positions a turn"),
         output("profile_angle", "rad", "crank angle that the profile errors hold for"),
         output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
         output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
@@ -160,15 +161,15 @@ def take_off(records, duration):
     """What the contacts take off on their way to the present input angles."""
     r = records[0]
     turned = abs(r.crank_angle - r.crank_angle_before)
-    if not turned <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not turned <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
     carried, rolled = abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before)
     if not (carried <= math.pi + turned and rolled <= math.pi + turned):
         return CAGE_ASTRAY
     receive(r)
-    if not r.path <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not r.path <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
-    count = max(1, math.ceil(turned / LONGEST_SWEEP - 1e-3))
+    count = max(1, math.ceil(turned / r.largest_sweep - 1e-3))
     for i in range(count):
         wear_part(r, count, i, duration)
     keep_received(r)
