@@ -93,6 +93,14 @@ def least_distance(cx, cy, ideal_cos, ideal_sin, generating_circle, eccentricity
 
 
 @kernel
+def curvature_slope(c, s, lobes, generating_circle, k1):
+    """Change of the centre curve's curvature along its arc [1/m^2] at the phase of cosine ``c`` and sine ``s``."""
+    s2 = 1.0 + k1 * k1 - 2.0 * k1 * c
+    top = 1.0 + (lobes + 1) * k1 * k1 - (lobes + 2) * k1 * c
+    return lobes * k1 * s * ((lobes + 2) - 3.0 * top / s2) / (s2 * s2 * generating_circle * generating_circle)
+
+
+@kernel
 def closest_distance(cx, cy, ideal_cos, ideal_sin, shift, lobes, generating_circle, eccentricity, k1):
     """True closest distance of a pin centre (cx, cy) to the centre curve of a lobe.
 

@@ -13,6 +13,7 @@ from rv_plant import (
     integrator,
     mesh,
     motion,
+    near_mesh,
     needle_bearing,
     output_pins,
     outputs,
@@ -25,8 +26,8 @@ from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium, outputs,
-    dynamics, constraints, integrator, motion,
+    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium,
+    outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
 
 
