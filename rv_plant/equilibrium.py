@@ -173,6 +173,16 @@ def newton(r, ideal_output, cage_angle, load_torque):
 
 
 @kernel
+def refine(r, ideal_output, cage_angle, load_torque):
+    """One Newton step more from an equilibrium: what is left is rounding.  Where the tangent is singular nothing moves."""
+    if newton_direction(r):
+        for a in range(r.free_count):
+            r.z[r.free[a]] += r.direction[a]
+        assemble_beside(r, ideal_output, cage_angle, load_torque)
+        r.residual = relative_residual(r, load_torque)
+
+
+@kernel
 def equilibrium(r, ideal_output, cage_angle, load_torque):
     """Equilibrium at an input angle, given as the output angle [rad] of ideal kinematics.
 

@@ -15,8 +15,9 @@ from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
 from rv_plant.dimension import FILE
+from rv_plant.dynamics import assemble_motion
 from rv_plant.effects import HOOKS
-from rv_plant.equilibrium import equilibrium, list_free_coordinates
+from rv_plant.equilibrium import equilibrium, list_free_coordinates, refine
 from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
 from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
@@ -29,7 +30,8 @@ from rv_plant.poses import clear_places, crank_position
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 effects = compose("rv_plant.effects", HOOKS)
-prepare_effects, advance_states, heat_effects = effects.prepare, effects.advance, effects.heat
+start_effects, prepare_effects, advance_states, heat_effects = effects.start, effects.prepare, effects.advance, effects.heat
+amplitudes_changed, keep_amplitudes = effects.amplitudes_changed, effects.keep_amplitudes
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -95,20 +97,35 @@ def prepare(r):
     r.pressure_cosine = math.cos(r.pressure_angle)
     clear_added(r)
     prepare_effects(r)
+    keep_amplitudes(r)
     list_free_coordinates(r)
 
 
 @kernel
+def retune(r):
+    """Amplitudes set during the run take effect; 0 or a fault."""
+    if not amplitudes_changed(r):
+        return 0
+    fault = geometry_fault(r)
+    if fault != 0:
+        return fault
+    prepare(r)
+    # Where a support has become rigid nothing is left of its departure.
+    for i in range(r.z.shape[0]):
+        if not r.is_free[i]:
+            r.z[i] = r.z_before[i] = 0.0
+    return 0
+
+
+@kernel
 def clear_added(r):
-    """No effect adds anything to the ideal parts, whose supports are rigid, nor to what it is asked for later."""
+    """No effect adds anything to the ideal parts, whose supports are rigid."""
     clear_flanks(r)
     clear_places(r)
     clear_clearances(r)
     for i in range(r.compliance.shape[0]):
         r.compliance[i] = 0.0
-    r.output_gap_added = r.friction_power = 0.0
-    r.cage_share = 1.0
-    r.reducer_temperature = r.temperature
+    r.output_gap_added = 0.0
 
 
 @kernel
@@ -231,6 +248,8 @@ def initialise(records):
         return fault
     if r.drive == 1 and r.fidelity == QUASI_STATIC:
         return TORQUE_AT_REST
+    r.friction_power, r.cage_share, r.reducer_temperature = 0.0, 1.0, r.temperature
+    start_effects(r)
     prepare(r)
     if not solve(r):
         return NO_EQUILIBRIUM
@@ -245,9 +264,43 @@ def initialise(records):
     return 0
 
 
+@kernel
+def look(records):
+    """A step of no length: the outputs for inputs and amplitudes as they are now, the parts where they stand.
+
+    At rest one more Newton step leaves nothing but rounding, so that differences of two such looks are those
+    of the equilibrium's own tangent.  Nothing is added up.
+    """
+    r = records[0]
+    fault = retune(r)
+    if fault != 0:
+        return fault
+    start_profiles(r, 0.0)
+    take_profiles(r, 1.0)
+    found = True
+    if r.fidelity == DYNAMIC:
+        prepare_position(r)
+        assemble_motion(r, 1.0)
+    else:
+        found = solve(r)
+        if found:
+            output, cage = angles_within_turn(r)
+            refine(r, output, cage, r.load_torque)
+    end_profiles(r)
+    if not found:
+        return NO_EQUILIBRIUM
+    if r.fidelity == DYNAMIC:
+        publish_motion(r)
+    else:
+        publish(r, speeds(r)[0])
+    return 0
+
+
 @entry_point
 def step(records, time, duration):
     """One communication step: through equilibria or, if fidelity is dynamic, in motion."""
+    if duration == 0.0:
+        return look(records)
     start_ramp(records[0], duration)
     return go_on(records, time, duration)
 
@@ -256,6 +309,9 @@ def step(records, time, duration):
 def go_on(records, time, duration):
     """A communication step, or one of the parts that it is divided into."""
     r = records[0]
+    fault = retune(r)
+    if fault != 0:
+        return fault
     if r.fidelity == DYNAMIC:
         moved = advance(r, duration)
         publish_motion(r)
