@@ -62,8 +62,8 @@ def clear(r):
 
 
 @kernel
-def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
-    """Needle bearing of disc d on crank c: adds to residual and tangent, fills the roller forces."""
+def bearing_contacts(r, d, c, ideal_output, cage_angle, side, near):
+    """Needle bearing of disc d on crank c: adds to residual and tangent, fills the roller forces; ``near`` as in ``add_all``."""
     discs = r.roller_force.shape[0]
     lobes = r.lobe_pitch_error.shape[1]
     eccentric = -lobes * ideal_output + disc_offset(r, d)
@@ -93,7 +93,7 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
     zx, zy = z[3 * d], z[3 * d + 1]
     ux = ax + shift_x + ex - (r.eccentricity * ce + zx * ce - zy * se) - hx
     uy = ay + shift_y + ey - (r.eccentricity * se + zx * se + zy * ce) - hy
-    roller_contacts(r, d, c, ux, uy, disc_turn + crank_position(r, c) + cage_angle, 0.0, 0.0, 0.0, 0.0)
+    roller_contacts(r, d, c, ux, uy, disc_turn + crank_position(r, c) + cage_angle, 0.0, 0.0, 0.0, 0.0, near)
     fx, fy, moment = r.bearing_total[0], r.bearing_total[1], r.bearing_total[2]
     r.crank_force[c, 0] -= fx
     r.crank_force[c, 1] -= fy
@@ -166,7 +166,7 @@ def assemble_beside(r, ideal_output, cage_angle, load_torque):
 
 @kernel
 def add_all(r, ideal_output, cage_angle, load_torque, near):
-    """All contacts, load and supports; ``near``: disc and pins by what is kept of them."""
+    """All contacts, load and supports; ``near``: disc and pins by what is kept of them, rollers by their forces then."""
     discs, cranks = r.roller_force.shape[:2]
     clear(r)
     for c in range(cranks):
@@ -180,7 +180,7 @@ def add_all(r, ideal_output, cage_angle, load_torque, near):
         else:
             mesh_contacts(r, d, ideal_output, axes, 0.0)
         for c in range(cranks):
-            bearing_contacts(r, d, c, ideal_output, cage_angle, side)
+            bearing_contacts(r, d, c, ideal_output, cage_angle, side, near)
         if has_output_pins(r):
             output_contacts(r, d, ideal_output, axes)
     r.residual_vector[3 * discs] += load_torque

@@ -106,7 +106,7 @@ def bearing_in_motion(r, d, c, cage_speed, rate_weight):
     vx = v[crank] - v[crank + 2] * ey - v[disc] + v[disc + 2] * hy
     vy = v[crank + 1] + v[crank + 2] * ex - v[disc + 1] - v[disc + 2] * hx
     direction = q[disc + 2] + crank_position(r, c) + r.cage
-    roller_contacts(r, d, c, ux, uy, direction, vx, vy, v[disc + 2] + cage_speed, rate_weight)
+    roller_contacts(r, d, c, ux, uy, direction, vx, vy, v[disc + 2] + cage_speed, rate_weight, False)
     fx, fy, moment = r.bearing_total[0], r.bearing_total[1], r.bearing_total[2]
     r.cage_power -= moment * v[disc + 2]
     # Columns of d(ux, uy, turning of disc)/dq, disc before crank as in q.

@@ -6,8 +6,8 @@ from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
-from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_slope, least_distance, shortening, turn_of
-from rv_plant.near_mesh import NEAR, keep_contact
+from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
+from rv_plant.near_mesh import NEAR, keep_contact, keep_force
 
 # Pins nearer than this have their distance and phase computed, touching or not; at rest those that may come to touch too [m].
 APART = 1e-9
@@ -179,13 +179,18 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         turn = 1.0 - bend * reach
         if still:
             shift_cos, shift_sin = turn_of(shift)
-            slope = per_reach * curvature_slope(
+            curvature, slope, curl = curvature_and_slopes(
                 ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
             )
-            keep_contact(r, d, j, -gap, gx, gy, gt, gr, bend, per_reach * per_reach * slope, reach, swing, slope)
+            # Along the parallel curve through the pin's centre.
+            per_reach = 1.0 / (1.0 + curvature * distance)
+            slope, square = slope * per_reach, per_reach * per_reach
+            curl = square * (square * curl - 3.0 * distance * slope * slope * per_reach)
+            keep_contact(r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope)
             if gap >= 0.0:
                 continue
             force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
+            keep_force(r, d, force)
         else:
             rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
             r.mesh_rate[d, j] = rate

@@ -11,27 +11,25 @@ from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.assembly import assemble
-from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
 from rv_plant.dimension import FILE
 from rv_plant.dynamics import assemble_motion
 from rv_plant.effects import HOOKS
-from rv_plant.equilibrium import equilibrium, list_free_coordinates, refine
+from rv_plant.equilibrium import equilibrium, refine
 from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
 from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
-from rv_plant.mesh import clear_flanks
 from rv_plant.motion import advance, publish_motion, start_motion, start_ramp
-from rv_plant.needle_bearing import cage_rate, clear_clearances
+from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
-from rv_plant.poses import clear_places, crank_position
+from rv_plant.poses import crank_position
+from rv_plant.prepared import prepare, retune
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 effects = compose("rv_plant.effects", HOOKS)
-start_effects, prepare_effects, advance_states, heat_effects = effects.start, effects.prepare, effects.advance, effects.heat
-amplitudes_changed, keep_amplitudes = effects.amplitudes_changed, effects.keep_amplitudes
+start_effects, advance_states, heat_effects = effects.start, effects.advance, effects.heat
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -66,66 +64,6 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
         state("advance_before", "rad", "turning of the ideal output between z_before and z"),
     ]
-
-
-@kernel
-def prepare(r):
-    """Everything that follows from the parameters alone."""
-    for j in range(r.pin_x.shape[0]):
-        angle = 2.0 * math.pi * j / r.pin_x.shape[0]
-        radial = r.pin_circle_radius + r.pin_position_error_radial[j]
-        tangential = r.pin_position_error_tangential[j]
-        r.pin_angle[j], r.pin_cos[j], r.pin_sin[j] = angle, math.cos(angle), math.sin(angle)
-        r.pin_x[j] = radial * math.cos(angle) - tangential * math.sin(angle)
-        r.pin_y[j] = radial * math.sin(angle) + tangential * math.cos(angle)
-    r.mesh_constant, r.mesh_exponent = law_constants(
-        r.contact_law, r.stiffness_reading, r.mesh_stiffness, r.mesh_stiffness_lankarani,
-        r.exponent_lankarani, r.mesh_width,
-    )
-    r.mesh_damping_now, r.roller_damping_now = r.mesh_damping, r.roller_damping
-    if r.damping_law == HYSTERETIC:
-        r.mesh_damping_now = r.roller_damping_now = r.restitution
-    elif r.damping_law == MODAL:
-        r.mesh_damping_now = r.roller_damping_now = r.modal_damping_time
-    r.roller_constant, r.roller_exponent = law_constants(
-        r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
-        r.exponent_lankarani, r.roller_length,
-    )
-    r.output_constant, r.output_exponent = law_constants(
-        LINE, r.stiffness_reading, r.output_stiffness, r.output_stiffness, r.exponent_lankarani, r.mesh_width
-    )
-    r.pressure_cosine = math.cos(r.pressure_angle)
-    clear_added(r)
-    prepare_effects(r)
-    keep_amplitudes(r)
-    list_free_coordinates(r)
-
-
-@kernel
-def retune(r):
-    """Amplitudes set during the run take effect; 0 or a fault."""
-    if not amplitudes_changed(r):
-        return 0
-    fault = geometry_fault(r)
-    if fault != 0:
-        return fault
-    prepare(r)
-    # Where a support has become rigid nothing is left of its departure.
-    for i in range(r.z.shape[0]):
-        if not r.is_free[i]:
-            r.z[i] = r.z_before[i] = 0.0
-    return 0
-
-
-@kernel
-def clear_added(r):
-    """No effect adds anything to the ideal parts, whose supports are rigid."""
-    clear_flanks(r)
-    clear_places(r)
-    clear_clearances(r)
-    for i in range(r.compliance.shape[0]):
-        r.compliance[i] = 0.0
-    r.output_gap_added = 0.0
 
 
 @kernel

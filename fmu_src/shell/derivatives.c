@@ -54,6 +54,11 @@ static uint32_t next_cell(const uint32_t *references, int whole_variables, struc
     return cell;
 }
 
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* The step along the seed, and on which side of the present values there is room for it. */
 static double step_along(const struct instance *i, const struct direction *d, const struct points **points)
 {
@@ -64,13 +69,13 @@ static double step_along(const struct instance *i, const struct direction *d, co
         double now = i->cells[next_cell(d->knowns, d->whole_variables, &w, &v)].real, seed = d->seed[k];
         if (seed == 0.0)
             continue;
-        size = fmin(size, SHARE * v->nominal / fabs(seed));
-        up = fmin(up, ((seed > 0.0 ? v->highest : v->lowest) - now) / seed);
-        down = fmin(down, (now - (seed > 0.0 ? v->lowest : v->highest)) / seed);
+        size = smaller(size, SHARE * v->nominal / fabs(seed));
+        up = smaller(up, ((seed > 0.0 ? v->highest : v->lowest) - now) / seed);
+        down = smaller(down, (now - (seed > 0.0 ? v->lowest : v->highest)) / seed);
     }
     *points = up >= size && down >= size ? &CENTRAL : up >= down ? &FORWARD : &BACKWARD;
     /* Between bounds closer than the step. */
-    return *points == &CENTRAL ? size : fmin(size, 0.5 * fmax(up, down));
+    return *points == &CENTRAL ? size : smaller(size, 0.5 * (up > down ? up : down));
 }
 
 static void add(struct instance *i, const struct direction *d, double weight)

@@ -10,8 +10,6 @@
 #include "same_calls.h"
 #include "values.h"
 
-#include <math.h>
-
 static void deliver(const struct instance *i, enum status status, const char *category, const char *text)
 {
     fmi3LogMessageCallback logger = (fmi3LogMessageCallback)i->importer.logger;
@@ -81,7 +79,8 @@ static double left_after_update(struct instance *i, double left)
                                                 i->may_return_early && left > 0.0, &requested, &until);
     if (!requested || !i->may_return_early)
         return left;
-    return until <= i->time ? 0.0 : fmin(left, until - i->time);
+    double wanted = until - i->time;
+    return wanted <= 0.0 ? 0.0 : wanted < left ? wanted : left;
 }
 
 /* A step, in parts where the importer wants to hear of them; ``early`` if it ends before its time. */
