@@ -5,13 +5,14 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 
 import copy
 import math
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.stretches import NOTHING, stretches
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Once
@@ -22,7 +23,6 @@ from rv_plant.faults import FAULTS
 from rv_plant.gear_stage import total_ratio
 from rv_plant.needle_bearing import cage_rate
 from studies import coupled
-from studies.life import HOUR
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
@@ -33,10 +33,6 @@ POSITIONS = 72
 # Means over a turn: torque and cage speed are within 1e-4 of those of 72 positions; what values change in them, roughly, is seen
 # within 1 % from seven.
 MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
-# Hours that count as none [s].
-NOTHING = 1e-6 * HOUR
-# Longest and first stretch of hours that one wear cycle stands for.
-LONGEST_JUMP, FIRST_JUMP = 1000.0 * HOUR, 50.0 * HOUR
 # Turns of the cranks in a wear cycle.  The base model's wear is run through full meshing cycles, once;
 # how it changes in proportion through shorter ones of fewer positions, which err by 1 to 6 % of the change by a law of wear.
 SHORT_CYCLE, SHORT_POSITIONS = 5, 18
@@ -333,18 +329,6 @@ class Bench:
         self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]
-
-
-def stretches(inspections: list[float]) -> Iterator[tuple[float, float, float]]:
-    """What the wear cycles of a life stand for: (time before, length, inspection it leads to) [s], growing in length."""
-    done, jump = 0.0, FIRST_JUMP
-    for target in sorted(set(inspections)):
-        while target - done > NOTHING:
-            left = target - done
-            stretch = left / max(1, math.ceil(left / jump - 1e-9))
-            yield done, stretch, target
-            done += stretch
-            jump = min(LONGEST_JUMP, 2.0 * jump)
 
 
 def within_turn(angle: float) -> float:

@@ -23,9 +23,9 @@ from discrepancy.prediction.bench import (
     TOLERANCE,
     Bench,
     Condition,
-    stretches,
     within_turn,
 )
+from discrepancy.prediction.stretches import stretches
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
