@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.arrays import Floats, Mask, Records, field_of
+from fmu_src.kernel import PLAIN
 from fmu_src.limits import usual_limits
 
 
@@ -221,7 +222,8 @@ class Table:
         records = np.zeros(1, self.dtype)
         for v in self.variables:
             records[v.name] = v.start
-        return records
+        # Plain Python takes fields as attributes of NumPy's own records.
+        return records.view(np.recarray) if PLAIN else records
 
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
         """The same table with other start values (and their sources)."""
