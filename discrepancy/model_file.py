@@ -22,6 +22,7 @@ import tomlkit
 from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
+from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault
@@ -125,9 +126,7 @@ def save_model(model: ModelFile, path: Path) -> None:
         for step in model.steps:
             steps.append(tomlkit.item({k: v for k, v in step.items() if v is not None}))
         document["steps"] = steps
-    partial = path.with_suffix(".part")
-    partial.write_text(tomlkit.dumps(document), encoding="utf-8")
-    partial.replace(path)
+    write_text(path, tomlkit.dumps(document))
 
 
 def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | str:

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
 
 USUAL_RELATIVE = 1e-6
@@ -112,6 +113,5 @@ def write_junit(comparisons: Sequence[Comparison], suite: str, seconds: float, w
             ElementTree.SubElement(case, "failure", message=str(comparison), type="difference").text = str(comparison)
     if warnings:
         ElementTree.SubElement(element, "system-err").text = "\n".join(warnings)
-    path.parent.mkdir(parents=True, exist_ok=True)
     ElementTree.indent(root)
-    ElementTree.ElementTree(root).write(path, "utf-8", xml_declaration=True)
+    write_text(path, '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(root, "unicode"))

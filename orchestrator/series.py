@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from orchestrator import netcdf
 
@@ -18,13 +19,10 @@ def write_series(series: dict[str, np.ndarray], units: dict[str, str], inputs: d
     if path.suffix != ".csv":
         return netcdf.write(netcdf.series_dataset(plain, units, inputs), path)
     columns = flat(plain)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".part")
-    with partial.open("w", newline="", encoding="utf-8") as file:
+    with replacing(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows(zip(*(values.tolist() for values in columns.values())))
-    partial.replace(path)
     return path
 
 

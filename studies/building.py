@@ -10,6 +10,7 @@ import fmpy
 
 from fmu_src.description import guid
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
@@ -34,7 +35,15 @@ class Wanted:
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
-    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
+
+    InputFault if another process builds there: a package must not hold units of two reducers.
+    """
+    with held(folder / "FMUs"):
+        return built_units(reducer, folder, wanted)
+
+
+def built_units(reducer: Reducer, folder: Path, wanted: Wanted) -> tuple[list[dict[str, Any]], list[Path]]:
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"{NAME} {project().version}"

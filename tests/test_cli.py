@@ -72,7 +72,7 @@ def test_stiffness_reading_and_contact_law(capsys):
     (("life", "--set", "crank_angle=3"), "exchanged by the two units"),
     (("run", "--turns", "nan"), "turns = nan"),
     (("run", "examples/pair.toml", "--torque", "5"), "--torque with a system's file"),
-    (("report", "README.md"), "is not a result"),
+    (("report", "README.md"), "not readable as a NetCDF file"),
 ])  # fmt: skip
 def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
     assert main(list(arguments)) == 2
