@@ -8,12 +8,12 @@ import contextlib
 import stat
 import tomllib
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from fmu_src.checked_file import write_fault
-from fmu_src.faults import InputFault, RunFault, nearest
+from fmu_src.faults import InputFault, RunFault
 
 # Bytes of a file that people write by hand, and how deep tables may stand in tables.
 MOST_TEXT, DEEPEST = 20_000_000, 20
@@ -44,15 +44,19 @@ def reading(path: Path, what: str, remedy: str = "check the file, or get it anew
         raise InputFault(f"{path}: not readable as {what}: {type(problem).__name__}: {shown(said)}; {remedy}") from None
 
 
-def shown(value: object) -> str:
-    """A value of a file as a fault shows it: short, on one line."""
-    try:
-        text = value if isinstance(value, str) else repr(value)
-    except ValueError:
-        # Python writes no integers of more than some thousand digits.
-        text = f"a {type(value).__name__} that is too long to be shown"
+def shown(text: str) -> str:
+    """A text of a file or about it as a fault shows it: short, on one line."""
     text = " ".join(text.split())
     return text if len(text) <= SHOWN else text[:SHOWN] + " ..."
+
+
+def quoted(value: object) -> str:
+    """A value of a file as a fault shows it."""
+    try:
+        return shown(repr(value))
+    except ValueError:
+        # Python writes no integers of more than some thousand digits.
+        return f"a {type(value).__name__} that is too long to be shown"
 
 
 def require_size(path: Path, most: int) -> None:
@@ -95,22 +99,10 @@ def require_plain(item: object, path: Path, place: str, depth: int) -> None:
     elif isinstance(item, int) and not -(2**63) <= item < 2**63:
         raise InputFault(f"{path}: {shown(place)}: a whole number beyond 64 bits; write it as 1e30, or correct it")
     elif not isinstance(item, (str, int, float)):
-        raise InputFault(f"{path}: {shown(place)} = {shown(str(item))}: a date or time, where a text or a number is meant; put it in quotes")
+        raise InputFault(f"{path}: {shown(place)} = {item}: a date or time, where a text or a number is meant; put it in quotes")
 
 
-def require_keys(table: object, known: Iterable[str], path: Path, place: str = "") -> dict[str, Any]:
-    """The table, if it is one and has no key but the known ones; the nearest of these is said."""
-    if not isinstance(table, dict):
-        raise InputFault(f"{path}: {place or 'the file'} = {shown(table)}: a table [{place}] with its keys is needed")
-    names = list(known)
-    for key in table:
-        if key not in names:
-            where = f"{place}.{key}" if place else f"[{key}]"
-            raise InputFault(f"{path}: {shown(where)}: there is no such key{nearest(key, names, 1) or '; possible here: ' + ', '.join(names)}")
-    return table
-
-
-def unpack(path: Path, folder: Path, what: str, most: int = MOST_UNPACKED) -> None:
+def unpack_archive(path: Path, folder: Path, what: str, most: int = MOST_UNPACKED) -> None:
     """Unpack a zip archive into a folder: no member leaves it, and together they take no more than ``most`` bytes."""
     left = most
     with reading(path, what), zipfile.ZipFile(path) as archive:
@@ -129,11 +121,11 @@ def require_inside(path: Path, member: zipfile.ZipInfo) -> None:
     parts = PurePosixPath(name.replace("\\", "/")).parts
     absolute = PureWindowsPath(name).drive or name.startswith(("/", "\\"))
     if absolute or ".." in parts or "\0" in name or len(parts) > MOST_FOLDERS:
-        raise InputFault(f"{path}: the archive holds {shown(name)!r}, a path that leads out of it: it is damaged, or made to do harm")
+        raise InputFault(f"{path}: the archive holds {quoted(name)}, a path that leads out of it: it is damaged, or made to do harm")
     if stat.S_ISLNK(member.external_attr >> 16):
-        raise InputFault(f"{path}: the archive holds {shown(name)!r}, a link; pack the file that it leads to")
+        raise InputFault(f"{path}: the archive holds {quoted(name)}, a link; pack the file that it leads to")
     if member.flag_bits & 1:
-        raise InputFault(f"{path}: {shown(name)!r} in the archive is encrypted; pack it without a password")
+        raise InputFault(f"{path}: {quoted(name)} in the archive is encrypted; pack it without a password")
 
 
 def unpack_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, folder: Path, left: int, path: Path) -> int:
@@ -154,6 +146,6 @@ def unpack_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, folder: Pat
         while block := source.read(BLOCK):
             written += len(block)
             if written > left:
-                raise InputFault(f"{path}: unpacked it is larger than {MOST_UNPACKED / 1e9:g} GB at {shown(member.filename)!r}; it is not unpacked")
+                raise InputFault(f"{path}: unpacked it is larger than {MOST_UNPACKED / 1e9:g} GB at {quoted(member.filename)}; it is not unpacked")
             file.write(block)
     return written

@@ -4,6 +4,7 @@ A value may differ from its reference by ``relative`` times the largest value th
 has in the run, plus ``absolute``.  Each variable is a test case of the JUnit file.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -60,8 +61,8 @@ def parse_tolerance(text: str) -> Tolerance:
         tolerance = Tolerance(pattern if equals else "*", *values)
     except (ValueError, TypeError):
         raise InputFault(f"tolerance {text!r}: write 1e-6, plant.lag=1e-6 or wear.*=1e-6,1e-12 (relative, absolute)") from None
-    if not all(value >= 0.0 for value in values):
-        raise InputFault(f"tolerance {text!r}: must not be negative")
+    if not all(0.0 <= value < math.inf for value in values):
+        raise InputFault(f"tolerance {text!r}: finite numbers are needed that are not negative")
     return tolerance
 
 
@@ -79,6 +80,8 @@ def compare(
 ) -> list[Comparison]:
     """All variables of the reference, at its times; between two rows the run is taken as straight."""
     time, at = series["time"], reference["time"]
+    if len(reference) < 2:
+        raise InputFault("the reference holds nothing but the time: nothing can be compared")
     slack = SAME_TIME * max(abs(time[-1]), abs(time[0]))
     if at.min() < time[0] - slack or at.max() > time[-1] + slack:
         raise InputFault(

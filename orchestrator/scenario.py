@@ -21,15 +21,16 @@ Paths are relative to the file.  Every error names file, key, value and remedy.
 """
 
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from fmu_src.faults import InputFault
+from fmu_src.reading import parse_toml, read_text
+from fmu_src.strict_file import NAME, Strict, validated
 from fmu_src.units import UnitError, conversion
 from orchestrator.call_limits import USUAL_LIMITS, CallLimits
 from orchestrator.component import Component, InProcess
@@ -37,8 +38,9 @@ from orchestrator.master import Connection, LoopSettings, StepControl
 from orchestrator.master.power import THRESHOLD
 from orchestrator.opening import open_fmu
 from orchestrator.settings import parse_value
-from reducers.reducer import NAME, Strict, load_reducer
+from reducers.reducer import load_reducer
 
+REMEDY = "see docs/scenarios.md"
 # Seconds for all calls of a unit, or by kind of call; None: as the file says, or as usual.
 Limit = float | Mapping[str, float] | CallLimits | None
 
@@ -123,17 +125,8 @@ def read_scenario(
 ) -> Scenario:
     """Read a scenario file and make its components; ``step``, ``call_limit`` and ``duration`` go before those of the file."""
     path = Path(path)
-    if not path.is_file():
-        raise InputFault(f"no scenario file at {path}")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = ScenarioFile(**tomllib.loads(text))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        raise InputFault(f"{path}: {key} = {first['input']!r}: {first['msg']}; see docs/scenarios.md") from None
+    text = read_text(path, "scenario file", REMEDY)
+    content = validated(ScenarioFile, parse_toml(text, path, REMEDY), path, REMEDY)
     head = content.scenario
     own_step, own_duration, start = (
         seconds(getattr(head, key), f"{path}: scenario.{key}") for key in ("step", "duration", "start")

@@ -33,6 +33,8 @@ from orchestrator.ssp.parameters import apply
 USUAL_STEPS = 1000
 LAST_RESORT = 1e-3
 MOST_STEPS = 1e7
+# Bytes of what is recorded.
+MOST_RECORDED = 4e9
 
 
 @dataclass
@@ -78,6 +80,9 @@ class System:
         readers = [
             master.components[name].reader(signal.references, buffers[path]) for path, (name, signal) in signals.items()
         ]
+        size = 8.0 * (steps + 1) * sum(buffer.size for buffer in buffers.values())
+        if size > MOST_RECORDED:
+            raise InputFault(f"{steps} steps of {len(buffers)} recorded variables take {size / 1e9:.3g} GB: record fewer (--record), or run shorter")
         rows = {path: np.zeros((steps + 1, buffer.size), buffer.dtype) for path, buffer in buffers.items()}
         time = np.zeros(steps + 1)
         for i in range(steps + 1):

@@ -16,6 +16,7 @@ from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
+from fmu_src.reading import reading
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from orchestrator.ssp.exporter import Experiment, export_ssp
@@ -91,7 +92,12 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     """Whether an FMU of this identity, version and licence, for all platforms if need be, is there already."""
     if not path.exists():
         return False
-    description = fmpy.read_model_description(str(path))
+    try:
+        with reading(path, "an FMU"):
+            description = fmpy.read_model_description(str(path))
+    except InputFault:
+        # Damaged, or something else: it is built anew.
+        return False
     known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
     makers = project().attributes(source_hash())
     if known != identity or any(getattr(description, name) != value for name, value in makers.items()):

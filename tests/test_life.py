@@ -145,7 +145,7 @@ def test_broken_checkpoint_is_refused(tmp_path):
         load_checkpoint(path, {})
 
 
-@pytest.mark.parametrize("bad", [{"hours": -1.0}, {"tolerance": 0.0}, {"first_jump": np.nan}, {"tolerance": 0.9}])
+@pytest.mark.parametrize("bad", [{"hours": -1.0}, {"tolerance": 0.0}, {"first_jump": np.nan}, {"tolerance": 0.9}, {"tolerance": 1e-300}, {"first_jump": 1e-300}])
 def test_senseless_settings_are_named(bad):
     with pytest.raises(InputFault, match=next(iter(bad))):
         LifeSettings(**bad).check()

@@ -193,6 +193,7 @@ def check(options: argparse.Namespace) -> int:
     from cli import screen
     from orchestrator.regression import compare, parse_tolerance, write_junit
     from orchestrator.series import flat, read_series
+    from orchestrator.system import whole_steps
 
     tolerances = [parse_tolerance(text) for text in options.tolerance]
     reference = read_series(Path(options.reference))
@@ -203,7 +204,8 @@ def check(options: argparse.Namespace) -> int:
     if options.duration is None:
         # As far as the reference reaches.
         span = float(reference["time"].max()) - system.master.start_time
-        system.steps = max(1, int(np.ceil(span / system.master.step_size * (1.0 - 1e-12))))
+        size = system.master.step_size
+        system.steps = whole_steps(max(1.0, float(np.ceil(span / size * (1.0 - 1e-12)))) * size, size)
     comparisons = compare(flat(simulate(system, [])), reference, tolerances)
     show_warnings(system)
     if options.junit:

@@ -8,10 +8,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
 from fmu_src.faults import InputFault, MissingPart
+from fmu_src.reading import reading, require_size
 
 # Ending of the file's name -> reader's module.  The modules import their libraries themselves:
 # a campaign of CSV files needs none of the others.
@@ -19,6 +21,9 @@ ENDINGS = {
     ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".parquet": "parquet", ".mat": "mat", ".mf4": "mdf",
     ".mdf": "mdf", ".tdms": "tdms",
 }  # fmt: skip
+
+# Bytes of a file, and of what it is when it is unpacked (assumed: hours of many channels).
+MOST, MOST_UNPACKED = 2_000_000_000, 2_000_000_000
 
 
 @dataclass(frozen=True)
@@ -50,20 +55,7 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
         reader = import_module(f"discrepancy.campaign.readers.{kind}")
     except ModuleNotFoundError as problem:
         raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
-    try:
-        columns: dict[str, np.ndarray] = reader.read(path, names, options)
-    except ModuleNotFoundError as problem:
-        raise MissingPart(f"{place}: file = {path.name!r}: reading it", problem.name or kind, "measurements") from None
-    except ReadFault as problem:
-        raise InputFault(f"{place}: {path}: {problem}") from None
-    except InputFault:
-        raise
-    # The libraries' own exceptions on broken files are of every kind (struct, key, value, runtime errors).
-    except Exception as problem:  # noqa: BLE001
-        raise InputFault(
-            f"{place}: {path}: not readable as {kind}: {type(problem).__name__}: {problem}; check the file, or state its"
-            " format"
-        ) from None
+    columns = read_by(reader, path, names, options, kind, place)
     lengths = {name: len(column) for name, column in columns.items()}
     if len(set(lengths.values())) > 1:
         raise InputFault(
@@ -73,7 +65,22 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     return columns
 
 
-class ReadFault(ValueError):
+def read_by(reader: ModuleType, path: Path, names: set[str], options: Options, kind: str, place: str) -> dict[str, np.ndarray]:
+    """What the format's reader finds, its faults with the place of the run."""
+    try:
+        with reading(path, kind, "check the file, or state its format"):
+            require_size(path, MOST)
+            columns: dict[str, np.ndarray] = reader.read(path, names, options)
+    except ModuleNotFoundError as problem:
+        raise MissingPart(f"{place}: file = {path.name!r}: reading it", problem.name or kind, "measurements") from None
+    except ReadFault as problem:
+        raise InputFault(f"{place}: {path}: {problem}") from None
+    except InputFault as fault:
+        raise InputFault(f"{place}: {fault}") from None
+    return columns
+
+
+class ReadFault(InputFault):
     """What is wrong with a file and how to mend it; the place is added by the caller."""
 
 
