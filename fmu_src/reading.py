@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
-from fmu_src.checked_file import write_fault
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.checked_file import Damaged, write_fault
+from fmu_src.faults import InputFault, MissingPart, RunFault
 
 # Bytes of a file that people write by hand, and how deep tables may stand in tables.
 MOST_TEXT, DEEPEST = 20_000_000, 20
@@ -29,8 +29,12 @@ def reading(path: Path, what: str, remedy: str = "check the file, or get it anew
     """Whatever goes wrong in the block is a fault of the file: ``what`` it should be and the ``remedy`` are said."""
     try:
         yield
-    except (InputFault, RunFault):
-        raise
+    except (InputFault, RunFault) as fault:
+        if path.name in str(fault) or isinstance(fault, MissingPart):
+            raise
+        # Said deeper down, where the file was not known.
+        kind = next(kind for kind in (Damaged, InputFault, RunFault) if isinstance(fault, kind))
+        raise kind(f"{path}: {fault}") from None
     except ModuleNotFoundError:
         # A part of the installation that is missing is no fault of the file.
         raise
@@ -81,7 +85,10 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
 
 def parse_toml(text: str, path: Path, remedy: str) -> dict[str, Any]:
     with reading(path, "a TOML file", remedy):
-        content = tomllib.loads(text)
+        try:
+            content = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as problem:
+            raise InputFault(f"{path}: not a TOML file: {shown(str(problem))}; {remedy}") from None
         require_plain(content, path, "", 0)
         return content
 

@@ -1,9 +1,6 @@
-"""How long the calls of an isolated unit may take, and who sees to it."""
+"""How long the calls of an isolated unit may take."""
 
 import math
-import subprocess
-import threading
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
@@ -11,8 +8,6 @@ from fmu_src.faults import InputFault, nearest
 
 # A unit that gives no answer for so long hangs (assumed: the slowest unit known needs a tenth for its slowest step).
 USUAL = 600.0
-# How often it is looked at the clock, and how much of a limit may pass in between.
-PAUSE, SHARE = 0.25, 0.1
 
 
 @dataclass(frozen=True)
@@ -67,22 +62,3 @@ def parse_limits(texts: list[str]) -> dict[str, float] | None:
             raise InputFault(f"--call-limit {text!r}: write seconds for all calls, 30, or for one kind, step=30") from None
         found |= {name.strip(): value} if name else dict.fromkeys([f.name for f in fields(CallLimits) if f.name != "end"], value)
     return found or None
-
-
-class Watch:
-    """Ends a process that takes too long for a call.  A thread looks at the clock, so that setting a limit costs nothing."""
-
-    def __init__(self, process: "subprocess.Popen[bytes]", limits: CallLimits):
-        self.process = process
-        self.pause = min(PAUSE, SHARE * limits.least)
-        self.until = math.inf
-        self.has_ended_it = self.is_over = False
-        threading.Thread(target=self.look, name="rvwear call limits", daemon=True).start()
-
-    def look(self) -> None:
-        while not self.is_over:
-            time.sleep(self.pause)
-            if time.monotonic() > self.until and not self.is_over:
-                self.has_ended_it = True
-                self.process.kill()
-                return

@@ -1,19 +1,16 @@
 """The far end of an isolated unit: a process that does what the master asks for, and never outlives it."""
 
 import json
-import os
-import signal as signals
-import sys
-import threading
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from fmu_src.child_process import open_streams
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.framing import read, write
 from orchestrator.component import Component, Snapshot
 from orchestrator.fmu import Fmu
-from orchestrator.framing import read, write
 
 # Attributes of a component that its stand-in shows.
 SHOWN = ("can_restore", "can_vary_step", "input_derivatives", "usual_step")
@@ -82,36 +79,9 @@ def shown(component: Component) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def end_with_master(lifeline: int) -> None:
-    """The master holds the other end of this pipe and never writes: its end is the end of this process and of all that it started.
-
-    The kernel sees to it where it can (Linux), whatever the unit is doing; elsewhere a thread does, as far as the unit lets it run.
-    """
-    if sys.platform == "linux":
-        import fcntl
-
-        fcntl.fcntl(lifeline, fcntl.F_SETOWN, -os.getpgrp())
-        fcntl.fcntl(lifeline, fcntl.F_SETSIG, signals.SIGKILL)
-        fcntl.fcntl(lifeline, fcntl.F_SETFL, fcntl.fcntl(lifeline, fcntl.F_GETFL) | os.O_ASYNC)
-
-    def wait() -> None:
-        while os.read(lifeline, 1):
-            pass
-        os._exit(1)
-
-    # Also where the master was gone before the kernel was asked.
-    threading.Thread(target=wait, daemon=True).start()
-
-
 def main(name: str, path: str, lifeline: str) -> None:
-    """Serve one unit until the master lets go of it or is gone.  Ctrl-C is for the master to hear."""
-    signals.signal(signals.SIGINT, signals.SIG_IGN)
-    if int(lifeline) >= 0:
-        end_with_master(int(lifeline))
-    requests = sys.stdin.buffer
-    answers = os.fdopen(os.dup(1), "wb")
-    # A unit may print: that must not get among the answers.
-    os.dup2(2, 1)
+    """Serve one unit until the master lets go of it or is gone."""
+    requests, answers = open_streams(lifeline)
     try:
         component = Fmu(name, path)
     except (InputFault, RunFault) as fault:

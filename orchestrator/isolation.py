@@ -1,39 +1,34 @@
 """A unit in a process of its own: when it crashes or hangs, the run and the other units survive.
 
-The process talks through its standard input and output, a request and an answer at a time, both data (``framing``); what the unit
+The process talks through its standard input and output, a request and an answer at a time, both data (``fmu_src.framing``); what the unit
 itself prints goes to standard error.
 """
 
-import contextlib
 import json
 import math
-import os
 import signal as signals
-import subprocess
-import sys
 import time as clock
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
 from fmu_src.arrays import Records
+from fmu_src.child_process import Watch, end, started, streams
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.framing import FrameFault, read, write
 from fmu_src.reading import reading
 from fmu_src.units import BaseUnit
-from orchestrator.call_limits import USUAL_LIMITS, CallLimits, Watch
+from orchestrator.call_limits import USUAL_LIMITS, CallLimits
 from orchestrator.component import Component, Element, Signal, Snapshot, unit_of
-from orchestrator.framing import FrameFault, read, write
-from orchestrator.interrupts import interrupts_later
 from orchestrator.isolated_unit import SHOWN
 from orchestrator.scratch import Scratch
 
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
 # Exit codes of Windows for crashes begin here.
 WINDOWS_CRASH = 0xC0000000
-START = "import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from orchestrator.isolated_unit import main; main(*sys.argv[2:])"
 # Method -> (which limit holds for it, what it is called in a fault).
 CALLS = {
     "new_reader": ("values", "reading values"), "new_writer": ("values", "writing values"), "read": ("values", "reading values"),
@@ -52,8 +47,8 @@ class Isolated(Component):
         self.time, self.doing, self.limit = math.nan, "its start", limits.start
         # Where the unit is unpacked: a process that crashes cannot remove it.
         self.scratch = Scratch()
-        self.process, lifeline = started(name, self.path, self.scratch.path)
-        self.watch = Watch(self.process, limits)
+        self.process, lifeline = started("orchestrator.isolated_unit:main", name, str(self.path), environment={"TMPDIR": str(self.scratch.path)})
+        self.watch = Watch(self.process, limits.least)
         self.requests, self.answers = streams(self.process)
         # Also when nobody closes this: a unit that hangs would stay behind.
         self.end = weakref.finalize(self, end, self.process, self.watch, lifeline, limits.end)
@@ -202,45 +197,3 @@ class Isolated(Component):
     def close(self) -> None:
         self.end()
         self.scratch.remove()
-
-
-def started(name: str, path: Path, scratch: Path) -> tuple["subprocess.Popen[bytes]", int]:
-    """The unit's process, and the end of a pipe whose closing ends it (-1 where there is none)."""
-    held = passed = -1
-    more: dict[str, Any] = {}
-    if os.name == "posix":
-        passed, held = os.pipe()
-        # A group of its own: it is ended with all that the unit started.
-        more = {"pass_fds": (passed,), "process_group": 0}
-    # With this process's own path: a folder named like a module where somebody happens to stand is none.
-    with interrupts_later():
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-c", START, repr(sys.path), name, str(path), str(passed)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": str(scratch)}, **more,
-        )  # fmt: skip
-    if passed >= 0:
-        os.close(passed)
-    return process, held
-
-
-def streams(process: "subprocess.Popen[bytes]") -> tuple[IO[bytes], IO[bytes]]:
-    """To where requests go and from where answers come."""
-    assert process.stdin is not None and process.stdout is not None
-    return process.stdin, process.stdout
-
-
-def end(process: "subprocess.Popen[bytes]", watch: Watch, lifeline: int, seconds: float) -> None:
-    """Let go of a process: it ends when it comes to read, and is killed if it does not come to that."""
-    watch.is_over = True
-    requests, answers = streams(process)
-    # What was not sent to a process that crashed cannot be sent any more.
-    with contextlib.suppress(OSError):
-        requests.close()
-    try:
-        process.wait(seconds)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-    answers.close()
-    if lifeline >= 0:
-        os.close(lifeline)

@@ -12,6 +12,7 @@ import xarray as xr
 from fmu_src.checked_file import replacing, require_seal, seal
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.reading import reading, require_size
+from fmu_src.reading_apart import plain, read_apart, restored
 from fmu_src.source_hash import source_hash
 
 # Attribute of a file that ends with its checksum, and the most that is read [bytes] (assumed: the longest lives take a tenth).
@@ -62,7 +63,21 @@ def read(path: Path) -> xr.Dataset:
         require_size(path, MOST)
         if SEALED.encode() in path.read_bytes():
             require_seal(path)
-        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as dataset:
-            if sum(variable.nbytes for variable in dataset.variables.values()) > MOST:
-                raise InputFault(f"{path}: more than {MOST / 1e9:g} GB of values; write fewer of them")
-            return dataset.load()
+            return opened(path)
+        # What others wrote may be more than the library can bear.
+        content = restored(read_apart("orchestrator.netcdf:read_plain", path))
+        return xr.Dataset({name: (dimensions, values) for name, (dimensions, values) in content["variables"].items()}, attrs=content["attributes"])
+
+
+def opened(path: Path) -> xr.Dataset:
+    with xr.open_dataset(path, engine="netcdf4", decode_times=False) as dataset:
+        if sum(variable.nbytes for variable in dataset.variables.values()) > MOST:
+            raise InputFault(f"{path}: more than {MOST / 1e9:g} GB of values; write fewer of them")
+        return dataset.load()
+
+
+def read_plain(path: Path) -> dict[str, Any]:
+    """A NetCDF file as data: {"variables": {name: (dimensions, values)}, "attributes": {name: text}}."""
+    dataset = opened(path)
+    variables = {str(name): [[str(d) for d in v.dims], plain(np.asarray(v.values))] for name, v in dataset.variables.items()}
+    return {"variables": variables, "attributes": {str(name): str(value) for name, value in dataset.attrs.items()}}

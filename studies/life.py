@@ -68,7 +68,9 @@ class LifeSettings:
         if self.tolerance < least:
             raise InputFault(f"tolerance = {self.tolerance:g}: it would need more than {MOST_JUMPS} jumps; {least:.1g} is the smallest")
         if not self.wanted_jumps() <= MOST_ASKED:
-            raise InputFault(f"first_jump = {self.first_jump}, largest_jump = {self.largest_jump}: more than {MOST_ASKED} jumps in {self.hours:g} h; give longer ones")
+            raise InputFault(
+                f"first_jump = {self.first_jump}, largest_jump = {self.largest_jump}: more than {MOST_ASKED} jumps in {self.hours:g} h; give longer ones"
+            )
 
     def first_jumps(self) -> int:
         """Jumps of the first run."""

@@ -14,8 +14,8 @@ import pytest
 from shared import gone
 from small_fmus import build_sleeper
 
+from fmu_src import framing
 from fmu_src.faults import InputFault, RunFault
-from orchestrator import framing
 from orchestrator.call_limits import CallLimits, parse_limits
 from orchestrator.fmu import Fmu
 from orchestrator.isolation import Isolated

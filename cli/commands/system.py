@@ -122,7 +122,9 @@ def refuse_pair_options(options: argparse.Namespace) -> None:
 
 def refuse_system_options(options: argparse.Namespace) -> None:
     names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record", "call_limit")
-    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name) not in (None, False, [])]
+    # 0 is given, too.
+    unset = dict.fromkeys(names) | {"isolate": False, "record": None, "call_limit": []}
+    given = [f"--{name.replace('_', '-')}" for name in names if (value := getattr(options, name)) is not unset[name] and value != unset[name]]
     if given:
         raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
 

@@ -1,4 +1,4 @@
-"""Messages between processes as data: texts, numbers, bytes, lists and tables of these, arrays of numbers.
+"""Messages between processes as data: texts, numbers, bytes, lists and tables of these, arrays of numbers, times and texts.
 
 Nothing that is read can do anything: a message is either one of these or a FrameFault.  A frame is its length (8 bytes) and the value: a
 sign for its kind, then its content, little-endian.
@@ -13,7 +13,7 @@ LENGTH = struct.Struct("<Q")
 INTEGER, REAL = struct.Struct("<q"), struct.Struct("<d")
 # Bytes of a message and how deep its lists may be (assumed: the largest state that is known takes a hundredth).
 MOST, DEEPEST = 4_000_000_000, 12
-NUMBERS = "fiub"
+NUMBERS = "fiubcmMSU"
 
 
 class FrameFault(ValueError):
