@@ -75,7 +75,12 @@ def read_text(path: Path, what: str, remedy: str, most: int = MOST_TEXT) -> str:
         raise InputFault(f"no {what} at {path}; {remedy}")
     with reading(path, f"a {what} in UTF-8", remedy):
         require_size(path, most)
-        return path.read_text(encoding="utf-8-sig")
+        content = path.read_bytes()
+        try:
+            return content.decode("utf-8-sig").replace("\r\n", "\n")
+        except UnicodeDecodeError as problem:
+            line = content.count(b"\n", 0, problem.start) + 1
+            raise InputFault(f"{path}: line {line}: the byte {content[problem.start]:#04x} is no UTF-8; save the file as UTF-8") from None
 
 
 def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:

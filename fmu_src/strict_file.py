@@ -76,8 +76,8 @@ def keys_at(model: type[BaseModel], location: Location) -> list[str]:
 
 def models_in(annotation: Any) -> Iterator[type[BaseModel]]:
     """The models that a type speaks of."""
-    if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias) and issubclass(annotation, BaseModel):
-        yield annotation
-    elif get_origin(annotation) in (Union, types.UnionType, list, dict, tuple):
+    if get_origin(annotation) in (Union, types.UnionType, list, dict, tuple):
         for argument in get_args(annotation):
             yield from models_in(argument)
+    elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation

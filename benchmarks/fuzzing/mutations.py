@@ -83,7 +83,7 @@ def put(data: bytes, _: list[bytes], chance: random.Random) -> bytes:
     return data[:place] + chance.choice(PIECES + VALUES + NUMBERS) + data[place:]
 
 
-def lines(data: bytes, others: list[bytes], chance: random.Random) -> bytes:
+def rows_changed(data: bytes, others: list[bytes], chance: random.Random) -> bytes:
     """A line twice, away, elsewhere, or one of another file."""
     rows = data.split(b"\n")
     k = chance.randrange(len(rows))
@@ -104,4 +104,4 @@ def splice(data: bytes, others: list[bytes], chance: random.Random) -> bytes:
     return data[: chance.randrange(len(data) + 1)] + other[chance.randrange(len(other) + 1) :]
 
 
-CHANGES = (number, number, value, value, value, word, word, flip, flip, word_of_bytes, cut, put, put, lines, lines, splice)
+CHANGES = (number, number, value, value, value, word, word, flip, flip, word_of_bytes, cut, put, put, rows_changed, rows_changed, splice)

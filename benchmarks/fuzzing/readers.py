@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from benchmarks.fuzzing.seeds import FMI2, zipped
 from fmu_src.checked_file import checked, checksum_line
@@ -159,7 +160,7 @@ def message(path: Path) -> None:
         raise InputFault(f"{path}: {fault}") from None
 
 
-KNOWN: dict[str, list] = {}
+KNOWN: dict[str, list[Any]] = {}
 # Reader -> (name of the file that is changed, how it is read).
 READERS: dict[str, tuple[str, Callable[[Path], None]]] = {
     "reducer": ("a.toml", reducer), "model": ("a.toml", model), "duty": ("a.toml", duty), "ensemble": ("a.toml", ensemble), "scenario": ("a.toml", scenario),

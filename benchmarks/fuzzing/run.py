@@ -13,6 +13,8 @@ from pathlib import Path
 from benchmarks.fuzzing.readers import READERS
 
 ROOT = Path(__file__).resolve().parents[2]
+# Where Python looks before this project.
+PATH: tuple[str, ...] = ()
 # A reader whose process dies so often is left.
 MOST_DEATHS = 20
 
@@ -37,7 +39,7 @@ def trial(reader: str, seed: int, seconds: float, count: int, folder: Path) -> O
         if left <= 0.0 or outcome.done >= count:
             break
         command = [sys.executable, "-m", "benchmarks.fuzzing.trial", reader, str(seed + 1000 * death), str(left), str(count - outcome.done), str(folder)]
-        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": str(ROOT)})
+        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join([*PATH, str(ROOT)])})
         done = 0
         for line in process.stdout.splitlines():
             said = json.loads(line)

@@ -292,7 +292,10 @@ def checkpoint_content() -> bytes:
 def lives() -> Iterator[bytes]:
     from studies.ensemble.store import line_of
 
-    yield "".join(map(line_of, [{"ensemble": {"seed": 1}}, {"number": 0, "fault": "x"}, {"number": 1, "hours": [0.0, 1.0], "figures": {"a": [0.0, 1.0]}}])).encode()
+    contents: list[dict[str, object]] = [
+        {"ensemble": {"seed": 1}}, {"number": 0, "fault": "x"}, {"number": 1, "hours": [0.0, 1.0], "figures": {"a": [0.0, 1.0]}},
+    ]  # fmt: skip
+    yield "".join(line_of(content) for content in contents).encode()
 
 
 def fmu() -> Iterator[bytes]:

@@ -54,7 +54,7 @@ def value_of(part: ast.expr, values: Floats, formula: str) -> Floats:
             pass
         case ast.Constant(value=int() | float() as number) if abs(number) < 1e300:
             # As floats: whole numbers would grow without end.
-            return np.float64(number)
+            return np.array(float(number))
         case ast.Name(id=name) if name in RAW:
             return values
         case ast.UnaryOp(op=ast.USub(), operand=operand):
