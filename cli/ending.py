@@ -26,8 +26,13 @@ def terminate(_: int, __: FrameType | None) -> None:
     raise Terminated
 
 
-def exit_code(interruption: KeyboardInterrupt) -> int:
-    return TERMINATED if isinstance(interruption, Terminated) else INTERRUPTED
+def exit_code(interruption: BaseException | None) -> int:
+    """By what came first: others may have said more of it on the way."""
+    while interruption is not None:
+        if isinstance(interruption, Terminated):
+            return TERMINATED
+        interruption = interruption.__cause__ or interruption.__context__
+    return INTERRUPTED
 
 
 def reader_is_gone() -> bool:

@@ -59,7 +59,8 @@ def main(arguments: list[str] | None = None) -> int:
         return ended_by(problem, options.command)
     except KeyboardInterrupt as interruption:
         code = exit_code(interruption)
-        print(f"rvwear {options.command}: {'interrupted' if code == INTERRUPTED else 'terminated'}", file=sys.stderr)
+        how = "interrupted" if code == INTERRUPTED else "terminated"
+        print(f"rvwear {options.command}: {how}" + (f" ({interruption})" if str(interruption) else ""), file=sys.stderr)
         return code
 
 
