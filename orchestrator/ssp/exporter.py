@@ -16,6 +16,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import fmpy
 
+from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.package import EPOCH
 from orchestrator.component import Signal
@@ -76,14 +77,12 @@ def export_ssp(
     for unit in units.values():
         files[f"resources/{unit.name}.ssv"] = values(
             unit, settings.get(unit.name, {}), {name for _, (end, name) in pairs if end == unit.name})
-    partial = target.with_suffix(".part")
-    with ZipFile(partial, "w") as archive:
+    with replacing(target) as partial, ZipFile(partial, "w") as archive:
         for path, element in files.items():
             ElementTree.indent(element)
             add(archive, path, ElementTree.tostring(element, "utf-8", xml_declaration=True))
         for fmu in sorted({unit.path for unit in units.values()}):
             add(archive, f"resources/{fmu.name}", fmu.read_bytes())
-    partial.replace(target)
     return target
 
 
