@@ -23,7 +23,7 @@ from orchestrator.scenario import read_scenario
 from orchestrator.schemes import SCHEMES
 from orchestrator.scratch import Scratch
 from orchestrator.settings import parse_value
-from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.importer import Structure, read_ssp
 from orchestrator.ssp.parameters import apply
 
 # Steps of a system whose files give none, and the step [s] where they do not even give a duration.
@@ -134,6 +134,7 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
         return connect({path.stem: path}, (), step, isolate, **master)
     structure = read_ssp(path)
     components = {name: open_fmu(name, fmu, isolate) for name, fmu in structure.fmus.items()}
+    require_shapes(path, structure, components)
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
             apply(parameter, components[name], variable)
@@ -149,6 +150,16 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
         made.warn(f"step = {size:g} s: neither {path.name} nor its units name a communication step; give one (--step)")
     stop = structure.stop if structure.stop is not None else structure.start + USUAL_STEPS * size
     return System(structure.name, made, whole_steps(stop - structure.start, size), [], str(path), structure.folders)
+
+
+def require_shapes(path: Path, structure: Structure, components: dict[str, Component]) -> None:
+    """InputFault if an array connector is not as large as the FMU's variable."""
+    for (name, connector), shape in structure.shapes.items():
+        if name in components and components[name].signal(connector).shape != shape:
+            raise InputFault(
+                f"{path}: connector {connector} of {name} has the dimensions {' x '.join(map(str, shape))}, its FMU's variable"
+                f" {' x '.join(map(str, components[name].signal(connector).shape)) or 'none'}; write the FMU's"
+            )
 
 
 def connect(

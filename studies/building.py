@@ -26,11 +26,15 @@ UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one."""
+    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one.
+
+    ``inline`` packages have their values in the system's description instead of files beside the FMUs.
+    """
 
     flavour: str = "both"
     fmi: str = "both"
     all_platforms: bool = False
+    inline: bool = False
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
@@ -61,7 +65,7 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tu
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
             built.append(entry | {"flavour": "python" if path == editable else "native"})
     places = dict.fromkeys(Path(entry["fmu"]).parent for entry in built)
-    return built, [export_pair(reducer, place, step, tool) for place in places]
+    return built, [export_pair(reducer, place, step, tool, wanted.inline) for place in places]
 
 
 def native_versions(wanted: Wanted) -> tuple[str, ...]:
@@ -93,9 +97,9 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     return not all_platforms or len(libraries) >= 4
 
 
-def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
-    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear", inline: bool = False) -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs; SSP 1.0 of FMI 2 units, 2.0 of FMI 3 units."""
     return export_ssp(
         folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool,
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool, inline,
     )  # fmt: skip
