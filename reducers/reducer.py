@@ -8,7 +8,7 @@ unit and within which bounds, so a new parameter needs no change here.
 
 import difflib
 import tomllib
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TypeVar
@@ -16,7 +16,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fmu_src.faults import InputFault
-from fmu_src.unit import Specification
+from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
@@ -71,18 +71,23 @@ class Reducer:
     sources: dict[str, str]
     path: Path
     resolution: Resolution = Resolution()
+    # What a worn one starts with, by unit; a new one has nothing.
+    worn: dict[str, Worn] = field(default_factory=dict)
 
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])
         names = table.by_name
-        return {
+        specification: Specification = {
             "unit": unit,
             "reducer": self.name,
             "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
             "starts": {k: v for k, v in self.starts.items() if k in names},
             "sources": {k: v for k, v in self.sources.items() if k in names},
         }
+        if unit in self.worn:
+            specification["worn"] = self.worn[unit]
+        return specification
 
     @cached_property
     def plant(self) -> Table:
