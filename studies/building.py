@@ -15,11 +15,13 @@ from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
+from fmu_src.references import MANIFEST
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer
 from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
+from studies.reference_material import add_references
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
@@ -60,6 +62,8 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tu
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])
                 if versions := tuple(v for v, path in zip(native, ours) if path in stale):
                     build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes)
+                for path in stale:
+                    add_references(path, reducer, unit, step)
         for path in paths:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
@@ -92,9 +96,10 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     if known != identity or any(getattr(description, name) != value for name, value in makers.items()):
         return False
     with zipfile.ZipFile(path) as archive:
-        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+        names = archive.namelist()
+    libraries = [name for name in names if name.startswith("binaries/")]
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return not all_platforms or len(libraries) >= 4
+    return MANIFEST in names and (not all_platforms or len(libraries) >= 4)
 
 
 def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear", inline: bool = False) -> Path:

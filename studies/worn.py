@@ -17,7 +17,6 @@ from fmu_src.cache_folder import cache_folder
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.source_hash import KERNEL_PACKAGES, source_hash
 from fmu_src.start_arrays import encode
-from fmu_src.unit import Worn
 from fmu_src.units import UnitError, conversion
 from orchestrator.component import InProcess
 from orchestrator.settings import NUMBER
