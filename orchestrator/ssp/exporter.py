@@ -139,7 +139,6 @@ def structure(
             "startElement": start[0], "startConnector": start[1], "endElement": end[0], "endConnector": end[1],
         })  # fmt: skip
         picture.add_connection(connection, start, end)
-    picture.add_frame(system)
     note_in_system(system, experiment.step)
     add_units(root, units.values(), "ssd:Units")
     times = SubElement(root, "ssd:DefaultExperiment", startTime=repr(experiment.start), stopTime=repr(experiment.stop))

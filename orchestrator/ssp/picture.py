@@ -2,7 +2,8 @@
 
 Units stand in a row.  A unit has its inputs on the left, its outputs on the right, in the order
 of its variables, and its parameters along the lower edge; the elements of an array share
-what one variable has.  A connection that goes back passes below the units.
+what one variable has.  A connection that goes back passes below the units.  The system's own
+frame (SystemGeometry) is left to tools: OMSimulator 3 refuses a package that has one.
 """
 
 from collections.abc import Mapping, Sequence
@@ -51,9 +52,3 @@ class Picture:
         SubElement(element, "ssd:ConnectionGeometry", {
             "pointsX": " ".join(f"{x:g}" for x, _ in points), "pointsY": " ".join(f"{y:g}" for _, y in points),
         })  # fmt: skip
-
-    def add_frame(self, element: Element) -> None:
-        """The piece of plane that shows all."""
-        right = len(self.rank) * (WIDTH + GAP) - GAP + 2.0 * CLEAR
-        corners = {"x1": -2.0 * CLEAR, "y1": -2.0 * CLEAR, "x2": right, "y2": HEIGHT + CLEAR}
-        SubElement(element, "ssd:SystemGeometry", {key: repr(value) for key, value in corners.items()})
