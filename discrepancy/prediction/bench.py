@@ -12,6 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Once
@@ -93,9 +94,19 @@ class Bench:
         other.held_angles, other.mean_positions = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS
         return other
 
+    def allowed(self, record: Record) -> float:
+        """What a prediction of this record may err; 0 where nothing is known of its noise."""
+        return self.fineness.allowed.get((record.quantity, record.condition), 0.0) if self.fineness else 0.0
+
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
         return self.runs.get(key, make)
+
+    def equilibria(self, kind: str, condition: Condition, relevant: Relevant, *rest: Hashable) -> Floats | None:
+        """Those of a run whose values are said to be near, if it was made under the same key: where another may start."""
+        beside = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
+        found = self.runs.peek((kind, condition, beside, *rest)) if beside and beside != relevant else None
+        return found[1] if isinstance(found, tuple) else None
 
     def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
         """The values that a run depends on, without those that stand at their start."""
@@ -229,7 +240,10 @@ class Bench:
             durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
             places = np.zeros((len(angles), plants["z"].shape[1]))
-            similar = self.running_places(condition, {}, angles)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("running", condition, relevant, angles.tobytes(), cage)
+                similar = self.running_places(condition, {}, angles)[1] if beside is None else beside
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
                 self.put_wear(condition, values, plants)
@@ -291,7 +305,10 @@ class Bench:
         def run() -> tuple[Floats, Floats]:
             total = np.zeros(len(torques))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
-            similar = self.held_places(condition, {}, torques, positions)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("held", condition, relevant, torques.tobytes(), positions)
+                similar = self.held_places(condition, {}, torques, positions)[1] if beside is None else beside
             for k in range(positions):
                 angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)
                 plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
