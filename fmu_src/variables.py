@@ -147,16 +147,19 @@ class Table:
     ``views`` lay other records over the same cells, each as {its field: variable of this
     table}: a kernel written for another table then works on this one (``records.plant``).
     A record with views also has all its ``cells`` as one row of ``i8``.
+
+    ``arrays`` are start values of outputs and states that are not alike in all elements (worn surfaces).
     """
 
     def __init__(
         self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False,
-        views: dict[str, dict[str, str]] | None = None,
+        views: dict[str, dict[str, str]] | None = None, arrays: dict[str, Floats] | None = None,
     ):  # fmt: skip
         self.name = name
         self.description = description
         self.starts_from_nothing = starts_from_nothing
         self.views = views or {}
+        self.arrays = arrays or {}
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
@@ -223,6 +226,8 @@ class Table:
         records = np.zeros(1, self.dtype)
         for v in self.variables:
             records[v.name] = v.start
+        for name, values in self.arrays.items():
+            records[name] = values
         # Plain Python takes fields as attributes of NumPy's own records.
         return records.view(np.recarray) if PLAIN else records
 
@@ -232,7 +237,11 @@ class Table:
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views)
+        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views, self.arrays)
+
+    def with_arrays(self, arrays: dict[str, Floats], description: str) -> "Table":
+        """The same table that starts with these outputs and states, described as such."""
+        return Table(self.name, description, self.variables, self.starts_from_nothing, self.views, self.arrays | arrays)
 
     def cells(self, records: Records) -> Floats:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""

@@ -26,7 +26,7 @@ from orchestrator.scenario import Limit, read_scenario
 from orchestrator.schemes import SCHEMES
 from orchestrator.scratch import Scratch
 from orchestrator.settings import parse_value
-from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.importer import Structure, read_ssp
 from orchestrator.ssp.parameters import apply
 
 # Steps of a system whose files give none, and the step [s] where they do not even give a duration.
@@ -165,6 +165,7 @@ def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, dur
     require_duration(structure.step, f"{path}: the communication step that it names")
     limits = USUAL_LIMITS.with_changes(call_limit)
     components = {name: open_fmu(name, fmu, isolate, limits) for name, fmu in structure.fmus.items()}
+    require_shapes(path, structure, components)
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
             apply(parameter, components[name], variable)
@@ -181,6 +182,16 @@ def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, dur
     if duration is None:
         duration = structure.stop - structure.start if structure.stop is not None else USUAL_STEPS * size
     return System(structure.name, made, whole_steps(duration, size), [], str(path), structure.folders)
+
+
+def require_shapes(path: Path, structure: Structure, components: dict[str, Component]) -> None:
+    """InputFault if an array connector is not as large as the FMU's variable."""
+    for (name, connector), shape in structure.shapes.items():
+        if name in components and components[name].signal(connector).shape != shape:
+            raise InputFault(
+                f"{path}: connector {connector} of {name} has the dimensions {' x '.join(map(str, shape))}, its FMU's variable"
+                f" {' x '.join(map(str, components[name].signal(connector).shape)) or 'none'}; write the FMU's"
+            )
 
 
 def connect(

@@ -20,7 +20,7 @@ from pydantic import Field, ValidationError
 from fmu_src.faults import InputFault, nearest
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.strict_file import NAME, Piece, Strict, keys_at
-from fmu_src.unit import Specification
+from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
@@ -71,6 +71,8 @@ class Reducer:
     sources: dict[str, str]
     path: Path
     resolution: Resolution = Resolution()
+    # What a worn one starts with, by unit; a new one has nothing.
+    worn: dict[str, Worn] = field(default_factory=dict)
     # By name (lowest, highest), SI: numbers that are not known for sure.
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
 
@@ -78,13 +80,16 @@ class Reducer:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])
         names = table.by_name
-        return {
+        specification: Specification = {
             "unit": unit,
             "reducer": self.name,
             "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
             "starts": {k: v for k, v in self.starts.items() if k in names},
             "sources": {k: v for k, v in self.sources.items() if k in names},
         }
+        if unit in self.worn:
+            specification["worn"] = self.worn[unit]
+        return specification
 
     @cached_property
     def plant(self) -> Table:
