@@ -9,11 +9,13 @@ import argparse
 import io
 import os
 import sys
+import warnings
+from typing import Any
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
 from cli.progress import new_screen
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
@@ -39,7 +41,8 @@ def main(arguments: list[str] | None = None) -> int:
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        with told_to(new_screen()):
+        with told_to(new_screen()), warnings.catch_warnings():
+            say_old_names()
             return int(options.run(options))
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
@@ -57,6 +60,20 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f"rvwear {options.command}: interrupted", file=sys.stderr)
         return 130
+
+
+def say_old_names() -> None:
+    """Each old name that a file or setting still has, once, in a line of its own."""
+    others = warnings.showwarning
+
+    def say(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, OldName):
+            print(f"warning: {message}", file=sys.stderr)
+        else:
+            others(message, category, *where, **more)
+
+    warnings.filterwarnings("once", category=OldName)
+    warnings.showwarning = say
 
 
 def print_whatever_the_console_can() -> None:

@@ -5,10 +5,10 @@
     reducer = "RV20E-121"
 
     [settings]
-    bearing_clearance = "3 um"
+    bearing.clearance = "3 um"
 
     [effects.needle_clearance]
-    needle_clearance_added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
+    added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
 
     [[steps]]                       # the ladder, one entry per attempt
 """
@@ -25,6 +25,7 @@ from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault
+from fmu_src.names import dotted, last_part, warn_of_old_name
 from fmu_src.source_hash import USER_EFFECTS
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
@@ -93,23 +94,42 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     reducer = load_reducer(near if near.is_file() else head["reducer"])
     tables = [reducer.plant, reducer.wear]
     settings = {}
-    for name, text in content.get("settings", {}).items():
+    for name, text in dotted(content.get("settings", {})).items():
         try:
-            settings[name] = parse_setting(f"{name}={text}", tables).value
+            setting = parse_setting(f"{name}={text}", tables)
+            settings[setting.name] = setting.value
         except InputFault as problem:
             raise InputFault(f"{path}: settings.{name}: {problem}") from None
     known = every_effect()
-    effects = content.get("effects", {})
-    for name, parameters in effects.items():
+    effects: dict[str, dict[str, dict[str, Any]]] = {}
+    for name, parameters in content.get("effects", {}).items():
         if name not in known:
             raise InputFault(f"{path}: effects.{name}: there is no such effect; `rvwear effects` lists those there are, your own with {USER_EFFECTS}=DIR")
-        have = {p.variable.name for p in known[name].parameters}
+        effects[name] = {}
         for parameter, entry in parameters.items():
-            if parameter.partition("[")[0] not in have:
-                raise InputFault(f"{path}: effects.{name}.{parameter}: the effect has {', '.join(sorted(have))}")
+            effects[name][parameter_of(known[name], parameter, f"{path}: effects.{name}")] = entry
             if not isinstance(entry, dict) or "value" not in entry:
                 raise InputFault(f"{path}: effects.{name}.{parameter} = {entry!r}: write {{ value = ..., unit = \"...\" }}")
     return ModelFile(head["name"], reducer, settings, effects, tuple(content.get("steps", ())), path)
+
+
+def parameter_of(effect: Effect, written: str, place: str) -> str:
+    """What kernels call the parameter (or an element of it) of an effect that a file calls so."""
+    base, bracket, rest = written.partition("[")
+    short = {last_part(p.variable.path): p.variable.name for p in effect.parameters}
+    if base in short:
+        return short[base] + bracket + rest
+    new = next((name for name, old in short.items() if old == base), None)
+    if new is None:
+        raise InputFault(f"{place}.{written}: the effect has {', '.join(sorted(short))}")
+    warn_of_old_name(base, new, place)
+    return written
+
+
+def written_name(effect: Effect, parameter: str) -> str:
+    """What a file calls the parameter that kernels call so."""
+    base, bracket, rest = parameter.partition("[")
+    return next(last_part(p.variable.path) for p in effect.parameters if p.variable.name == base) + bracket + rest
 
 
 def save_model(model: ModelFile, path: Path) -> None:
@@ -117,9 +137,16 @@ def save_model(model: ModelFile, path: Path) -> None:
     document = tomlkit.document()
     document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
     if model.settings:
-        document["settings"] = {name: as_read(model.reducer, name, value) for name, value in model.settings.items()}
+        settings = tomlkit.table()
+        for name, value in model.settings.items():
+            written, given = as_read(model.reducer, name, value)
+            settings.add(tomlkit.key(written.split(".")), given)
+        document["settings"] = settings
     if model.effects:
-        document["effects"] = {name: {k: inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()}
+        known = every_effect()
+        document["effects"] = {
+            name: {written_name(known[name], k): inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()
+        }
     if model.steps:
         steps = tomlkit.aot()
         for step in model.steps:
@@ -130,10 +157,11 @@ def save_model(model: ModelFile, path: Path) -> None:
     partial.replace(path)
 
 
-def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | str:
-    """A setting as ``load_model`` takes it: a choice by its name, a number in the variable's unit."""
-    variable = next(t.by_name[name.partition("[")[0]] for t in (reducer.plant, reducer.wear) if name.partition("[")[0] in t.by_name)
-    return variable.choices[int(value)] if variable.choices else value
+def as_read(reducer: Reducer, name: str, value: float | int) -> tuple[str, float | int | str]:
+    """A setting as ``load_model`` takes it: structured name, and a choice by its name or a number in the variable's unit."""
+    base, bracket, rest = name.partition("[")
+    variable = next(t.by_name[base] for t in (reducer.plant, reducer.wear) if base in t.by_name)
+    return variable.path + bracket + rest, variable.choices[int(value)] if variable.choices else value
 
 
 def extended_reducer(file: ModelFile) -> Reducer:

@@ -4,7 +4,7 @@ import contextlib
 import json
 import shutil
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
@@ -75,6 +75,9 @@ class Fmu(Component):
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
         self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step
 
+
+    def old_names(self) -> Mapping[str, str]:
+        return {} if self.stamp() is None else unit_of(self.specification()).table.renamed
 
     @property
     def slave(self) -> FMU2Slave | FMU3Slave:

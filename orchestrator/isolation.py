@@ -12,7 +12,7 @@ import struct
 import subprocess
 import sys
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from threading import Timer
 from typing import IO, Any
@@ -102,6 +102,10 @@ class Isolated(Component):
             f"{self.name} ({self.path.name}): the process of this unit {end} during {self.doing}. The other units are"
             " unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step"
         )
+
+    def old_names(self) -> Mapping[str, str]:
+        known: Mapping[str, str] = self.call("old_names")
+        return known
 
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         return self.through

@@ -110,7 +110,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.name}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
+        (f"`{p.variable.path}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((

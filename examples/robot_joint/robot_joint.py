@@ -25,11 +25,11 @@ HERE = Path(__file__).parent
 FMUS = {"controller": "Controller", "drive": "Drive", "motor": "Motor", "arm": "Arm"}
 CONNECTIONS = [
     ("controller.current", "drive.wanted"), ("drive.voltage", "motor.voltage"), ("motor.current", "drive.current"),
-    ("motor.torque", "joint.input_torque"), ("joint.input_angle", "motor.angle"),
-    ("joint.input_angle", "controller.motor_angle"), ("arm.torque", "joint.load_torque"),
-    ("joint.output_angle", "arm.angle"), ("joint.output_speed", "arm.speed"),
+    ("motor.torque", "joint.input.torque"), ("joint.input.angle", "motor.angle"),
+    ("joint.input.angle", "controller.motor_angle"), ("arm.torque", "joint.output.load_torque"),
+    ("joint.output.angle", "arm.angle"), ("joint.output.speed", "arm.speed"),
 ]  # fmt: skip
-RECORDED = ["controller.target", "joint.output_angle", "joint.input_angle", "motor.current"]
+RECORDED = ["controller.target", "joint.output.angle", "joint.input.angle", "motor.current"]
 STEP = 2e-4
 # Rotor and sun, seen at the sun [kg m^2].
 ROTOR_INERTIA = 1e-4
@@ -72,11 +72,11 @@ def make_system(fmus: dict[str, Path], joint: InProcess) -> System:
 def move(system: System, duration: float) -> dict[str, np.ndarray]:
     """Time, target, position error of flange and motor (at the flange) and current."""
     series = system.run(duration, record=RECORDED)
-    target, flange = series["controller.target"], series["joint.output_angle"]
+    target, flange = series["controller.target"], series["joint.output.angle"]
     ratio = system["controller.ratio"]
     return {
         "time": series["time"], "target": target, "flange error": flange - target,
-        "motor error": series["joint.input_angle"] / ratio - target, "current": series["motor.current"],
+        "motor error": series["joint.input.angle"] / ratio - target, "current": series["motor.current"],
     }  # fmt: skip
 
 

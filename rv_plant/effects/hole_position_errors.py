@@ -21,8 +21,10 @@ EFFECT = Effect(
             parameter
             for k in (1, 2, 3)
             for parameter in (
-                amplitude(f"disc_hole_shift_{k}", "m", f"hole {k} of a disc along its circle", 3 * UM, -30 * UM, 30 * UM, group=f"hole {k}"),
-                amplitude(f"disc_hole_radial_{k}", "m", f"hole {k} of a disc outwards", 3 * UM, -30 * UM, 30 * UM, group=f"hole {k}"),
+                amplitude(f"disc_hole_shift_{k}", "m", f"hole {k} of a disc along its circle", 3 * UM, -30 * UM, 30 * UM,
+                          group=f"hole {k}", needs=("cranks", k)),
+                amplitude(f"disc_hole_radial_{k}", "m", f"hole {k} of a disc outwards", 3 * UM, -30 * UM, 30 * UM,
+                          group=f"hole {k}", needs=("cranks", k)),
             )
         ),
         choice("disc_hole_disc", "disc whose holes they are", 1, 1, 3),
