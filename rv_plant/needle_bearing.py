@@ -30,7 +30,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         Variable("roller.stiffness", "parameter", "N",
                  "force of a roller between both races at 1 mm of approach, exponent 10/9", 5.1e5, minimum=1.0,
                  nominal=1e5, source=FILE),
-        Variable("roller.stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 5.1e6,
+        Variable("roller.stiffness_lankarani", "parameter", "N", "force of a roller between both races at 1 mm of approach, Lankarani-Nikravesh law", 5.1e6,
                  minimum=1.0, nominal=1e6, source=FILE),
         Variable("roller.damping", "parameter", "N.s/m", "coefficient C of a roller (law step)", 200.0, minimum=0.0,
                  nominal=100.0, source="assumed: as disc and pin"),

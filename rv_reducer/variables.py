@@ -108,7 +108,7 @@ def judgement(z: Variable) -> list[Variable]:
         limit("race_depth_limit", "m", "wear of a raceway", 10e-6, 1e-6, "assumed: two to three times that of 10,000 h"),
         limit("lost_motion_limit", "rad", "lost motion", 2.0 * ARCMIN, 1e-4, "assumed: twice the 1 arcmin of a new one",
               display="arcmin"),
-        Variable("rated_torque", "parameter", "N.m", "lost motion is the turning of the output between 3 % of it in"
+        Variable("rated_torque", "parameter", "N.m", "lost motion is the turning of the output between 3 % of this torque in"
                  " one sense and in the other, input held", 100.0, minimum=1e-3, nominal=100.0,
                  source="the reducer file's output.load_torque unless it says", path="life.rated_torque"),
         Variable("judgement_interval", "parameter", "rad", "turning of the cranks between two looks at lost motion and"

@@ -21,13 +21,13 @@ def variables(sizes: Sizes) -> list[Variable]:
 
     return [
         output("flank.depth", "m", "deepest wear on a disc's flanks", **disc, nominal=1e-6),
-        local("flank.phase", "rad", "its place: 0 root, pi tip, 2 pi next root", **disc),
-        local("flank.lobe", "1", "its lobe, from 1", **disc, integer=True),
+        local("flank.phase", "rad", "place of the deepest wear on a tooth: 0 root, pi tip, 2 pi next root", **disc),
+        local("flank.lobe", "1", "lobe with the deepest wear, from 1", **disc, integer=True),
         local("pin.depth", "m", "deepest wear on a pin", **contact, nominal=1e-6),
         output("inner_race.depth", "m", "deepest wear of the crank's raceway", **bearing, nominal=1e-6),
-        local("inner_race.angle", "rad", "its place, from the lobe's eccentric direction", **bearing),
+        local("inner_race.angle", "rad", "place of the deepest wear, from the lobe's eccentric direction", **bearing),
         output("outer_race.depth", "m", "deepest wear of the disc's raceway", **bearing, nominal=1e-6),
-        local("outer_race.angle", "rad", "its place, from the hole's outward radial", **bearing),
+        local("outer_race.angle", "rad", "place of the deepest wear, from the hole's outward radial", **bearing),
         output("flank.volume", "m^3", "material lost by the flanks: integral of K F ds/H", nominal=1e-9),
         output("pin.volume", "m^3", "material lost by the pins", nominal=1e-9),
         output("inner_race.volume", "m^3", "material lost by the cranks' raceways", nominal=1e-9),

@@ -76,7 +76,8 @@ def before(r):
 ```
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
-anything is compiled. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
+anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
 for all effects before the next begins:
 
 STAGES
