@@ -32,7 +32,7 @@ PIECES = (
 
 
 # Nothing has turned yet.
-STARTS_AT_ZERO = ("input_angle", "cage_angle", "crank_path", "mesh_force_path", "roller_force_path")
+STARTS_AT_ZERO = ("cage_angle", "crank_path", "mesh_force_path", "roller_force_path")
 
 
 def own_variables(topology: Topology = SMALLEST) -> list[Variable]:
