@@ -105,9 +105,10 @@ class Component(ABC):
     def as_written(self, name: str) -> Signal:
         """The signal of a name that a user wrote; an old one is said to be one."""
         signal = self.signal(name)
-        base, bracket, rest = name.partition("[")
+        base = name.partition("[")[0]
         if name not in self.signals and base not in self.signals:
-            warn_of_old_name(f"{self.name}.{name}", f"{self.name}.{self.old_names()[base]}{bracket}{rest}")
+            # Once for all elements of an array.
+            warn_of_old_name(f"{self.name}.{base}", f"{self.name}.{self.old_names()[base]}")
         return signal
 
     def has(self, name: str) -> bool:

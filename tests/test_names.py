@@ -2,6 +2,7 @@
 
 import re
 import warnings
+import zipfile
 from collections import Counter
 from pathlib import Path
 
@@ -10,16 +11,22 @@ import pytest
 from stand import GIVEN
 
 from cli.main import main
+from discrepancy.campaign.load import load_campaign
+from discrepancy.model_file import load_model, save_model
 from fmu_src.faults import InputFault, OldName
 from fmu_src.names import dotted, short_name
 from fmu_src.variables import SETTABLE, Table, Variable, output
 from orchestrator.component import InProcess
 from orchestrator.settings import parse_setting
 from orchestrator.system import load
-from reducers.reducer import EVERY_PART, load_reducer
+from reducers.reducer import EVERY_PART, kernels_name, load_reducer
 from rv_plant.terminals import BUS as PLANT_BUS
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
+from studies.building import export_pair
+from studies.ensemble.ensemble_file import load_ensemble
 from wear_fmu.terminals import BUS as WEAR_BUS
+
+ROOT = Path(__file__).resolve().parents[1]
 
 # FMI's grammar of structured names, without derivatives, quoted parts and indices.
 STRUCTURED = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
@@ -131,6 +138,35 @@ def test_an_old_name_in_a_scenario_works_and_the_new_one_is_said(tmp_path):
     assert np.array_equal(before["plant.lag"], after["plant.output.lag"]) and after["plant.output.lag"][-1] > 0.0
 
 
+def test_an_old_package_works_and_the_new_names_are_said_once_for_an_array(rv20e, native_fmus, tmp_path):
+    export_pair(rv20e, native_fmus / "fmi2", 1.3e-3)
+    new, old = native_fmus / "fmi2" / "RvReducer.ssp", tmp_path / "old.ssp"
+    names = {path: name for table in (rv20e.plant, rv20e.wear) for name, path in table.renamed.items()} | {"heat.ambient_temperature": "temperature"}
+    pattern = re.compile(r'(?<=")(' + "|".join(map(re.escape, sorted(names, key=len, reverse=True))) + r')(?=["\[])')
+    with zipfile.ZipFile(new) as given, zipfile.ZipFile(old, "w") as made:
+        for entry in given.namelist():
+            data = given.read(entry)
+            if not entry.endswith(".fmu"):
+                data = pattern.sub(lambda m: names[m[1]], data.decode().replace("heat.contact_temperature", "CONTACT")).encode()
+                data = data.replace(b'startElement="plant" startConnector="CONTACT"', b'startElement="plant" startConnector="reducer_temperature"')
+                data = data.replace(b"CONTACT", b"temperature")
+            made.writestr(entry, data)
+    with pytest.warns(OldName) as said:
+        before = load(old)
+    messages = [str(w.message) for w in said]
+    assert "plant.mesh_force_path is now called plant.mesh.force_path; the old name works through version 0.3" in messages
+    assert not [m for m in messages if "[" in m]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        after = load(new)
+    for system in (before, after):
+        system["wear.acceleration"] = 1e6
+        system.run(6.5e-3)
+    assert before["wear.flank.depth"].max() == after["wear.flank.depth"].max() > 0.0
+    before.close()
+    after.close()
+
+
 def test_an_old_reducer_file_works_and_the_new_names_are_said(rv20e, tmp_path):
     text = rv20e.path.read_text(encoding="utf-8")
     old = text.replace("[pin]\nradius =", "[cycloid]\npin_radius =").replace("\ncircle_radius", "\npin_circle_radius", 1)
@@ -143,10 +179,9 @@ def test_an_old_reducer_file_works_and_the_new_names_are_said(rv20e, tmp_path):
 
 
 def test_files_of_this_repository_have_no_old_names():
-    root = Path(__file__).resolve().parents[1]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for file in (root / "reducers").glob("*.toml"):
+        for file in (ROOT / "reducers").glob("*.toml"):
             load_reducer(file)
 
 
@@ -176,3 +211,52 @@ def test_the_command_line_says_an_old_name_once_in_a_line(capsys):
     assert capsys.readouterr().err.splitlines() == [
         "warning: setting: bearing_clearance is now called bearing.clearance; the old name works through version 0.3"
     ]
+
+
+MODEL = """
+[model]
+name = "gearbox 7"
+reducer = "RV20E-121"
+
+[settings]
+CLEARANCE = "3 um"
+LAW = "palmgren"
+
+[effects.needle_clearance]
+ADDED = { value = 2.1e-6, unit = "m" }
+"""
+
+
+def test_a_model_file_is_written_with_the_names_that_it_is_read_with(tmp_path):
+    old, new = tmp_path / "old.toml", tmp_path / "new.toml"
+    old.write_text(MODEL.replace("CLEARANCE", "bearing_clearance").replace("LAW", "contact_law").replace("ADDED", "needle_clearance_added"), encoding="utf-8")
+    with pytest.warns(OldName) as said:
+        read = load_model(old)
+    texts = " ".join(str(w.message) for w in said)
+    assert "bearing.clearance" in texts and "contact.law" in texts and "needle_clearance_added is now called added" in texts
+    assert read.values() == {"bearing_clearance": pytest.approx(3e-6), "contact_law": 2, "needle_clearance_added": 2.1e-6}
+    save_model(read, new)
+    assert all(text in new.read_text(encoding="utf-8") for text in ("bearing.clearance = ", 'contact.law = "palmgren"', "\nadded = "))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        again = load_model(new)
+    assert again.values() == read.values() and again.effects == read.effects
+
+
+def test_a_wrong_parameter_of_an_effect_is_told_those_there_are(tmp_path):
+    path = tmp_path / "wrong.toml"
+    path.write_text(MODEL.replace("CLEARANCE", "bearing.clearance").replace("LAW", "contact.law").replace("ADDED", "more"), encoding="utf-8")
+    with pytest.raises(InputFault, match=r"wrong.toml: effects.needle_clearance.more: the effect has added"):
+        load_model(path)
+
+
+def test_nuisances_and_scatter_are_written_as_tools_show_them():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert [s.name for s in load_ensemble(ROOT / "examples" / "ensemble.toml").scatters] == [
+            "bearing_clearance", "pin_radius_error", "mesh_wear_coefficient",
+        ]
+        assert {"mesh_wear_coefficient", "bearing_clearance"} <= {n.parameter.name for n in load_campaign(ROOT / "examples" / "durability_test").nuisances}
+    with pytest.warns(OldName, match=r"nuisances.carrier_compliance: carrier_compliance is now called effects.support_compliance.carrier_compliance"):
+        assert kernels_name("carrier_compliance", "nuisances.carrier_compliance") == "carrier_compliance"
+    assert kernels_name("sensor_gain[hysteresis]", "") == "sensor_gain[hysteresis]"

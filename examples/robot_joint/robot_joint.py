@@ -57,8 +57,8 @@ def worn_surfaces(reducer, hours: float) -> dict[str, np.ndarray]:
 def make_joint(reducer, surfaces: dict[str, np.ndarray]) -> InProcess:
     """The reducer in motion between motor and arm."""
     joint = InProcess("joint", reducer.specification("rv_reducer"))
-    for name, value in {"fidelity": 1, "drive": 1, "input_speed": 0.0, "load_torque": 0.0,
-                        "sun_inertia": ROTOR_INERTIA, "dynamic_tolerance": 0.03}.items():  # fmt: skip
+    for name, value in {"fidelity": 1, "drive": 1, "input.speed": 0.0, "output.load_torque": 0.0,
+                        "sun.inertia": ROTOR_INERTIA, "numerics.dynamic_tolerance": 0.03}.items():  # fmt: skip
         joint.set(name, value)
     for name, depth in surfaces.items():
         joint.records[name][0] = depth
@@ -129,7 +129,7 @@ def main(hours: float) -> None:
             move_time, pause = system["controller.move_time"], system["controller.pause"]
             runs[label] = move(system, 4.0 * (move_time + pause))
             found[label] = figures(runs[label], move_time, pause) | {
-                "lost motion of the reducer [arcsec]": joint.get("lost_motion") * ARCSEC
+                "lost motion of the reducer [arcsec]": joint.get("life.lost_motion") * ARCSEC
             }
             system.close()
     new, worn = found.values()
