@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.arrays import Floats, Mask, Records, field_of
+from fmu_src.kernel import PLAIN
 from fmu_src.limits import usual_limits
 from fmu_src.terminals import Terminal
 
@@ -34,6 +35,7 @@ ROLES = ("input", "parameter", "output", "local", "state", "scratch")
 SEEN = ("input", "parameter", "output", "local")
 # What a caller may set.
 SETTABLE = ("input", "parameter")
+LARGEST = float(np.finfo(float).max)
 # In place of a bound or nominal value: the usual one.
 USUAL = math.nan
 
@@ -179,18 +181,21 @@ class Table:
     table}: a kernel written for another table then works on this one (``records.plant``).
     ``terminals`` say which variables belong to one place of the machine.
     A record with views also has all its ``cells`` as one row of ``i8``.
+
+    ``arrays`` are start values of outputs and states that are not alike in all elements (worn surfaces).
     """
 
     def __init__(
         self, name: str, description: str, variables: list[Variable],
         known_at_start: Mapping[str, Sequence[str]] | None = None, views: dict[str, dict[str, str]] | None = None,
-        terminals: Sequence[Terminal] = (),
+        terminals: Sequence[Terminal] = (), arrays: dict[str, Floats] | None = None,
     ):  # fmt: skip
         self.name = name
         self.description = description
         self.known_at_start = known_at_start or {}
         self.views = views or {}
         self.terminals = terminals
+        self.arrays = arrays or {}
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
@@ -272,7 +277,10 @@ class Table:
         records = np.zeros(1, self.dtype)
         for v in self.variables:
             records[v.name] = v.start
-        return records
+        for name, values in self.arrays.items():
+            records[name] = values
+        # Plain Python takes fields as attributes of NumPy's own records.
+        return records.view(np.recarray) if PLAIN else records
 
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
         """The same table with other start values (and their sources)."""
@@ -280,7 +288,14 @@ class Table:
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed, self.known_at_start, self.views, self.terminals)
+        return self.remade(self.description, changed, self.arrays)
+
+    def with_arrays(self, arrays: dict[str, Floats], description: str) -> "Table":
+        """The same table that starts with these outputs and states, described as such."""
+        return self.remade(description, self.variables, self.arrays | arrays)
+
+    def remade(self, description: str, variables: list[Variable], arrays: dict[str, Floats]) -> "Table":
+        return Table(self.name, description, variables, self.known_at_start, self.views, self.terminals, arrays)
 
     def cells(self, records: Records) -> Floats:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
@@ -321,6 +336,36 @@ class Table:
             if variable.role not in SETTABLE:
                 raise ValueFault(f"{element} is an output of {self.name}; it cannot be set")
             variable.check(float(value), element)
+
+    @cached_property
+    def state_ranges(self) -> list[tuple[Variable, float, float]]:
+        """(variable, lowest, highest) of all that makes up the state.
+
+        Numbers that are set, and whole numbers (indices and counts of the kernels), lie within their bounds; all others need be finite alone.
+        """
+        return [
+            (v, v.minimum, v.maximum) if v.is_integer or v.role in SETTABLE else (v, -LARGEST, LARGEST)
+            for v in self.variables if v.role != "scratch"
+        ]  # fmt: skip
+
+    @cached_property
+    def state_bounds(self) -> tuple[Floats, Floats, Mask]:
+        """(lowest, highest, whether it is an integer) of each cell of the state."""
+        sizes = [v.size for v, _, _ in self.state_ranges]
+        columns = zip(*((lowest, highest, v.is_integer) for v, lowest, highest in self.state_ranges))
+        lowest, highest, integers = (np.repeat(np.array(column), sizes) for column in columns)
+        return lowest, highest, integers
+
+    def check_state(self, cells: Floats) -> None:
+        """Raise ValueFault unless a unit can have got to this state (its leading cells, integers reinterpreted)."""
+        if len(cells) != self.state_cells:
+            raise ValueFault(f"a state of {self.name} has {self.state_cells} numbers, not {len(cells)}")
+        lowest, highest, integers = self.state_bounds
+        values = np.where(integers, cells.view("i8"), cells)
+        wrong = np.flatnonzero(~((values >= lowest) & (values <= highest)))
+        if len(wrong):
+            _, element = self.element_at(int(wrong[0]))
+            raise ValueFault(f"the state is impossible: {element} = {values[wrong[0]]:.6g}; it was not saved by this unit")
 
 
 def with_views(plain: np.dtype, views: dict[str, dict[str, str]]) -> np.dtype:
