@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
@@ -88,6 +88,11 @@ class Content(Strict):
     effects: dict[str, dict[str, Any]] = {}
     steps: list[StepEntry] = []
 
+    @field_validator("settings", mode="before")
+    @classmethod
+    def by_structured_name(cls, given: Any) -> Any:
+        return dotted(given) if isinstance(given, dict) else given
+
 
 @dataclass(frozen=True)
 class ModelFile:
@@ -150,7 +155,7 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     reducer = load_reducer(near if near.is_file() else stated.model.reducer)
     tables = [reducer.plant, reducer.wear]
     settings = {}
-    for name, text in dotted(stated.settings).items():
+    for name, text in stated.settings.items():
         try:
             setting = parse_setting(f"{name}={text}", tables)
             settings[setting.name] = setting.value
@@ -201,7 +206,7 @@ def parameter_of(effect: Effect, written: str, place: str) -> str:
         return short[base] + bracket + rest
     new = next((name for name, old in short.items() if old == base), None)
     if new is None:
-        raise InputFault(f"{place}.{written}: the effect has {', '.join(sorted(short))}")
+        raise InputFault(f"{place}.{shown(written)}: the effect has {', '.join(sorted(short))}{nearest(base, short, 1)}")
     warn_of_old_name(base, new, place)
     return written
 
