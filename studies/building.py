@@ -10,11 +10,13 @@ import fmpy
 
 from fmu_src.description import guid
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
+from fmu_src.reading import reading
 from fmu_src.references import MANIFEST
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
@@ -40,7 +42,15 @@ class Wanted:
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
-    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
+
+    InputFault if another process builds there: a package must not hold units of two reducers.
+    """
+    with held(folder / "FMUs"):
+        return built_units(reducer, folder, wanted)
+
+
+def built_units(reducer: Reducer, folder: Path, wanted: Wanted) -> tuple[list[dict[str, Any]], list[Path]]:
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"{NAME} {project().version}"
@@ -90,7 +100,12 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     """Whether an FMU of this identity, version and licence, for all platforms if need be, is there already."""
     if not path.exists():
         return False
-    description = fmpy.read_model_description(str(path))
+    try:
+        with reading(path, "an FMU"):
+            description = fmpy.read_model_description(str(path))
+    except InputFault:
+        # Damaged, or something else: it is built anew.
+        return False
     known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
     makers = project().attributes(source_hash())
     if known != identity or any(getattr(description, name) != value for name, value in makers.items()):

@@ -55,6 +55,10 @@ def add_system_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--step-control", type=float, metavar="TOL", help="divide steps by their error, to this tolerance")
     command.add_argument("--loops", choices=("newton", "fixed-point"), help="how algebraic loops are solved")
     command.add_argument("--isolate", action="store_true", help="every FMU in a process of its own")
+    command.add_argument(
+        "--call-limit", action="append", default=[], metavar="[CALL=]S",
+        help="end an isolated unit that takes longer for a call [s]: 30, or start=, initialise=, step=, values=, state=, end= (default 600)",
+    )  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
@@ -120,16 +124,19 @@ def refuse_pair_options(options: argparse.Namespace) -> None:
 
 
 def refuse_system_options(options: argparse.Namespace) -> None:
-    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record")
-    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name)]
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record", "call_limit")
+    # 0 is given, too.
+    unset = dict.fromkeys(names) | {"isolate": False, "record": None, "call_limit": []}
+    given = [f"--{name.replace('_', '-')}" for name in names if (value := getattr(options, name)) is not unset[name] and value != unset[name]]
     if given:
         raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
 
 
 def open_system(options: argparse.Namespace) -> "System":
     """The system with the command line's options and settings applied."""
+    from orchestrator.call_limits import parse_limits
     from orchestrator.master import LoopSettings, StepControl
-    from orchestrator.system import load, whole_steps
+    from orchestrator.system import load
 
     given = {
         "extrapolation": options.extrapolation,
@@ -139,14 +146,12 @@ def open_system(options: argparse.Namespace) -> "System":
     }
     master = {name: value for name, value in given.items() if value is not None}
     with task("loading the units"):
-        system = load(options.system, options.step, options.isolate, **master)
+        system = load(options.system, options.step, options.isolate, parse_limits(options.call_limit), options.duration, **master)
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:
             raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.load_torque=150N.m")
         system[path.strip()] = value.strip()
-    if options.duration is not None:
-        system.steps = whole_steps(options.duration, system.master.step_size)
     return system
 
 
@@ -192,6 +197,7 @@ def check(options: argparse.Namespace) -> int:
 
     from orchestrator.regression import compare, parse_tolerance, write_junit
     from orchestrator.series import flat, read_series
+    from orchestrator.system import whole_steps
 
     tolerances = [parse_tolerance(text) for text in options.tolerance]
     if options.reference is None:
@@ -204,7 +210,8 @@ def check(options: argparse.Namespace) -> int:
     if options.duration is None:
         # As far as the reference reaches.
         span = float(reference["time"].max()) - system.master.start_time
-        system.steps = max(1, int(np.ceil(span / system.master.step_size * (1.0 - 1e-12))))
+        size = system.master.step_size
+        system.steps = whole_steps(max(1.0, float(np.ceil(span / size * (1.0 - 1e-12)))) * size, size)
     comparisons = compare(flat(simulate(system, [])), reference, tolerances)
     show_warnings(system)
     if options.junit:

@@ -18,6 +18,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import fmpy
 
+from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.package import EPOCH
 from orchestrator.component import Signal
@@ -92,14 +93,12 @@ def export_ssp(
     sets = {key: values(unit, settings.get(key, {}), {name for _, (end, name) in pairs if end == key}) for key, unit in units.items()}
     root = structure(name, description, tool, units, pairs, experiment, sets if inline else None)
     files = {"SystemStructure.ssd": root} | ({} if inline else {f"resources/{key}.ssv": values for key, values in sets.items()})
-    partial = target.with_suffix(".part")
-    with ZipFile(partial, "w") as archive:
+    with replacing(target) as partial, ZipFile(partial, "w") as archive:
         for path, element in files.items():
             ElementTree.indent(element)
             add(archive, path, ElementTree.tostring(element, "utf-8", xml_declaration=True))
         for fmu in sorted({unit.path for unit in units.values()}):
             add(archive, f"resources/{fmu.name}", fmu.read_bytes())
-    partial.replace(target)
     return target
 
 

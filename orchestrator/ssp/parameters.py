@@ -10,7 +10,7 @@ from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit, UnitError, conversion
 from orchestrator.component import Component, Signal
-from orchestrator.ssp.xml import child, children, local, number, parse, units_of
+from orchestrator.ssp.xml import child, children, file_at, local, number, parse, units_of
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ def read_bindings(element: etree._Element, folder: Path) -> list[Parameter]:
 
 def read_binding(binding: etree._Element, folder: Path) -> list[Parameter]:
     source = binding.get("source")
-    root = parse(folder / source) if source else child(binding, "ParameterValues", "ParameterSet")
+    root = parse(file_at(folder, source, "ParameterBinding")) if source else child(binding, "ParameterValues", "ParameterSet")
     if root is None:
         raise InputFault("ParameterBinding: neither a source nor values")
     found = values_in(root, binding.get("prefix", ""))
@@ -65,7 +65,7 @@ def values_in(root: etree._Element, prefix: str = "") -> list[Parameter]:
 def mapped(parameters: list[Parameter], mapping: etree._Element, folder: Path) -> list[Parameter]:
     """Those that the mapping names, under their new names."""
     source = mapping.get("source")
-    root = parse(folder / source) if source else child(mapping, "ParameterMapping")
+    root = parse(file_at(folder, source, "ParameterMapping")) if source else child(mapping, "ParameterMapping")
     by_name = {p.name: p for p in parameters}
     result = []
     for entry in children(root, "MappingEntry"):
