@@ -25,7 +25,6 @@ from rv_reducer.exchange import WEAR_TO_PLANT
 from studies.coupled_master import CoupledMaster
 from studies.life import HOUR, Life, LifeSettings, live
 from studies.pair import make_pair
-from wear_fmu.accumulator import LONGEST_SWEEP
 from wear_fmu.contacts import publish_profiles
 
 # Of the wear unit: its surfaces and what it tells of them.
@@ -35,7 +34,7 @@ FIGURES = (
     "outer_race_angle", "flank_volume", "pin_volume", "inner_race_volume", "outer_race_volume", "operating_time", "crank_travel",
 )  # fmt: skip
 # What is published at the start: the plant meets the worn surfaces in its first equilibrium.
-PUBLISHED = tuple(name for name, _ in WEAR_TO_PLANT)
+PUBLISHED = (*(name for name, _ in WEAR_TO_PLANT), "profile_lead", "profile_reach")
 # Of the unit of both: the last judgement, by what it was of.
 JUDGED = {
     "judged_time": "operating_time", "judged_flank_volume": "flank_volume", "judged_inner_volume": "inner_race_volume",
@@ -100,7 +99,7 @@ def make_worn(reducer: Reducer, hours: float) -> dict[str, dict[str, str]]:
     # Without the rounding of the jumps' sum.
     r["operating_time"] = hours * HOUR
     sense = math.copysign(1.0, float(found["crank_speed"]))
-    publish_profiles(wear.records[0], 0.0, sense, sense * LONGEST_SWEEP)
+    publish_profiles(wear.records[0], 0.0, sense, sense * wear.number("largest_sweep"))
     values: dict[str, Any] = {name: r[name] for name in (*SURFACES, *FIGURES, *PUBLISHED)}
 
     both = InProcess("reducer", new.specification("rv_reducer"))

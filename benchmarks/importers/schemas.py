@@ -31,7 +31,7 @@ def outcomes(bench: Bench, folder: Path) -> list[Outcome]:
                     schema = known[DESCRIPTION if name.endswith(".ssd") else VALUES]
                     count += 1
                     if not schema.validate(etree.fromstring(archive.read(name))):
-                        problems.append(f"{name}: {schema.error_log[0].message}")
+                        problems.append(f"{name}: {schema.error_log}")
         what = "package with values inline" if inline else "package and carried values"
         found.append(Outcome("schemas of SSP", match[1] if match else "", f"FMI {version}.0", what, count, said=problems[0] if problems else "valid"))
     return found
