@@ -99,7 +99,7 @@ def make_worn(reducer: Reducer, hours: float) -> dict[str, dict[str, str]]:
     # Without the rounding of the jumps' sum.
     r["operating_time"] = hours * HOUR
     sense = math.copysign(1.0, float(found["crank_speed"]))
-    publish_profiles(wear.records[0], 0.0, sense, sense * wear.number("largest_sweep"))
+    publish_profiles(wear.records[0], 0.0, sense, sense * float(r["largest_sweep"]))
     values: dict[str, Any] = {name: r[name] for name in (*SURFACES, *FIGURES, *PUBLISHED)}
 
     both = InProcess("reducer", new.specification("rv_reducer"))
