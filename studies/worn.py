@@ -25,7 +25,6 @@ from rv_reducer.exchange import WEAR_TO_PLANT
 from studies.coupled_master import CoupledMaster
 from studies.life import HOUR, Life, LifeSettings, live
 from studies.pair import make_pair
-from wear_fmu.accumulator import LONGEST_SWEEP
 from wear_fmu.contacts import publish_profiles
 
 # Of the wear unit: its surfaces and what it tells of them.
@@ -100,7 +99,7 @@ def make_worn(reducer: Reducer, hours: float) -> dict[str, dict[str, str]]:
     # Without the rounding of the jumps' sum.
     r["operating_time"] = hours * HOUR
     sense = math.copysign(1.0, float(found["crank_speed"]))
-    publish_profiles(wear.records[0], 0.0, sense, sense * LONGEST_SWEEP)
+    publish_profiles(wear.records[0], 0.0, sense, sense * float(r["largest_sweep"]))
     values: dict[str, Any] = {name: r[name] for name in (*SURFACES, *FIGURES, *PUBLISHED)}
 
     both = InProcess("reducer", new.specification("rv_reducer"))
