@@ -13,6 +13,7 @@ import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.stretches import NOTHING, stretches
+from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Once
@@ -89,9 +90,19 @@ class Bench:
         other.held_angles, other.mean_positions = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS
         return other
 
+    def allowed(self, record: Record) -> float:
+        """What a prediction of this record may err; 0 where nothing is known of its noise."""
+        return self.fineness.allowed.get((record.quantity, record.condition), 0.0) if self.fineness else 0.0
+
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
         return self.runs.get(key, make)
+
+    def equilibria(self, kind: str, condition: Condition, relevant: Relevant, *rest: Hashable) -> Floats | None:
+        """Those of a run whose values are said to be near, if it was made under the same key: where another may start."""
+        beside = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
+        found = self.runs.peek((kind, condition, beside, *rest)) if beside and beside != relevant else None
+        return found[1] if isinstance(found, tuple) else None
 
     def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
         """The values that a run depends on, without those that stand at their start."""
@@ -124,7 +135,7 @@ class Bench:
             wears[name] = plants[name]
         fault = accumulator.initialise(wears)
         if fault:
-            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+            raise RunFault(accumulator.FAULTS[fault].format(**self.tables[1].scalars(wears)))
         return plants, wears
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
@@ -143,16 +154,16 @@ class Bench:
         plants["input_speed"] = self.input_speed(condition)
         plants["load_torque"] = condition.direction * condition.load
         plants["ideal_output"] = first_angle
-        # Where the cages have rolled with the output from 0.
+        # Where the cages have rolled with the output from 0, by the shorter way.
         rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
-        plants["cage"] = rate * within_turn(first_angle) + cage
+        plants["cage"] = rate * math.remainder(first_angle, 2.0 * math.pi) + cage
         if "grease_age" in self.tables[0].by_name:
             plants["grease_age"] = condition.hours
         for name, value in plant_values.items():
             plants[name] = value
         fault = plant.initialise(plants)
         if fault:
-            raise RunFault(FAULTS[fault].format(**scalars(self.tables[0], plants)))
+            raise RunFault(FAULTS[fault].format(**self.tables[0].scalars(plants)))
         return plants
 
     def input_speed(self, condition: Condition) -> float:
@@ -162,7 +173,7 @@ class Bench:
     def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
         for code, faults, table, records in zip(status, (FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
             if code:
-                raise RunFault(faults[code].format(**scalars(table, records)))
+                raise RunFault(faults[code].format(**table.scalars(records)))
 
     def turning_time(self, condition: Condition) -> float:
         """Time of one turn of the cranks in the housing [s]."""
@@ -225,7 +236,10 @@ class Bench:
             durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
             places = np.zeros((len(angles), plants["z"].shape[1]))
-            similar = self.running_places(condition, {}, angles)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("running", condition, relevant, angles.tobytes(), cage)
+                similar = self.running_places(condition, {}, angles)[1] if beside is None else beside
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
                 self.put_wear(condition, values, plants)
@@ -287,7 +301,10 @@ class Bench:
         def run() -> tuple[Floats, Floats]:
             total = np.zeros(len(torques))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
-            similar = self.held_places(condition, {}, torques, positions)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("held", condition, relevant, torques.tobytes(), positions)
+                similar = self.held_places(condition, {}, torques, positions)[1] if beside is None else beside
             for k in range(positions):
                 angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)
                 plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
@@ -329,12 +346,3 @@ class Bench:
         self.check((0, accumulator.step(wears, 0.0, 0.0)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]
-
-
-def within_turn(angle: float) -> float:
-    """The same place of the output by the shorter way from 0 [rad]."""
-    return math.remainder(angle, 2.0 * math.pi)
-
-
-def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
-    return {v.name: records[v.name][0] for v in table.variables if not v.shape}

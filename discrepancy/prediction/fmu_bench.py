@@ -23,7 +23,6 @@ from discrepancy.prediction.bench import (
     TOLERANCE,
     Bench,
     Condition,
-    within_turn,
 )
 from discrepancy.prediction.stretches import stretches
 from fmu_src.arrays import Floats
@@ -163,7 +162,7 @@ class FmuBench(Bench):
         def run() -> Floats:
             worn = self.worn_state(condition, values)
             self.start_plant(condition, values, condition.direction * condition.load)
-            start = within_turn(angles[0])
+            start = math.remainder(angles[0], 2.0 * math.pi)
             self.turn_plant(condition, start)
             self.plant.set("input_speed", self.input_speed(condition))
             if worn:
