@@ -4,6 +4,7 @@
     python3 build.py            set up, build and check the FMUs, run the main job, write the report
     python3 build.py test       set up, run the tests (further arguments go to pytest; --coverage shows what they reach)
     python3 build.py bench      set up, measure the cost of everything against others' (benchmarks/; --quick tries it out)
+    python3 build.py fuzz [minutes]     set up, feed every reader with mutants of its files (benchmarks/fuzzing)
     python3 build.py COMMAND    set up, then: rvwear COMMAND ...
 
 The main job co-simulates RvPlant.fmu and RvWear.fmu of the RV20E-121 at rated load over
@@ -102,13 +103,15 @@ def bench(arguments: list[str]) -> int:
 def main(arguments: list[str]) -> int:
     if sys.version_info < (3, 11):  # noqa: UP036
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
-    set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
+    set_up(for_tests=arguments[:1] in (["test"], ["bench"], ["fuzz"]))
     if arguments[:1] == ["test"]:
         tests = ["tests/measure_coverage.py"] if "--coverage" in arguments else ["-m", "pytest"]
         arguments = [argument for argument in arguments[1:] if argument != "--coverage"]
         return subprocess.run([str(SCRIPTS / "python"), *tests, *arguments], cwd=HERE).returncode
     if arguments[:1] == ["bench"]:
         return bench(arguments[1:])
+    if arguments[:1] == ["fuzz"]:
+        return subprocess.run([str(SCRIPTS / "python"), "-m", "benchmarks.fuzzing", *arguments[1:]], cwd=HERE).returncode
     if arguments:
         return rvwear(*arguments)
     os.chdir(HERE)

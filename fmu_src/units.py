@@ -58,7 +58,7 @@ def registry() -> "pint.UnitRegistry[float]":
         folder = Path(name)
         for file, content in kept.items():
             (folder / file).write_bytes(base64.b64decode(content))
-        made: pint.UnitRegistry[float] = pint.UnitRegistry(cache_folder=folder)
+        made: pint.UnitRegistry[Any] = pint.UnitRegistry(cache_folder=folder)
         files = {path.name: path for path in folder.iterdir()}
         if files.keys() != kept.keys():
             text = json.dumps({file: base64.b64encode(path.read_bytes()).decode() for file, path in sorted(files.items())})

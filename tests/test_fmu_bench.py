@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-import test_loop
 from test_loop import CLEARANCE, campaign_of
 
 from discrepancy.model_file import ModelFile, load_model
-from discrepancy.prediction.bench import KEPT_RUNS, Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.units import KEPT_RUNS, Condition
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.threads import Once
@@ -94,9 +94,7 @@ def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
         FmuBench(model, {}, fmus)
 
 
-def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, native_fmus, monkeypatch):
-    # As many as the orders of the transmission error need: every sample is a step of the FMUs.
-    monkeypatch.setattr(test_loop, "SAMPLES", 75)
+def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, native_fmus):
     campaign = campaign_of(model, {CLEARANCE: 0.6e-6}, 1)
     answers = []
     for folder in (None, native_fmus / "fmi2"):

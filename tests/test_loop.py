@@ -213,7 +213,8 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, tmp_path, monkeypatch)
     fits = second.doctor.space.predictions.calls
     steps = [extend(file, wide, [name], answer=answer) for answer in (first, second)]
     assert steps[0].as_json() == steps[1].as_json()
-    assert second.doctor.space.predictions.calls - fits <= 3
+    # What is left are the slopes by which unused runs are held against it.
+    assert second.doctor.space.predictions.calls - fits <= 5
     # Other measurements, and a file that is not whole, are no answer.
     other = replace(wide, records=(*wide.records[:-1], replace(wide.records[-1], values=wide.records[-1].values * 1.001)))
     assert remembered.remembered(file, other) is None
