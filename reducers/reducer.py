@@ -4,19 +4,23 @@ A file has [reducer] (name, description), [topology] (counts) and any other sect
 with ``key = { value, unit, source }``.  The keys are names of variables of the plant, the
 wear unit or the unit of both; sections only group them.  The units' tables say what exists, in which
 unit and within which bounds, so a new parameter needs no change here.
+
+A number may have a ``range = [low, high]`` in its unit, in which it is held to lie; one whose source says
+``assumed`` has a tenth to either side where none is given.
 """
 
 import difflib
-import tomllib
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
-from fmu_src.faults import InputFault
-from fmu_src.unit import Specification
+from fmu_src.faults import InputFault, nearest
+from fmu_src.reading import quoted, read_toml, reading, shown
+from fmu_src.strict_file import NAME, Piece, Strict, keys_at
+from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
@@ -26,12 +30,7 @@ from rv_plant.variables import plant_table
 from rv_reducer.variables import reducer_table
 from wear_fmu.variables import Resolution, wear_table
 
-
-class Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=False)
-
-
-Piece = TypeVar("Piece", bound=Strict)
+REMEDY = "the reducers of the library, in the folder reducers, show what one holds"
 
 
 class Entry(Strict):
@@ -40,10 +39,11 @@ class Entry(Strict):
     value: float | str
     unit: str
     source: str = Field(min_length=1)
+    range: tuple[float, float] | None = None
 
 
-# A name becomes part of file names.
-NAME = r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$"
+# What an assumed number may be off by where its file gives no range, as a share of it (assumed).
+USUAL_RANGE = 0.1
 
 
 class Head(Strict):
@@ -71,18 +71,25 @@ class Reducer:
     sources: dict[str, str]
     path: Path
     resolution: Resolution = Resolution()
+    # What a worn one starts with, by unit; a new one has nothing.
+    worn: dict[str, Worn] = field(default_factory=dict)
+    # By name (lowest, highest), SI: numbers that are not known for sure.
+    ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])
         names = table.by_name
-        return {
+        specification: Specification = {
             "unit": unit,
             "reducer": self.name,
             "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
             "starts": {k: v for k, v in self.starts.items() if k in names},
             "sources": {k: v for k, v in self.sources.items() if k in names},
         }
+        if unit in self.worn:
+            specification["worn"] = self.worn[unit]
+        return specification
 
     @cached_property
     def plant(self) -> Table:
@@ -109,10 +116,12 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
         raise InputFault(
             f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
         )
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
+    with reading(path, "a reducer file", REMEDY):
+        return reducer_of(read_toml(path, "reducer file", REMEDY), path)
+
+
+def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
+    """The reducer of a file's content."""
     head = checked(Head, content.pop("reducer", None), path, "reducer")
     counts = checked(Counts, content.pop("topology", None), path, "topology")
     if counts.pins != counts.lobes + 1:
@@ -136,6 +145,7 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
     topology = Topology(**counts.model_dump())
     starts: dict[str, float] = {}
     sources: dict[str, str] = {}
+    ranges: dict[str, tuple[float, float]] = {}
     tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
     for section, entries in content.items():
         if not isinstance(entries, dict):
@@ -146,12 +156,14 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
                 raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
             starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
             sources[key] = entry.source
+            if (span := range_of(tables, key, entry, f"{path}: [{section}] {key}")) is not None:
+                ranges[key] = span
     missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:
         starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
-    return Reducer(head.name, head.description, topology, starts, sources, path)
+    return Reducer(head.name, head.description, topology, starts, sources, path, ranges=ranges)
 
 
 def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
@@ -160,7 +172,7 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
         raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
     if not isinstance(raw, dict):
         raise InputFault(
-            f"{path}: {place} = {raw!r} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
+            f"{path}: {place} = {quoted(raw)} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
             ' { value = ..., unit = "...", source = "..." }'
         )
     try:
@@ -168,9 +180,9 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
     except ValidationError as problem:
         first = problem.errors()[0]
         key = ".".join(map(str, (place, *first["loc"])))
-        fields = ", ".join(model.model_fields)
-        given = "" if first["type"] == "missing" else f" = {first['input']!r}"
-        raise InputFault(f"{path}: {key}{given}: {first['msg']}; {place} takes {fields}") from None
+        given = "" if first["type"] == "missing" else f" = {quoted(first['input'])}"
+        hint = nearest(str(first["loc"][-1]), keys_at(model, ()), 1) if first["type"] == "extra_forbidden" else ""
+        raise InputFault(f"{path}: {shown(key)}{given}: {first['msg']}{hint}; {place} takes {', '.join(model.model_fields)}") from None
 
 
 def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> float:
@@ -198,3 +210,22 @@ def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> f
     except ValueFault as problem:
         raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
     return value
+
+
+def range_of(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> tuple[float, float] | None:
+    """(lowest, highest) that the number may be, SI; None where nothing says that it may be another."""
+    if isinstance(entry.value, str):
+        if entry.range is not None:
+            raise InputFault(f"{place}: range = {list(entry.range)}: a choice has no range; leave it out")
+        return None
+    if entry.range is None:
+        half = USUAL_RANGE * abs(entry.value) if entry.source.startswith("assumed") else 0.0
+        limits = (entry.value - half, entry.value + half)
+    else:
+        limits = entry.range
+    if not limits[0] <= entry.value <= limits[1]:
+        raise InputFault(f"{place}: range = {list(limits)}: value = {entry.value:g} {entry.unit} lies outside; give [lowest, highest] in {entry.unit}")
+    if limits[0] == limits[1]:
+        return None
+    low, high = (si_value(tables, key, entry.model_copy(update={"value": limit}), f"{place}: range") for limit in limits)
+    return low, high

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from discrepancy.inference.diagnose import against
 from discrepancy.inference.held_out.held_out import HeldOut
+from discrepancy.inference.judgement import against
 from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
 from discrepancy.problem import Candidate, Parameter

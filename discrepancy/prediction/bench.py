@@ -5,13 +5,14 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 
 import copy
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
-from discrepancy.prediction.units import Condition
+from discrepancy.prediction.units import Condition, Relevant
+from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
 from reducers.reducer import Reducer
 from studies import coupled
@@ -46,6 +47,16 @@ class Bench(Lives):
         other.held_angles, other.mean_positions, other.cycle_turns = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS, ROUGH_CYCLE
         return other
 
+    def allowed(self, record: Record) -> float:
+        """What a prediction of this record may err; 0 where nothing is known of its noise."""
+        return self.fineness.allowed.get((record.quantity, record.condition), 0.0) if self.fineness else 0.0
+
+    def equilibria(self, kind: str, condition: Condition, relevant: Relevant, *rest: Hashable) -> Floats | None:
+        """Those of a run whose values are said to be near, if it was made under the same key: where another may start."""
+        beside = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
+        found = self.runs.peek((kind, condition, beside, *rest)) if beside and beside != relevant else None
+        return found[1] if isinstance(found, tuple) else None
+
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
         return any(values.get(name, float(self.templates[0][name][0])) != 0.0 for name in MEMORY)
@@ -75,7 +86,10 @@ class Bench(Lives):
             durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
             places = np.zeros((len(angles), plants["z"].shape[1]))
-            similar = self.running_places(condition, {}, angles)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("running", condition, relevant, angles.tobytes(), cage)
+                similar = self.running_places(condition, {}, angles)[1] if beside is None else beside
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
                 self.put_wear(wears.copy(), plants)
@@ -138,7 +152,10 @@ class Bench(Lives):
         def run() -> tuple[Floats, Floats]:
             total = np.zeros(len(torques))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
-            similar = self.held_places(condition, {}, torques, positions, turns)[1] if relevant else places
+            similar = places
+            if relevant:
+                beside = self.equilibria("held", condition, relevant, *key[3:])
+                similar = self.held_places(condition, {}, torques, positions, turns)[1] if beside is None else beside
             # What sticks remembers where it was: friction's springs must not see a start elsewhere.
             guessed = bool(relevant) and not self.remembers(values)
             surfaces = self.worn(condition, values, condition.hours, turns).copy() if worn else None

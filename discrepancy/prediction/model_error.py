@@ -41,7 +41,7 @@ def parameters(records: Sequence[Record]) -> list[Parameter]:
         apart = [(apart_name(record), APART)] if len(conditions[place(record)]) > 1 else []
         for name, size in names(record) + apart:
             text = f"error of the base model's {record.quantity.replace('_', ' ')} of {place(record).partition(':')[2] or 'the reducer'}, as a share"
-            found.setdefault(name, Parameter(name, "1", 0.0, -0.5, 0.5, size, 0, size, text))
+            found.setdefault(name, Parameter(name, "1", 0.0, -0.5, 0.5, size, 0, size, text, of_base=True))
     return list(found.values())
 
 

@@ -1,6 +1,5 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-import difflib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,19 +10,21 @@ from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import model_error
+from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
-from discrepancy.prediction.curves import shifted_errors
+from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.model_error import with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.threads import Threads
+from fmu_src.variables import Table
 
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
@@ -63,7 +64,7 @@ class PhysicalModel:
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
-        self.require_known(nuisances)
+        require_known(campaign.folder, nuisances, self.bench.tables)
         self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
@@ -85,7 +86,7 @@ class PhysicalModel:
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
-        )
+        ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
     def angle_nuisances(self) -> list[Parameter]:
@@ -95,19 +96,6 @@ class PhysicalModel:
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip
-
-    def require_known(self, nuisances: Sequence[Nuisance]) -> None:
-        """InputFault for a nuisance that is no parameter of the model."""
-        scalars = {v.name for table in self.bench.tables for v in table.of_role("parameter", "input") if not v.shape}
-        for name in (n.parameter.name for n in nuisances):
-            if name not in scalars | {HOUSING_MASS} and name.partition("[")[0] not in CHAIN_PARAMETERS:
-                close = difflib.get_close_matches(name, scalars | CHAIN_PARAMETERS, 2)
-                hint = f"; did you mean {' or '.join(close)}?" if close else ""
-                raise InputFault(
-                    f"{self.campaign.folder}: nuisances.{name}: the model has no such parameter{hint} docs/variables.md lists those of the"
-                    f" reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
-                    f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
-                )
 
     def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.
@@ -148,6 +136,37 @@ class PhysicalModel:
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""
         return self.shared(which, (self.standing() | dict(values), None, True))
+
+    def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
+        """See ``problem.Glimpsing``: a transmission error at some angles, all else at its samples, under most and least load."""
+        high, low = self.standing() | dict(values), self.standing() | dict(base)
+        chosen: dict[str, Record] = {}
+        for record in sorted((self.records[i] for i in which), key=lambda r: r.factors.get("load", 0.0)):
+            chosen.setdefault(f"{record.quantity} least", record)
+            chosen[f"{record.quantity} most"] = record
+        # Runs of one condition show the same.
+        few = {(r.quantity, r.condition, r.mounting): r for r in chosen.values()}
+        return np.concatenate(self.threads.map(lambda record: self.glimpsed(record, high, low, first_order), few.values()))
+
+    def glimpsed(self, record: Record, high: Mapping[str, float], low: Mapping[str, float], first_order: bool) -> Floats:
+        """``glimpse`` of one record."""
+        own, beside = self.for_record(record, high), self.for_record(record, low)
+        places = glimpsed_angles(self.rough_bench, record) if record.quantity == "transmission_error" else None
+        found = None
+        if places is not None and self.bench.relevant(own, True) != self.bench.relevant(beside, True):
+            try:
+                found = glimpsed_error(self.rough_bench, record, own, beside, first_order)
+            except RunFault:
+                # Left to the whole prediction, which says so.
+                found = None
+        if found is None:
+            found = self.one(record, high, low if first_order else None, True) - self.one(record, low, low if first_order else None, True)
+            if places is not None:
+                found = found[np.linspace(0, len(found) - 1, len(places)).astype(np.intp)]
+        if record.free_zero:
+            found = found - found.mean()
+        allowed = self.rough_bench.allowed(record)
+        return found * np.sqrt(len(record.values) / len(found)) / allowed if allowed > 0.0 else found
 
     def standing(self) -> dict[str, float]:
         """Nuisances where they start."""
@@ -246,3 +265,15 @@ def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:
 
 
 CHAIN_PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
+
+
+def require_known(folder: Path, nuisances: Sequence[Nuisance], tables: Sequence[Table]) -> None:
+    """InputFault for a nuisance that is no parameter of the model."""
+    scalars = {v.name for table in tables for v in table.of_role("parameter", "input") if not v.shape}
+    for name in (n.parameter.name for n in nuisances):
+        if name not in scalars | {HOUSING_MASS, ENCODER_PHASE} and name.partition("[")[0] not in CHAIN_PARAMETERS:
+            raise InputFault(
+                f"{folder}: nuisances.{name}: the model has no such parameter{nearest(name, scalars | CHAIN_PARAMETERS, 2)}; docs/variables.md lists"
+                f" those of the reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
+                f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
+            )

@@ -90,7 +90,11 @@ class Workspace:
     def _everywhere(self, nuisances: Sequence[Parameter], values: Mapping[str, float]) -> list[dict[int, Floats]]:
         """Sensitivities of all records, those held out too, as far as they are not zero."""
         every = list(range(len(self.records)))
-        return self.threads.map(lambda p: {i: c for i, c in self.column(values, p, every).items() if np.any(c)}, nuisances)
+
+        def shown(p: Parameter) -> dict[int, Floats]:
+            return {i: c for i, c in self.column(values, p, every).items() if np.any(c)}
+
+        return self.threads.told("base fit, sensitivity", shown, nuisances, lambda p: f"to {p.name}")
 
     def _stack(self, raw: Sequence[Mapping[int, Floats]]) -> Floats:
         stacked = np.zeros((self.size, len(raw)))
