@@ -244,7 +244,9 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
         )
     prior = None if entry.prior is None else factor * entry.prior
     lower, start, upper = (factor * number + offset for number in (entry.lower, entry.start, entry.upper))
-    parameter = Parameter(name, unit, start, lower, upper, prior or 0.1 * (upper - lower), 0, prior, entry.description)
+    # A range of decades says nothing about a step.
+    size = min(0.1 * (upper - lower), abs(start) or upper - lower)
+    parameter = Parameter(name, unit, start, lower, upper, prior or size, 0, prior, entry.description)
     return Nuisance(parameter, entry.per)
 
 
