@@ -78,6 +78,7 @@ def opened(path: Path) -> xr.Dataset:
 
 def read_plain(path: Path) -> dict[str, Any]:
     """A NetCDF file as data: {"variables": {name: (dimensions, values)}, "attributes": {name: text}}."""
-    dataset = opened(path)
+    with reading(path, "a NetCDF file"):
+        dataset = opened(path)
     variables = {str(name): [[str(d) for d in v.dims], plain(np.asarray(v.values))] for name, v in dataset.variables.items()}
     return {"variables": variables, "attributes": {str(name): str(value) for name, value in dataset.attrs.items()}}
