@@ -57,14 +57,16 @@ def install(what: str, *arguments: str) -> None:
     """pip, with a line every few seconds that says how far it is."""
     count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
     with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
-        told, fetched, lines = time.monotonic(), 0, []
+        told, fetched, installing, lines = time.monotonic(), 0, False, []
         assert pip.stdout is not None
         for line in pip.stdout:
             lines.append(line)
-            fetched += line.startswith("Collecting")
-            if line.startswith("Installing"):
+            # "Processing" where an index names files of this machine.
+            fetched += line.startswith(("Collecting", "Processing"))
+            if line.startswith("Installing collected"):
+                installing = True
                 say(f"  {what}: installing")
-            elif time.monotonic() - told > 3.0:
+            elif not installing and time.monotonic() - told > 3.0:
                 told = time.monotonic()
                 say(f"  {what}: fetching {fetched} of {count}")
     if pip.returncode != 0:

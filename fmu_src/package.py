@@ -20,6 +20,7 @@ import fmpy
 from fmpy.model_description import ValidationError
 from fmpy.validation import validate_model_description
 
+from fmu_src.capabilities import declare
 from fmu_src.checked_file import replacing
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
@@ -105,6 +106,7 @@ def build_native(
     for version in versions:
         describe, folders = (model_description, folders2) if version == "2" else (model_description3, folders3)
         root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool, project())
+        declare(root, version, unit)
         ElementTree.indent(root)
         files = {
             "modelDescription.xml": ElementTree.tostring(root, "utf-8", xml_declaration=True),

@@ -4,7 +4,7 @@ import contextlib
 import json
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from zipfile import is_zipfile
@@ -87,6 +87,9 @@ class Fmu(Component):
         step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         # A step that is none is no suggestion.
         self.usual_step = step if step is not None and 0.0 < step < math.inf else None
+
+    def old_names(self) -> Mapping[str, str]:
+        return {} if self.stamp() is None else unit_of(self.specification()).table.renamed
 
     @property
     def slave(self) -> FMU2Slave | FMU3Slave:
@@ -199,10 +202,11 @@ class Fmu(Component):
         return records
 
     def cautions(self) -> list[str]:
+        returns = [f"{self.name}.{text}" for text in getattr(self.calls, "returns", [])]
         if self.stamp() is None:
-            return []
+            return returns
         cautions = unit_of(self.specification()).cautions
-        return [f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0]
+        return [*returns, *(f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0)]
 
     def close(self) -> None:
         with contextlib.suppress(FMICallException):

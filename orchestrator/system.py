@@ -2,7 +2,7 @@
 
     system = load("RvReducer.ssp")
     system["wear.acceleration"] = 1e6
-    series = system.run(duration=0.2, record=["plant.lag"])
+    series = system.run(duration=0.2, record=["plant.output.lag"])
 """
 
 import math
@@ -26,7 +26,7 @@ from orchestrator.scenario import Limit, read_scenario
 from orchestrator.schemes import SCHEMES
 from orchestrator.scratch import Scratch
 from orchestrator.settings import parse_value
-from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.importer import Structure, read_ssp
 from orchestrator.ssp.parameters import apply
 
 # Steps of a system whose files give none, and the step [s] where they do not even give a duration.
@@ -100,8 +100,9 @@ class System:
     def matching(self, pattern: str) -> list[tuple[str, str]]:
         """Variables that a name or pattern stands for."""
         if not set(pattern) & set("*?"):
-            name, signal = resolve(self.master.components, pattern)
-            return [(name, signal.name)]
+            # Under the name that was asked for, be it an old one.
+            name, _ = resolve(self.master.components, pattern)
+            return [(name, pattern[len(name) + 1 :])]
         found = [
             (name, variable) for name, component in self.master.components.items()
             for variable in component.signals if fnmatchcase(f"{name}.{variable}", pattern)
@@ -111,8 +112,10 @@ class System:
         return found
 
     def units(self) -> dict[str, str]:
-        """Units of all variables by path."""
-        return {f"{n}.{v}": s.unit for n, c in self.master.components.items() for v, s in c.signals.items()}
+        """Units of all variables by path, old names included."""
+        found = {f"{n}.{v}": s.unit for n, c in self.master.components.items() for v, s in c.signals.items()}
+        old = {f"{n}.{o}": found[f"{n}.{v}"] for n, c in self.master.components.items() for o, v in c.old_names().items() if v in c.signals}
+        return old | found
 
     def close(self) -> None:
         self.master.close()
@@ -165,6 +168,7 @@ def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, dur
     require_duration(structure.step, f"{path}: the communication step that it names")
     limits = USUAL_LIMITS.with_changes(call_limit)
     components = {name: open_fmu(name, fmu, isolate, limits) for name, fmu in structure.fmus.items()}
+    require_shapes(path, structure, components)
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
             apply(parameter, components[name], variable)
@@ -181,6 +185,16 @@ def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, dur
     if duration is None:
         duration = structure.stop - structure.start if structure.stop is not None else USUAL_STEPS * size
     return System(structure.name, made, whole_steps(duration, size), [], str(path), structure.folders)
+
+
+def require_shapes(path: Path, structure: Structure, components: dict[str, Component]) -> None:
+    """InputFault if an array connector is not as large as the FMU's variable."""
+    for (name, connector), shape in structure.shapes.items():
+        if name in components and components[name].signal(connector).shape != shape:
+            raise InputFault(
+                f"{path}: connector {connector} of {name} has the dimensions {' x '.join(map(str, shape))}, its FMU's variable"
+                f" {' x '.join(map(str, components[name].signal(connector).shape)) or 'none'}; write the FMU's"
+            )
 
 
 def connect(

@@ -3,41 +3,42 @@
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
-from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
+from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
+from rv_plant.near_mesh import NEAR, keep_contact, keep_force
 
-# Pins nearer than this have their distance and phase computed, touching or not [m].
+# Pins nearer than this have their distance and phase computed, touching or not; at rest those that may come to touch too [m].
 APART = 1e-9
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     contact, pin, lobe = sizes.over("disc", "pin"), sizes.over("pin"), sizes.over("disc", "lobe")
     return [
-        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
-        length("pin_radius", "radius of the pins", 1e-5, 2e-3),
-        length("pin_circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
-        length("mesh_width", "width of one disc", 1e-5, 8.82e-3),
+        Variable("mesh.profile_error", "input", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
+        length("pin.radius", "radius of the pins", 1e-5, 2e-3),
+        length("pin.circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
+        length("mesh.width", "width of one disc", 1e-5, 8.82e-3),
         length("equidistant_modification", "added to the pin radius when the disc is generated (positive: gap)",
-               -1e-3, maximum=1e-3),
+               -1e-3, maximum=1e-3, path="disc.equidistant_modification", display="um"),
         length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
-               -1e-3, maximum=1e-3),
-        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
-                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none"),
-        Variable("mesh_stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
+               -1e-3, maximum=1e-3, path="disc.shift_modification", display="um"),
+        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth towards each other (positive: gap)",
+                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none", path="disc.angle_modification", display="arcmin"),
+        Variable("mesh.stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
                  3.2e5, minimum=1.0, nominal=1e5, source=FILE),
-        Variable("mesh_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 3.2e6,
+        Variable("mesh.stiffness_lankarani", "parameter", "N", "force of disc on pin at 1 mm of penetration, Lankarani-Nikravesh law", 3.2e6,
                  minimum=1.0, nominal=1e6, source=FILE),
-        Variable("mesh_damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
+        Variable("mesh.damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
                  nominal=100.0, source="assumed: 50 to 500 N s/m per tooth"),
-        deviation("pin_position_error_radial", "pin centre outwards", **pin),
-        deviation("pin_position_error_tangential", "pin centre along the circle", **pin),
-        deviation("pin_radius_error", "pin radius above nominal", **pin),
-        deviation("lobe_profile_error", "material missing on a lobe", **lobe),
-        deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe),
-        output("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0),
-        output("mesh_force", "N", "force between disc and pin", **contact, nominal=100.0),
+        deviation("pin_position_error_radial", "pin centre outwards", **pin, path="errors.pin.radial"),
+        deviation("pin_position_error_tangential", "pin centre along the circle", **pin, path="errors.pin.tangential"),
+        deviation("pin_radius_error", "pin radius above nominal", **pin, path="errors.pin.radius"),
+        deviation("lobe_profile_error", "material missing on a lobe", **lobe, path="errors.lobe.profile"),
+        deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe, path="errors.lobe.pitch"),
+        local("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0, path="mesh.loaded_teeth"),
+        output("mesh.force", "N", "force between disc and pin", **contact, nominal=100.0),
         # What effects add to the ideal parts.
         state("pin_radius_added", "m", "added to the pins' radius", **pin),
         state("lobe_gap_added", "m", "material missing on a lobe", **lobe),
@@ -121,6 +122,9 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     rx = ry = rt = rr = 0.0
     kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
     loaded = 0
+    still = rate_weight == 0.0
+    apart = NEAR if still else APART
+    r.near_count[d] = 0
     for j in range(pins):
         # Pin centre from the disc's centre, in the housing and in the profile's frame.
         pin_x = ring_cos * r.pin_x[j] - ring_sin * r.pin_y[j]
@@ -146,7 +150,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         clearance += r.lobe_profile_error[d, lobe] + r.lobe_gap_added[d, lobe] + r.mesh_profile_error[d, j]
         # Half of the pins are far from touching, which is cheaper to see than how far.
         least = least_distance(cx, cy, ideal_cos, ideal_sin, circle, r.eccentricity, k1, hollow)
-        if least + clearance > APART:
+        if least + clearance > apart:
             r.mesh_force_now[d, j] = 0.0
             r.mesh_phase[d, j] = ideal_phase + r.phase_shift[d, j]
             continue
@@ -159,7 +163,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gap = distance + clearance
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
-            continue
+            if gap > apart or not still:
+                continue
         # Gradient of the penetration: (N, arm about the disc, minus arm about the ring),
         # with the normal turned back from the displaced flank.
         nx, ny = nx - pitch * ny, ny + pitch * nx
@@ -167,8 +172,25 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gx, gy = ca * nhx + sa * nhy, ca * nhy - sa * nhx
         gt = px * nhy - py * nhx
         gr = pin_y * nhx - pin_x * nhy
-        if rate_weight == 0.0:
+        # The normal turns with the disc, and along the flank by its curvature.
+        reach, swing = px * nhx + py * nhy, pin_x * nhx + pin_y * nhy
+        per_reach = 1.0 / (1.0 + bend * distance)
+        bend *= per_reach
+        turn = 1.0 - bend * reach
+        if still:
+            shift_cos, shift_sin = turn_of(shift)
+            curvature, slope, curl = curvature_and_slopes(
+                ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
+            )
+            # Along the parallel curve through the pin's centre.
+            per_reach = 1.0 / (1.0 + curvature * distance)
+            slope, square = slope * per_reach, per_reach * per_reach
+            curl = square * (square * curl - 3.0 * distance * slope * slope * per_reach)
+            keep_contact(r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope)
+            if gap >= 0.0:
+                continue
             force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
+            keep_force(r, d, force)
         else:
             rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
             r.mesh_rate[d, j] = rate
@@ -197,17 +219,12 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         ktt += stiffness * gt * gt
         ktr += stiffness * gt * gr
         krr += stiffness * gr * gr
-        # The normal turns with the disc, and along the flank by its curvature.
-        reach = px * nhx + py * nhy
-        bend /= 1.0 + bend * distance
-        turn = 1.0 - bend * reach
         kxx -= force * bend * gy * gy
         kxy += force * bend * gx * gy
         kyy -= force * bend * gx * gx
         kxt -= force * turn * gy
         kyt += force * turn * gx
         ktt += force * turn * reach
-        swing = pin_x * nhx + pin_y * nhy
         kxr -= force * bend * swing * gy
         kyr += force * bend * swing * gx
         ktr -= force * turn * swing

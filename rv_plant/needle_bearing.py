@@ -13,30 +13,30 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-from rv_plant.contact import contact_force, damped_force, impact_speed
+from rv_plant.contact import contact_force, damped_force, force_beside, impact_speed
 from rv_plant.dimension import FILE, length
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     roller = sizes.over("disc", "crank", "roller")
     return [
-        Variable("roller_profile_error", "input", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
-        length("inner_race_radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
-        length("outer_race_radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
-        length("roller_radius", "radius of the needle rollers", 1e-5, 1.5e-3),
-        length("roller_length", "length of the needle rollers", 1e-5, 8e-3),
-        length("bearing_clearance", "radial clearance of the needle bearings (half the diametral one)", -1e-4,
-               maximum=1e-3),
-        Variable("roller_stiffness", "parameter", "N",
+        Variable("roller.profile_error", "input", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        length("inner_race.radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
+        length("outer_race.radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
+        length("roller.radius", "radius of the needle rollers", 1e-5, 1.5e-3),
+        length("roller.length", "length of the needle rollers", 1e-5, 8e-3),
+        length("bearing.clearance", "radial clearance of the needle bearings (half the diametral one)", -1e-4,
+               maximum=1e-3, display="um"),
+        Variable("roller.stiffness", "parameter", "N",
                  "force of a roller between both races at 1 mm of approach, exponent 10/9", 5.1e5, minimum=1.0,
                  nominal=1e5, source=FILE),
-        Variable("roller_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 5.1e6,
+        Variable("roller.stiffness_lankarani", "parameter", "N", "force of a roller between both races at 1 mm of approach, Lankarani-Nikravesh law", 5.1e6,
                  minimum=1.0, nominal=1e6, source=FILE),
-        Variable("roller_damping", "parameter", "N.s/m", "coefficient C of a roller (law step)", 200.0, minimum=0.0,
+        Variable("roller.damping", "parameter", "N.s/m", "coefficient C of a roller (law step)", 200.0, minimum=0.0,
                  nominal=100.0, source="assumed: as disc and pin"),
-        output("cage_angle", "rad", "angle of the roller cages against the discs"),
-        output("cage_speed", "rad/s", "speed of the roller cages against the discs"),
-        output("roller_force", "N", "force on a roller", **roller, nominal=100.0),
+        output("cage.angle", "rad", "angle of the roller cages against the discs"),
+        output("cage.speed", "rad/s", "speed of the roller cages against the discs"),
+        output("roller.force", "N", "force on a roller", **roller, nominal=100.0),
         # What effects add to the ideal parts.
         state("roller_gap_added", "m", "added to a bearing's clearance", **roller),
         state("roller_gap_now", "m", "the same at the present angle, with what depends on it", **roller),
@@ -49,6 +49,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("roller_force_now", "N", "force of the last equilibrium", **roller),
         state("roller_impact_speed", "m/s", "speed of approach at first touch", **roller),
         scratch("roller_rate", roller["shape"]),
+        # Approach and force of the equilibrium's first assembly.
+        scratch("roller_known", roller["shape"]), scratch("roller_known_force", roller["shape"]),
         # Sum and tangent of one bearing, see roller_contacts.
         scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)),
     ]
@@ -81,7 +83,7 @@ def cage_rate(crank_speed, disc_speed, inner_radius, outer_radius):
 
 
 @kernel
-def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight):
+def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight, near):
     """Forces of all rollers of the bearing of disc d on crank c.
 
     (ux, uy) is the shift of lobe against hole [m], (vx, vy) its rate [m/s],
@@ -90,6 +92,7 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
     r.bearing_total (3) with the pull on the disc and its moment about the hole's turning
     (N, N, N m); r.bearing_tangent (3, 3), the stiffness with respect to (ux, uy, turning
     of the disc) plus ``rate_weight`` [1/s] times the damping; with 0 nothing moves.
+    ``near``: beside the last call without it, whose forces are known.
     """
     total, tangent, force = r.bearing_total, r.bearing_tangent, r.roller_force_now[d, c]
     for i in range(3):
@@ -106,7 +109,9 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
         f = 0.0
         if approach > 0.0:
             twist = uy * ex - ux * ey
-            if rate_weight == 0.0:
+            if near:
+                f, k = force_beside(approach, r.roller_known[d, c, i], r.roller_known_force[d, c, i], r.roller_constant, r.roller_exponent)
+            elif rate_weight == 0.0:
                 f, k = contact_force(approach, r.roller_constant, r.roller_exponent)
             else:
                 rate = vx * ex + vy * ey + twist * turn_rate
@@ -131,6 +136,8 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
             tangent[1, 2] += k * ey * twist + f * ex
             tangent[2, 2] += k * twist * twist - f * (ux * ex + uy * ey)
         force[i] = f
+        if rate_weight == 0.0 and not near:
+            r.roller_known[d, c, i], r.roller_known_force[d, c, i] = max(0.0, approach), f
         ex, ey = ex * step_c - ey * step_s, ex * step_s + ey * step_c
     tangent[1, 0] = tangent[0, 1]
     tangent[2, 0] = tangent[0, 2]

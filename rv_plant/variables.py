@@ -1,5 +1,6 @@
 """Every variable of the plant; each piece of physics declares its own."""
 
+from fmu_src.effect import amplitude_memory
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Table, Variable
 from rv_plant import (
@@ -13,6 +14,7 @@ from rv_plant import (
     integrator,
     mesh,
     motion,
+    near_mesh,
     needle_bearing,
     output_pins,
     outputs,
@@ -21,13 +23,18 @@ from rv_plant import (
     profiles,
 )
 from rv_plant.effects import EFFECTS
+from rv_plant.terminals import TERMINALS
 from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium, outputs,
-    dynamics, constraints, integrator, motion,
+    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium,
+    outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
+
+
+# Nothing has turned yet.
+STARTS_AT_ZERO = ("cage_angle", "crank_path", "mesh_force_path", "roller_force_path")
 
 
 def own_variables(topology: Topology = SMALLEST) -> list[Variable]:
@@ -41,4 +48,5 @@ def plant_table(topology: Topology) -> Table:
     require_sound_effects("rv_plant")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",
-                 own_variables(topology) + effects)
+                 [v.within(vars(topology)) for v in [*own_variables(topology), *effects, amplitude_memory(EFFECTS.values())]],
+                 dict.fromkeys(STARTS_AT_ZERO, ()), terminals=TERMINALS)

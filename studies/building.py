@@ -17,22 +17,28 @@ from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, vali
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.reading import reading
+from fmu_src.references import MANIFEST
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer
 from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
+from studies.reference_material import add_references
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one."""
+    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one.
+
+    ``inline`` packages have their values in the system's description instead of files beside the FMUs.
+    """
 
     flavour: str = "both"
     fmi: str = "both"
     all_platforms: bool = False
+    inline: bool = False
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
@@ -66,12 +72,14 @@ def built_units(reducer: Reducer, folder: Path, wanted: Wanted) -> tuple[list[di
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])
                 if versions := tuple(v for v, path in zip(native, ours) if path in stale):
                     build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes)
+                for path in stale:
+                    add_references(path, reducer, unit, step)
         for path in paths:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
             built.append(entry | {"flavour": "python" if path == editable else "native"})
     places = dict.fromkeys(Path(entry["fmu"]).parent for entry in built)
-    return built, [export_pair(reducer, place, step, tool) for place in places]
+    return built, [export_pair(reducer, place, step, tool, wanted.inline) for place in places]
 
 
 def native_versions(wanted: Wanted) -> tuple[str, ...]:
@@ -103,14 +111,15 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     if known != identity or any(getattr(description, name) != value for name, value in makers.items()):
         return False
     with zipfile.ZipFile(path) as archive:
-        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+        names = archive.namelist()
+    libraries = [name for name in names if name.startswith("binaries/")]
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return not all_platforms or len(libraries) >= 4
+    return MANIFEST in names and (not all_platforms or len(libraries) >= 4)
 
 
-def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
-    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear", inline: bool = False) -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs; SSP 1.0 of FMI 2 units, 2.0 of FMI 3 units."""
     return export_ssp(
         folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool,
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool, inline,
     )  # fmt: skip

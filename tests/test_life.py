@@ -62,19 +62,22 @@ CASES = {
 DEMANDS = (0.1, 0.03, 0.01)
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case):
+# A duty's cycles cost twice as much.
+@pytest.mark.parametrize("case, demands", [
+    ("one way", DEMANDS), ("fast running-in", DEMANDS), ("reversing", DEMANDS[:2]), pytest.param("reversing", DEMANDS, marks=pytest.mark.campaign),
+])  # fmt: skip
+def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case, demands):
     make = lambda: make_coarse(rv20e, master_kind=CoupledMaster, **CASES[case])
     exact, hours, jumps = make(), 3000.0, 24
     for i in range(jumps):
         run_cycle(exact, hours * (2 * i + 1) / jumps**2)
     cycles = []
-    for demand in DEMANDS:
+    for demand in demands:
         pair = make()
         cycles.append(live(pair, Life(LifeSettings(hours, demand)), nothing, nothing).cycles)
         assert np.max(np.abs(depths(pair) / depths(exact) - 1.0)) < demand, demand
     assert cycles == sorted(set(cycles)), "each tighter demand costs more"
-    assert cycles[0] * 3 <= cycles[2]
+    assert cycles[0] * 3 <= cycles[-1] or demands != DEMANDS
 
 
 @pytest.mark.parametrize("limits, jumps", [({}, 1), ({"first_jump": 100.0}, 10), ({"largest_jump": 2000.0}, 10)])
@@ -103,6 +106,20 @@ def test_measuring_leaves_the_pair_as_it_was(rv20e):
     life = Life(LifeSettings())
     life.note(pair)
     assert pair.master.save() == before
+
+
+@pytest.mark.parametrize("reducer", ["rv20e", "bx40e"])
+def test_a_life_in_motion_is_not_worn_by_the_swing_that_accelerated_wear_strikes_up(request, reducer):
+    """The load rings through a hundred turns: undamped, 10,000 h in two jumps wear the races of the RV20E-121 twice as deep."""
+    ends = {}
+    for fidelity in (0, 1):
+        pair = make_coarse(request.getfixturevalue(reducer), [Setting("fidelity", fidelity)], master_kind=CoupledMaster)
+        live(pair, Life(LifeSettings(10_000.0, 0.1)), nothing, nothing)
+        ends[fidelity] = depths(pair)
+    assert ends[1] == pytest.approx(ends[0], rel=0.05)
+    omega = 2.0 * np.pi * {"rv20e": 86.3, "bx40e": 147.1}[reducer]
+    record = pair.plant.record()
+    assert record["swing_damping"][0] == pytest.approx(2.0 * 0.07 * omega * record["load_inertia"][0], rel=0.1)
 
 
 class Killed(Exception):

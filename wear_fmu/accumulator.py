@@ -11,7 +11,7 @@ from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from wear_fmu.chosen_surfaces import GUARDS
-from wear_fmu.contacts import publish_profiles, shortening
+from wear_fmu.contacts import look_ahead, publish_profiles, shortening
 from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
@@ -27,60 +27,64 @@ from wear_fmu.wear_laws import mean_run_in_factor
 
 effects = compose("wear_fmu.effects", HOOKS, GUARDS)
 prepare_effects, advance_effects = effects.prepare, effects.advance
+amplitudes_changed, keep_amplitudes = effects.amplitudes_changed, effects.keep_amplitudes
 
-# A step in which the cranks turn further is divided [rad], into at most so many parts.
-LONGEST_SWEEP = math.radians(5.0)
+# A step is divided into at most so many parts.
 MOST_SWEEPS = 100_000
 # Whether the inputs are those of a step's end or of its beginning.
 UNDECIDED, ON_TIME, LATE = 0, 1, 2
 
 PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
 FAULTS = {
-    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
-    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
-    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
-    " centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
+    PRIMED: "the trochoid has loops: crank.eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " pin.circle_radius {pin_circle_radius:.6g} m. Reduce crank.eccentricity or enlarge pin.circle_radius",
+    UNDERCUT: "the profile is undercut: pin.radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
+    " centre curve. Reduce pin.radius or crank.eccentricity, or enlarge pin.circle_radius",
     LONG_STEP: "the cranks moved from {crank_angle_before:.6g} to {crank_angle:.6g} rad in one communication step,"
     " more than a unit can be meant to follow. Use a shorter communication step",
-    CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output_angle to"
-    " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank_angle, output_angle and"
-    " cage_angle of the same reducer",
+    CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output.angle to"
+    " {output_angle:.6g} rad, cage.angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank.angle, output.angle and"
+    " cage.angle of the same reducer",
 }
 CAUTIONS = {
     "coarse_steps": "between two communication points the cranks turned by more than 20 degrees, or to and fro by more than 1: where the"
-    " wear was and under which forces is not known there, coarse_steps counts such steps. Use a shorter communication step",
+    " wear was and under which forces is not known there, numerics.coarse_steps counts such steps. Use a shorter communication step",
 }
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
-        Variable("crank_angle", "input", "rad", "angle of the cranks in the housing"),
-        Variable("crank_speed", "input", "rad/s", "speed of the cranks in the housing"),
-        Variable("output_angle", "input", "rad", "angle of the carrier"),
-        Variable("cage_angle", "input", "rad", "angle of the roller cages against the discs"),
+        Variable("crank.angle", "input", "rad", "angle of the cranks in the housing"),
+        Variable("crank.speed", "input", "rad/s", "speed of the cranks in the housing"),
+        Variable("output.angle", "input", "rad", "angle of the carrier"),
+        Variable("cage.angle", "input", "rad", "angle of the roller cages against the discs"),
         Variable("temperature", "input", "K", "temperature of the contacts", 293.15, minimum=200.0, maximum=500.0,
-                 nominal=300.0, source="assumed: room temperature"),
+                 nominal=300.0, source="assumed: room temperature", path="heat.contact_temperature"),
         parameter("pins", "1", "whether the pins turn in their grooves and wear all round, or stand", 0,
                   choices=("turn", "stand"), source="assumed: they turn, which agrees with ten times less wear than"
-                  " the disc"),
+                  " the disc", path="wear.pins"),
         parameter("pin_wear_share", "1", "wear of a pin over that of the flanks it meets; 0: pins do not wear", 1.0, 0.0, 100.0,
-                  source="assumed: as hard as the discs, either loses the same area"),
+                  source="assumed: as hard as the discs, either loses the same area", path="wear.pin_share"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
-        output("profile_angle", "rad", "crank angle that the profile errors hold for"),
-        output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
-        output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
-        output("mesh_profile_slope", "m/rad", "change of mesh_profile_error as the cranks turn on", **contact, nominal=1e-4),
-        output("roller_profile_slope", "m/rad", "change of roller_profile_error as the cranks turn on", **roller, nominal=1e-4),
-        output("operating_time", "s", "time that the wear stands for", nominal=1e6),
-        output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
+        parameter("largest_sweep", "rad", "a communication step is divided so that no crank turns further in a part", math.radians(5.0), 1e-6,
+                  1.0, source="assumed: 72 positions a turn", path="numerics.largest_sweep"),
+        output("profile.angle", "rad", "crank angle that the profile errors hold for"),
+        output("mesh.profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
+        output("roller.profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        output("mesh.profile_slope", "m/rad", "change of mesh.profile_error as the cranks turn on", **contact, nominal=1e-4),
+        output("roller.profile_slope", "m/rad", "change of roller.profile_error as the cranks turn on", **roller, nominal=1e-4),
+        output("operating_time", "s", "time that the wear stands for", nominal=1e6, path="wear.operating_time"),
+        output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9, path="wear.crank_travel"),
         state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True, minimum=0, maximum=1),
         state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
         state("cage_angle_before", "rad", "cage angle at the last step"),
         state("temperature_before", "K", "temperature at the last step"),
+        state("profile_lead", "rad", "how far ahead of crank_angle the profile errors hold"),
+        state("profile_reach", "rad", "turning through which their slopes are taken"),
         state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True, minimum=0, maximum=2),
     ]
 
@@ -119,6 +123,16 @@ def geometry_fault(r):
     return 0
 
 
+@kernel
+def tune(r):
+    """Effects by the amplitudes that are set now."""
+    r.effects_on = 0
+    r.standing = 1.0 if r.pins == 1 else 0.0
+    prepare_effects(r)
+    r.standing = min(1.0, r.standing)
+    keep_amplitudes(r)
+
+
 @entry_point
 def initialise(records):
     """Check the parameters; new surfaces."""
@@ -127,10 +141,7 @@ def initialise(records):
     if fault != 0:
         return fault
     prepare(r)
-    r.effects_on = 0
-    r.standing = 1.0 if r.pins == 1 else 0.0
-    prepare_effects(r)
-    r.standing = min(1.0, r.standing)
+    tune(r)
     keep_received(r)
     return 0
 
@@ -160,15 +171,17 @@ def take_off(records, duration):
     """What the contacts take off on their way to the present input angles."""
     r = records[0]
     turned = abs(r.crank_angle - r.crank_angle_before)
-    if not turned <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not turned <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
     carried, rolled = abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before)
     if not (carried <= math.pi + turned and rolled <= math.pi + turned):
         return CAGE_ASTRAY
     receive(r)
-    if not r.path <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not r.path <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
-    count = max(1, math.ceil(turned / LONGEST_SWEEP - 1e-3))
+    if amplitudes_changed(r):
+        tune(r)
+    count = max(1, math.ceil(turned / r.largest_sweep - 1e-3))
     for i in range(count):
         wear_part(r, count, i, duration)
     keep_received(r)
@@ -177,8 +190,14 @@ def take_off(records, duration):
 
 @entry_point
 def step(records, time, duration):
-    """Wear of one communication step: contacts moved to the present input angles."""
+    """Wear of one communication step: contacts moved to the present input angles.
+
+    One of no length wears nothing and reads the profiles where the present input angles have their contacts.
+    """
     r = records[0]
+    if duration == 0.0:
+        look_ahead(r, r.profile_lead, r.profile_reach)
+        return 0
     if r.lateness == UNDECIDED and r.crank_speed * duration != 0.0:
         # Who exchanges at the steps' beginning hands over in the first one what was there before it.
         moved = abs(r.crank_angle - r.crank_angle_before)

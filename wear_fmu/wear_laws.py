@@ -26,31 +26,31 @@ LAWS = ("constant", "run-in and load", "janakiraman", "janakiraman printed")
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
-        parameter("elastic_modulus", "Pa", "Young's modulus of all parts", 207e9, 1e6, nominal=1e11),
-        parameter("poisson_ratio", "1", "Poisson's ratio of all parts", 0.3, 0.0, 0.5),
-        parameter("hardness", "Pa", "hardness of the worn surfaces", 7e9, 1e6, nominal=1e9),
-        parameter("mesh_wear_law", "1", "wear law of flanks and pins", 1, choices=LAWS, source="BX-40E document"),
+        parameter("elastic_modulus", "Pa", "Young's modulus of all parts", 207e9, 1e6, nominal=1e11, path="material.elastic_modulus"),
+        parameter("poisson_ratio", "1", "Poisson's ratio of all parts", 0.3, 0.0, 0.5, path="material.poisson_ratio"),
+        parameter("hardness", "Pa", "hardness of the worn surfaces", 7e9, 1e6, nominal=1e9, path="material.hardness"),
+        parameter("mesh_wear_law", "1", "wear law of flanks and pins", 1, choices=LAWS, source="BX-40E document", path="wear.mesh_law"),
         parameter("raceway_wear_law", "1", "wear law of the raceways", 2, choices=LAWS,
-                  source="needle-bearing document, law restored after Janakiraman et al. 2014"),
+                  source="needle-bearing document, law restored after Janakiraman et al. 2014", path="wear.race_law"),
         parameter("mesh_wear_coefficient", "1", "dimensionless wear coefficient of flanks and pins, run in",
-                  5e-9, 0.0, 1.0, nominal=1e-8),
-        parameter("raceway_wear_coefficient", "1", "the same for the raceways (laws other than Janakiraman)",
-                  3e-9, 0.0, 1.0, nominal=1e-8),
-        parameter("run_in_ratio", "1", "wear coefficient when new over run in", 5.0, 0.0, 1e3),
-        parameter("run_in_time", "s", "decay time of running-in at run_in_crank_speed (it goes by distance slid)",
-                  300 * 3600.0, 1.0, nominal=1e6),
-        parameter("run_in_crank_speed", "rad/s", "speed of the cranks that run_in_time holds for", 67.5, 1e-6),
-        parameter("load_exponent", "1", "exponent of the load dependence", 0.3, -1.0, 5.0),
+                  5e-9, 0.0, 1.0, nominal=1e-8, path="wear.mesh_coefficient"),
+        parameter("raceway_wear_coefficient", "1", "dimensionless wear coefficient of the raceways, run in (laws other than Janakiraman)",
+                  3e-9, 0.0, 1.0, nominal=1e-8, path="wear.race_coefficient"),
+        parameter("run_in_ratio", "1", "wear coefficient when new over run in", 5.0, 0.0, 1e3, path="wear.run_in_ratio"),
+        parameter("run_in_time", "s", "decay time of running-in at wear.run_in_crank_speed (running-in goes by distance slid)",
+                  300 * 3600.0, 1.0, nominal=1e6, path="wear.run_in_time"),
+        parameter("run_in_crank_speed", "rad/s", "speed of the cranks that wear.run_in_time holds for", 67.5, 1e-6, path="wear.run_in_crank_speed"),
+        parameter("load_exponent", "1", "exponent of the load dependence", 0.3, -1.0, 5.0, path="wear.load_exponent"),
         parameter("reference_line_load", "N/m", "load per width at which the coefficient holds", 5e4, 1e-3,
-                  nominal=1e4),
+                  nominal=1e4, path="wear.reference_line_load"),
         parameter("roughness", "m", "composite roughness Rq of roller and raceway, and of disc and pin", 0.4e-6,
-                  1e-9, 1e-4, nominal=1e-6),
+                  1e-9, 1e-4, nominal=1e-6, path="wear.roughness"),
         parameter("pressure_viscosity", "1/Pa", "pressure-viscosity coefficient of the grease at its reference"
-                  " temperature", 1.8e-8, 1e-10, 1e-6, nominal=1e-8),
-        parameter("pressure_viscosity_slope", "1/K", "relative fall of it with temperature", 0.005, 0.0, 0.1,
-                  source="assumed: about 0.5 % per kelvin"),
-        parameter("reference_temperature", "K", "temperature that pressure_viscosity holds for", 293.15, 200.0,
-                  500.0, source="assumed: room temperature"),
+                  " temperature", 1.8e-8, 1e-10, 1e-6, nominal=1e-8, path="grease.pressure_viscosity"),
+        parameter("pressure_viscosity_slope", "1/K", "relative fall of the pressure-viscosity coefficient with temperature", 0.005, 0.0, 0.1,
+                  source="assumed: about 0.5 % per kelvin", path="grease.pressure_viscosity_slope"),
+        parameter("reference_temperature", "K", "temperature that grease.pressure_viscosity holds for", 293.15, 200.0,
+                  500.0, source="assumed: room temperature", path="grease.reference_temperature"),
     ]
 
 
@@ -107,3 +107,13 @@ def wear_coefficient(law, coefficient, hardness, run_in, load_exponent, referenc
     if law == RUN_IN_LOAD:
         k *= run_in * load_factor(line_load, reference_line_load, load_exponent)
     return k
+
+
+@kernel
+def exponents(law, load_exponent):
+    """Powers with which ``wear_coefficient`` goes with the line load and with the radius."""
+    if law == JANAKIRAMAN:
+        return 1.219, -2.808
+    if law == JANAKIRAMAN_PRINTED:
+        return 1.0, 0.589
+    return load_exponent if law == RUN_IN_LOAD else 0.0, 0.0

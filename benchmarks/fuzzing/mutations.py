@@ -55,7 +55,7 @@ def flip(data: bytes, _: list[bytes], chance: random.Random) -> bytes:
     if not data:
         return b"\x00"
     changed = bytearray(data)
-    for _change in range(chance.choice((1, 1, 2, 8))):
+    for _time in range(chance.choice((1, 1, 2, 8))):
         place = chance.randrange(len(changed)) if chance.random() < 0.5 else chance.randrange(min(len(changed), 2000))
         changed[place] = changed[place] ^ (1 << chance.randrange(8)) if chance.random() < 0.5 else chance.choice((0, 1, 127, 128, 255, chance.randrange(256)))
     return bytes(changed)

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from orchestrator.schemes import SCHEMES
 if TYPE_CHECKING:
     import numpy as np
 
+    from orchestrator.regression import Comparison, Tolerance
     from orchestrator.system import System
 
 
@@ -23,7 +25,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer_options(drive)
     add_coupling_options(drive, None)
     add_system_options(drive)
-    drive.add_argument("--record", action="append", metavar="PATTERN", help="what to record of a system: plant.lag, wear.*")
+    drive.add_argument("--record", action="append", metavar="PATTERN", help="what to record of a system: plant.output.lag, wear.*")
     drive.add_argument("--turns", type=float, default=1.0, help="crank turns to simulate (default 1)")
     drive.add_argument("--acceleration", type=float, default=1.0, help="wear counts this many times (default 1)")
     drive.add_argument("--output", help="result file, .nc or of a system also .csv (default results/NAME_run.nc)")
@@ -32,13 +34,14 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
     judge = sub.add_parser("check", help="run a system and hold it against reference results: for CI")
     judge.add_argument("system", help="scenario (.toml), SSP (.ssp, .ssd, folder) or FMU")
-    judge.add_argument("--reference", required=True, metavar="FILE", help="results of rvwear run (.nc, .csv)")
+    judge.add_argument("--reference", metavar="FILE", help="results of rvwear run (.nc, .csv); without it, the experiments that an FMU carries"
+                       " (FMI-LS-REF)")
     judge.add_argument(
         "--tolerance", action="append", default=[], metavar="[NAME=]REL[,ABS]",
         help="of the largest value of a variable, plus an absolute part; the last that matches (default 1e-6)",
     )  # fmt: skip
     judge.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
-    judge.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="--set plant.load_torque=150N.m")
+    judge.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="--set plant.output.load_torque=150N.m")
     judge.add_argument("--scheme", choices=SCHEMES, help="before the file's")
     add_system_options(judge)
     add_json(judge)
@@ -98,8 +101,8 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
     with task("steps", total=steps) as stepping:
         recorded = record_turn(pair, steps, stepping.advance).series
     step = pair.master.step_size
-    series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{k}": v for k, v in recorded.items()}
-    units = {f"plant.{k}": pair.plant.signal(k).unit for k in SERIES}
+    series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{pair.plant.signal(k).name}": v for k, v in recorded.items()}
+    units = {f"plant.{s.name}": s.unit for k in SERIES for s in [pair.plant.signal(k)]}
     name = f"{reducer.name}_run"
     inputs = {"reducer": reducer.name, "settings": {s.name: s.value for s in settings},
               "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
@@ -147,7 +150,7 @@ def open_system(options: argparse.Namespace) -> "System":
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:
-            raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.load_torque=150N.m")
+            raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.output.load_torque=150N.m")
         system[path.strip()] = value.strip()
     return system
 
@@ -192,12 +195,13 @@ def check(options: argparse.Namespace) -> int:
     """``rvwear check``: 0 if every variable of the reference is met, 1 if not."""
     import numpy as np
 
-    from cli import screen
     from orchestrator.regression import compare, parse_tolerance, write_junit
     from orchestrator.series import flat, read_series
     from orchestrator.system import whole_steps
 
     tolerances = [parse_tolerance(text) for text in options.tolerance]
+    if options.reference is None:
+        return check_experiments(options, tolerances)
     reference = read_series(Path(options.reference))
     started = perf_counter()
     system = open_system(options)
@@ -213,6 +217,42 @@ def check(options: argparse.Namespace) -> int:
     if options.junit:
         write_junit(comparisons, system.name, perf_counter() - started, system.master.warnings, Path(options.junit))
     system.close()
+    return show_verdicts(options, comparisons, str(options.reference))
+
+
+def check_experiments(options: argparse.Namespace, tolerances: "list[Tolerance]") -> int:
+    """Those that an FMU carries, each in a new instance."""
+    from orchestrator.experiments import experiments_in, judged
+    from orchestrator.fmu import Fmu
+    from orchestrator.regression import write_junit
+
+    path, started = Path(options.system), perf_counter()
+    if path.suffix != ".fmu":
+        raise InputFault(f"{path}: only an FMU carries experiments; give --reference, results of an earlier run of the system")
+    given = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "set", "scheme")
+    if ignored := [f"--{name.replace('_', '-')}" for name in given if getattr(options, name)]:
+        raise InputFault(f"{', '.join(ignored)} without --reference: an experiment that the FMU carries says itself how it is done")
+    unit = Fmu(path.stem, path)
+    comparisons, done = [], []
+    try:
+        for experiment in experiments_in(unit.folder):
+            fresh = Fmu(path.stem, path)
+            try:
+                comparisons += [replace(c, variable=f"{experiment.name}: {c.variable}") for c in judged(fresh, experiment, tolerances)]
+            finally:
+                fresh.close()
+            done.append(experiment.name)
+    finally:
+        unit.close()
+    if options.junit:
+        write_junit(comparisons, path.stem, perf_counter() - started, [], Path(options.junit))
+    return show_verdicts(options, comparisons, f"the FMU's experiments {', '.join(done)}")
+
+
+def show_verdicts(options: argparse.Namespace, comparisons: "list[Comparison]", reference: str) -> int:
+    """1 if one failed."""
+    from cli import screen
+
     failed = [c for c in comparisons if not c.passed]
     if options.json:
         screen.json_text({
@@ -221,5 +261,5 @@ def check(options: argparse.Namespace) -> int:
     else:
         for comparison in failed:
             print(comparison)
-        print(f"{len(comparisons) - len(failed)} of {len(comparisons)} variables agree with {options.reference}")
+        print(f"{len(comparisons) - len(failed)} of {len(comparisons)} variables agree with {reference}")
     return 1 if failed else 0

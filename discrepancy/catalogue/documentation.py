@@ -32,7 +32,8 @@ turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pic
 """
 # When the units call the hooks.
 STAGES = {
-    "prepare": "once, when the parameters are known",
+    "start": "once, at initialisation: own states",
+    "prepare": "at initialisation, and whenever an amplitude is set during a run",
     "warm": "before every equilibrium (in motion: every internal step): temperature",
     "before": "after that: what depends on angle and temperature",
     "hold": "in every iteration of an equilibrium (not in motion): forces and their tangent",
@@ -76,7 +77,8 @@ def before(r):
 ```
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
-anything is compiled. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
+anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
 for all effects before the next begins:
 
 STAGES
@@ -110,7 +112,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.name}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
+        (f"`{p.variable.path}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((

@@ -9,10 +9,11 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from studies.coupled import COLUMNS
@@ -209,12 +210,18 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     return change
 
 
-def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats | None:
-    """What ``values`` change in the transmission error [rad] next to ``base`` at a few angles; None where these are not fewer."""
+def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:
+    """The few angles [rad] at which a glimpse of a transmission error is had; None where these are not fewer, or first order is not cheaper."""
     curve = OverAngle(bench, record, "transmission_error")
     nodes = curve.nodes(COARSEST)
-    if nodes is None or (first_order and curve.condition.hours > 0.0):
-        return None
+    return None if nodes is None or curve.condition.hours > 0.0 else nodes.angles
+
+
+def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats:
+    """What ``values`` change in the transmission error [rad] next to ``base`` at ``glimpsed_angles``."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = curve.nodes(COARSEST)
+    assert nodes is not None
     if first_order:
         high, low = (bench.error_beside(curve.condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
     else:

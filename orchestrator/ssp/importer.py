@@ -20,6 +20,8 @@ from orchestrator.ssp.parameters import Parameter, read_bindings
 from orchestrator.ssp.xml import child, children, file_at, local, number, parse, units_of
 
 MAIN_FILE = "SystemStructure.ssd"
+# Whatever comes after the point.
+KNOWN_VERSIONS = ("1", "2")
 # Systems in systems, systems and components in all, connectors that a value is handed on through (all assumed, far beyond what is built).
 DEEPEST, MOST_ELEMENTS, MOST_HOPS = 20, 5000, 200
 # A path of element names from the top, and a connector there.
@@ -48,6 +50,8 @@ class Structure:
     connections: list[Connection] = field(default_factory=list)
     parameters: list[tuple[str, str, Parameter]] = field(default_factory=list)
     open_inputs: list[str] = field(default_factory=list)
+    # Dimensions of array connectors (SSP 2.0), by unit and connector, where all are given.
+    shapes: dict[tuple[str, str], tuple[int, ...]] = field(default_factory=dict)
     start: float = 0.0
     stop: float | None = None
     step: float | None = None
@@ -96,6 +100,8 @@ class Importer:
         root = parse(file)
         if local(root) != "SystemStructureDescription":
             raise InputFault(f"{file}: a {local(root)}, not a SystemStructureDescription")
+        if root.get("version", "1.0").split(".")[0] not in KNOWN_VERSIONS:
+            raise InputFault(f"{file}: SSP version {root.get('version')!r} is not known; versions {' and '.join(KNOWN_VERSIONS)} are")
         system = child(root, "System")
         if system is None:
             raise InputFault(f"{file}: no System")
@@ -130,6 +136,9 @@ class Importer:
             named = next((unit for e in connector if (unit := e.get("unit"))), None)
             if named in units:
                 self.connector_units[node] = units[named]
+            sizes = [d.get("size") for d in children(connector, "Dimension")]
+            if sizes and None not in sizes:
+                self.structure.shapes[".".join(place), node[1]] = sizes_of(node, sizes)
 
     def component(self, element: etree._Element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
         path = file_at(folder, element.get("source", ""), ".".join(place))
@@ -149,6 +158,9 @@ class Importer:
         # Which way values go is a matter of the connectors' kinds, not of what was written first.
         if self.gives(end, place) and not self.gives(start, place):
             start, end = end, start
+        for part in ("startIndices", "endIndices"):
+            if element.get(part):
+                raise InputFault(f"connection to {text_of(end)}: {part} = {element.get(part)!r} is not supported; connect whole arrays")
         for transformation in MAPPINGS:
             if child(element, transformation) is not None:
                 raise InputFault(f"connection to {text_of(end)}: {transformation} is not supported")
@@ -233,6 +245,13 @@ class Importer:
                     structure.step = number(element, attribute, 0.0)
                     structure.scheme = element.get("scheme")
         return structure
+
+
+def sizes_of(node: Node, sizes: list[str | None]) -> tuple[int, ...]:
+    try:
+        return tuple(int(size or "") for size in sizes)
+    except ValueError:
+        raise InputFault(f"connector {text_of(node)}: Dimension size = {', '.join(map(repr, sizes))}: a whole number is needed") from None
 
 
 def text_of(node: Node) -> str:

@@ -2,7 +2,7 @@
 
 Hooks, each a kernel of that name in an effect's file:
 
-    prepare(r)            once, when parameters are known; adds 1 to ``r.effects_on`` if the effect is on
+    prepare(r)            at initialisation and whenever an amplitude is set during a run; adds 1 to ``r.effects_on`` if the effect is on
     factor(r, surface, line_load, radius, speed, depth)
                           by which the wear coefficient is multiplied at a contact: surface
                           0 flank and pin, 1 inner, 2 outer raceway; load per length [N/m], equivalent
@@ -15,6 +15,7 @@ changes its own states, and reads none of what others change there.
 """
 
 from fmu_src.effect import OWN_STATES, Effect, effect_modules
+from fmu_src.names import with_paths
 from wear_fmu.chosen_surfaces import with_choice
 
 HOOKS = {
@@ -26,6 +27,6 @@ ALLOWED = {"prepare": OWN_STATES | {"effects_on": "+=", "standing": "+="}, "adva
 # A hook that is not called unless another has changed this field.
 NEEDS = {"factor": "effects_on"}
 EFFECTS: dict[str, Effect] = {
-    name: with_choice(name, module.EFFECT) if hasattr(module, "factor") else module.EFFECT
+    name: with_paths(name, with_choice(name, module.EFFECT) if hasattr(module, "factor") else module.EFFECT)
     for name, module in effect_modules(__name__).items()
 }

@@ -76,7 +76,7 @@ def has_formula(conversion: object, depth: int) -> bool:
     if depth > DEEPEST:
         raise FormulaFault("its conversions refer to each other without end")
     inner = getattr(conversion, "referenced_blocks", None) or {}
-    return is_formula(conversion) or any(has_formula(block, depth + 1) for block in inner.values())  # type: ignore[arg-type]
+    return is_formula(conversion) or any(has_formula(block, depth + 1) for block in inner.values())
 
 
 def require_plain_time(file: MDF, group: int) -> None:
