@@ -179,14 +179,16 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         turn = 1.0 - bend * reach
         if still:
             shift_cos, shift_sin = turn_of(shift)
-            curvature, slope, curl = curvature_and_slopes(
+            curvature, slope, curl, phase_slope = curvature_and_slopes(
                 ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
             )
             # Along the parallel curve through the pin's centre.
             per_reach = 1.0 / (1.0 + curvature * distance)
             slope, square = slope * per_reach, per_reach * per_reach
             curl = square * (square * curl - 3.0 * distance * slope * slope * per_reach)
-            keep_contact(r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope)
+            keep_contact(
+                r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope, phase_slope * per_reach
+            )
             if gap >= 0.0:
                 continue
             force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)

@@ -27,8 +27,8 @@ def variables(sizes: Sizes) -> list[Variable]:
     discs, pins = sizes["disc"], sizes["pin"]
     return [
         # Penetration; its gradient by x, y and turning of the disc and turning of the ring;
-        # k, k', k''; arms of the normal about disc and ring; curvature of the centre curve and its change by b; force.
-        scratch("near_contact", (discs, pins, 13)), scratch("near_pin", (discs, pins), integer=True),
+        # k, k', k''; arms of the normal about disc and ring; curvature of the centre curve and its change by b; force; phase and its change by b.
+        scratch("near_contact", (discs, pins, 15)), scratch("near_pin", (discs, pins), integer=True),
         scratch("near_count", (discs,), integer=True), scratch("near_z", (coordinate_count(sizes),)),
     ]
 
@@ -41,13 +41,14 @@ def keep_place(r):
 
 
 @kernel
-def keep_contact(r, d, j, penetration, gx, gy, gt, gr, bend, slope, curl, reach, swing, centre_slope):
+def keep_contact(r, d, j, penetration, gx, gy, gt, gr, bend, slope, curl, reach, swing, centre_slope, phase_slope):
     """A pin near disc d."""
     r.near_pin[d, r.near_count[d]] = j
     c = r.near_contact[d, r.near_count[d]]
     c[0], c[1], c[2], c[3], c[4] = penetration, gx, gy, gt, gr
     c[5], c[6], c[7], c[8], c[12] = bend, slope, reach, swing, curl
     c[9], c[10], c[11] = r.centre_curvature[d, j], centre_slope, 0.0
+    c[13], c[14] = r.mesh_phase[d, j], phase_slope
     r.near_count[d] += 1
 
 
@@ -105,6 +106,7 @@ def near_contacts(r, d, axes):
         force, stiffness = force_beside(penetration, c[0], c[11], r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
         r.mesh_force_now[d, j] = force
         r.centre_curvature[d, j] = c[9] + c[10] * b
+        r.mesh_phase[d, j] = c[13] + c[14] * b
         loaded += 1
         # The normal turned, and its arms.
         bent = bend * b

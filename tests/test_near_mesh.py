@@ -33,13 +33,15 @@ def test_carried_contacts_are_those_of_the_whole_geometry(request, reducer, size
             assert way_from_place(r) < NEAR
             add_all(r, angle, CAGE, r.load_torque, True)
             near, tangent = r.residual_vector.copy(), np.triu(r.tangent).copy()
-            forces, loaded = r.mesh_force_now.copy(), r.loaded_teeth.copy()
+            forces, loaded, phases = r.mesh_force_now.copy(), r.loaded_teeth.copy(), r.mesh_phase.copy()
             assemble(r, angle, CAGE, r.load_torque)
             scale = max(abs(r.load_torque) / r.pin_circle_radius, r.mesh_force_now.max(), r.roller_force_now.max())
             lever = np.where(np.isin(np.arange(near.size), turning), r.pin_circle_radius, 1.0)
             assert np.abs((near - r.residual_vector) / lever)[: r.z.size].max() < share * scale
             assert forces == pytest.approx(r.mesh_force_now, abs=10.0 * share * scale)
             assert np.array_equal(loaded, r.loaded_teeth)
+            # Friction and sliding read where on the flank a contact stands.
+            assert phases[forces > 0.0] == pytest.approx(r.mesh_phase[forces > 0.0], abs=3e-6)
             assert tangent == pytest.approx(np.triu(r.tangent), rel=1e-3, abs=1e-3 * np.abs(r.tangent).max())
             r.z[:] = known
 
