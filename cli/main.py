@@ -10,14 +10,14 @@ import io
 import os
 import sys
 
-from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
+from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, fmu, life, reducer, reproduce, system
 from cli.completion import answer_shell
 from cli.progress import new_screen
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, system, life, ensemble, reproduce, build, campaign, comparison, effects, example, completion)
+GROUPS = (reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, effects, example, completion)
 
 
 class PrintVersion(argparse.Action):

@@ -32,7 +32,7 @@ def c_source(unit: Unit, identity: str) -> str:
         c_array("struct fault", "FAULTS", [f"{{{code}, FAULT_{i}, {len(faults[i])}}}" for i, code in enumerate(sorted(unit.faults))]),
         c_array("struct caution", "CAUTIONS", [f"{{{table.offset[name]}, {c_string(text)}}}" for name, text in unit.cautions.items()]),
         c_array("char *const", "CATEGORIES", [c_string(name) for name in LOG_CATEGORIES]),
-        f"""const struct unit unit = {{
+        f"""DEFINED const struct unit unit = {{
     {c_string(table.name)}, {c_string(identity)}, {table.cell_count}, {table.state_cells}, {table.interface_cells},
     VARIABLES, {len(variables)}, STARTS, {len(runs)}, FAULTS, {len(faults)}, CAUTIONS, {len(unit.cautions)},
     CATEGORIES, {len(LOG_CATEGORIES)},

@@ -12,7 +12,7 @@ from fmu_src.description import guid
 from fmu_src.faults import InputFault
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
-from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
+from fmu_src.package import VERSIONS, build_fmu, build_native, build_source, triples_for, validate
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
@@ -26,7 +26,7 @@ UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one."""
+    """Which FMUs: ``flavour`` python, native, both or source; ``fmi`` 2, 3 or both; for all platforms or this one."""
 
     flavour: str = "both"
     fmi: str = "both"
@@ -35,9 +35,11 @@ class Wanted:
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
     """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
+    if wanted.flavour == "source":
+        return build_sources(reducer, folder, wanted), []
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
-    tool = f"{NAME} {project().version}"
+    tool = tool_name()
     native = native_versions(wanted)
     built: list[dict[str, Any]] = []
     for name, unit in UNITS.items():
@@ -64,6 +66,32 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tu
     return built, [export_pair(reducer, place, step, tool) for place in places]
 
 
+def build_sources(reducer: Reducer, folder: Path, wanted: Wanted) -> list[dict[str, Any]]:
+    """FMUs of C99 and no binaries, validated; those that are up to date stay."""
+    step = crank_turn_time(reducer, InProcess("plant", reducer.specification("rv_plant"))) / POSITIONS_PER_TURN
+    built: list[dict[str, Any]] = []
+    for name, unit in UNITS.items():
+        specification = reducer.specification(unit)
+        identity = guid(specification, source_hash())
+        paths = {version: folder / "source" / f"fmi{version}" / f"{name}.fmu" for version in versions_of(wanted)}
+        stale = tuple(version for version, path in paths.items() if not is_current(path, identity))
+        if stale:
+            with task(f"writing the sources of {name}"):
+                build_source(name, specification, step, tool_name(), folder, stale)
+        for version, path in paths.items():
+            validate(path)
+            built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": version in stale, "problems": 0, "flavour": "source"})
+    return built
+
+
+def tool_name() -> str:
+    return f"{NAME} {project().version}"
+
+
+def versions_of(wanted: Wanted) -> tuple[str, ...]:
+    return tuple(VERSIONS) if wanted.fmi == "both" else (wanted.fmi,)
+
+
 def native_versions(wanted: Wanted) -> tuple[str, ...]:
     """FMI versions of the native FMUs to build; none if nobody asked for them and there is no C compiler."""
     if wanted.flavour == "python":
@@ -75,7 +103,7 @@ def native_versions(wanted: Wanted) -> tuple[str, ...]:
             raise InputFault(str(fault)) from None
         print(f"no native FMUs: {fault}", file=sys.stderr)
         return ()
-    return tuple(VERSIONS) if wanted.fmi == "both" else (wanted.fmi,)
+    return versions_of(wanted)
 
 
 def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:

@@ -10,9 +10,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     fmus = sub.add_parser("build", help="build and validate RvPlant.fmu, RvWear.fmu and RvReducer.fmu")
     add_reducer(fmus)
     fmus.add_argument("--output", default="dist", help="folder of the FMUs (default dist)")
-    fmus.add_argument("--flavour", choices=("python", "native", "both"), default="both", help="editable FMUs in the"
-                      " folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both)")
-    fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
+    fmus.add_argument("--flavour", choices=("python", "native", "both", "source"), default="both", help="editable FMUs in"
+                      " the folder itself, native ones in its folders fmi2 and fmi3, which need no Python (default both); source: C99 and"
+                      " no binaries, in its folder source")
+    fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of native FMUs and those of sources")
     fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
                       " for this machine alone; needs zig: pip install \"rvwear[build]\"")
     add_json(fmus)

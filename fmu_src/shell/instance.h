@@ -33,12 +33,13 @@ struct instance {
     enum status last_step;
     uint32_t cautioned; /* one bit per caution that was said */
     union cell *cells;
-    union cell *backup; /* guarded cells before a step; NULL if failing steps change nothing */
+    union cell *backup; /* cells before a step or an initialisation: nothing is allocated then */
     struct state *states; /* those handed out, see state.c */
 };
 
 #define TEXT_SIZE 2048
 #define GUARDED_BYTES (unit.guarded_cells * sizeof(union cell))
+#define STATE_BYTES (unit.state_cells * sizeof(union cell))
 
 /* Logs a message and returns the status. */
 INTERNAL enum status report(struct instance *, enum status, const char *format, ...)

@@ -5,11 +5,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Hidden, so that two units in one process cannot take each other's functions. */
+/* Hidden, so that two units in one process cannot take each other's functions; in one source file (all.c) they are static. */
+#if defined(UNIT_IN_ONE_FILE)
+#define INTERNAL static
+#define DECLARED static
+#define DEFINED static
+#else
 #if defined(__ELF__)
 #define INTERNAL __attribute__((visibility("hidden")))
 #else
 #define INTERNAL
+#endif
+#define DECLARED extern INTERNAL
+#define DEFINED
 #endif
 
 #define MOST_DIMENSIONS 4
@@ -77,10 +85,10 @@ struct unit {
     double longest_step;
 };
 
-extern INTERNAL const struct unit unit;
+DECLARED const struct unit unit;
 
-/* The kernels' object code; 0, or a fault's code. */
-extern INTERNAL int64_t initialise(void *cells);
-extern INTERNAL int64_t step(void *cells, double time, double duration);
+/* The kernels; 0, or a fault's code. */
+DECLARED int64_t initialise(void *cells);
+DECLARED int64_t step(void *cells, double time, double duration);
 
 #endif
