@@ -34,6 +34,8 @@ from fmu_src.source_code import declare_sources, kernels_source, source_files
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.unit_table import c_source
+from fmu_src.wasm.component import component
+from fmu_src.wasm.linking import TRIPLE, core_module
 
 # pythonfmu's builder writes its own defaults over the description unless told so.
 CAPABILITIES = ("--no-external-tool", "--handle-state", "--serialize-state")
@@ -91,15 +93,16 @@ def build_fmu(
 
 def build_native(
     name: str, specification: Specification, step_size: float, tool: str, target: Path,
-    versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None,
+    versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None, wasm: bool = False,
 ) -> list[Path]:  # fmt: skip
     """Build ``target``/fmi2/``name``.fmu and ``target``/fmi3/``name``.fmu, which need no Python.
 
-    ``codes`` is object code by LLVM triple; made here unless given.
+    ``codes`` is object code by LLVM triple; made here unless given.  With ``wasm`` those of FMI 3.0 have a WebAssembly
+    component besides.
     """
     stamp = stamp_of(specification, step_size, tool, "native")
     unit = make_unit(specification)
-    codes = codes or object_codes(specification, triples_for(all_platforms))
+    codes = codes or object_codes(specification, triples_for(all_platforms, wasm))
     platforms = tuple(PLATFORMS.values()) if all_platforms else (host_platform(),)
     table = c_source(unit, stamp["guid"])
     libraries = {p: shared_library(name, table, codes[p.triple], p, all_platforms) for p in platforms}
@@ -108,6 +111,8 @@ def build_native(
         folders = folders2 if version == "2" else folders3
         files = described(described_unit(unit, stamp, version), unit, stamp, version)
         files |= {f"binaries/{folder}/{name}{suffix}": data for (folder, suffix), data in folders(libraries).items()}
+        if wasm and version == "3":
+            files |= wasm_files(name, table, codes[TRIPLE])
         made.append(write_archive(files, target / f"fmi{version}" / f"{name}.fmu"))
     return made
 
@@ -158,10 +163,21 @@ def described(root: Element, unit: Unit, stamp: dict[str, Any], version: str) ->
     return files | files_for_people(unit.table, VERSIONS[version], stamp["guid"], project())
 
 
-def triples_for(all_platforms: bool) -> tuple[str, ...]:
+def wasm_files(name: str, table: str, code: bytes) -> dict[str, bytes]:
+    """What the draft FMI-LS-WASM adds to an FMU: the component, and the layered standard's manifest."""
+    return {f"binaries/wasm32-wasip2/{name}.wasm": component(core_module(name, table, code)), "extra/org.modelica.fmi-ls-wasm/manifest.xml": LAYER}
+
+
+LAYER = b"""<?xml version="1.0" encoding="UTF-8"?>
+<fmiLayeredStandardManifest xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest" fmi-ls:fmi-ls-name="org.modelica.fmi-ls-wasm"
+  fmi-ls:fmi-ls-version="0.1.0" fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
+"""
+
+
+def triples_for(all_platforms: bool, wasm: bool = False) -> tuple[str, ...]:
     """LLVM triples of everything that is built: this machine as llvmlite names it, and the platforms."""
     platforms = PLATFORMS.values() if all_platforms else (host_platform(),)
-    return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms))))
+    return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms), *([TRIPLE] if wasm else []))))
 
 
 def folders2(libraries: dict[Platform, bytes]) -> dict[tuple[str, str], bytes]:

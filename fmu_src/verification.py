@@ -182,7 +182,8 @@ def rebuilt(name: str, stamp: dict[str, Any], files: dict[str, bytes], folder: P
     if stamp["flavour"] == "source":
         return build_source(*facts, (version,))[0]
     folders = {member.split("/")[1] for member in files if member.startswith("binaries/")}
-    return build_native(*facts, (version,), all_platforms=len(folders) > 1)[0]
+    wasm = any(member.endswith(".wasm") for member in files)
+    return build_native(*facts, (version,), all_platforms=len(folders) > 1 + wasm, wasm=wasm)[0]
 
 
 def difference(name: str, there: bytes | None, anew: bytes | None) -> str:

@@ -23,6 +23,7 @@ from orchestrator.component import Component, Element, Snapshot, unit_of
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
+from orchestrator.wasm import FOLDER, Wasm, WasmInstance, component_of
 
 VERSIONS: dict[str, type[Fmi2 | Fmi3]] = {"2.0": Fmi2, "3.0": Fmi3}
 Arguments = ParamSpec("Arguments")
@@ -32,7 +33,8 @@ Result = TypeVar("Result")
 class Fmu(Component):
     """One instance of an FMU."""
 
-    def __init__(self, name: str, path: str | Path):
+    def __init__(self, name: str, path: str | Path, wasm: bool = False):
+        """``wasm``: as WebAssembly even where there is a library for this machine."""
         self.name = name
         self.path = Path(path)
         if not self.path.is_file():
@@ -62,9 +64,9 @@ class Fmu(Component):
         experiment = self.description.defaultExperiment
         self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         try:
-            self.calls = VERSIONS[version](
-                name, self.described, self.folder, self.messages.append, self.refuse
-            )
+            self.calls = self.calls_of(version, wasm)
+        except InputFault:
+            raise
         except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception for a library that is missing or does not load.
             raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
@@ -75,9 +77,17 @@ class Fmu(Component):
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
         self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step
 
+    def calls_of(self, version: str, wasm: bool) -> Fmi2 | Fmi3:
+        """What the FMU is run by: this machine's library, or its WebAssembly component."""
+        component = component_of(self.folder, self.described)
+        if wasm and component is None:
+            raise InputFault(f"{self.path} has no binaries/{FOLDER}/*.wasm; FMUs that have one are built with: rvwear build --wasm")
+        if component is not None and (wasm or not (self.folder / "binaries" / fmpy.platform_tuple).is_dir()):
+            return Wasm(self.name, self.described, component, self.messages.append, self.refuse)
+        return VERSIONS[version](self.name, self.described, self.folder, self.messages.append, self.refuse)
 
     @property
-    def slave(self) -> FMU2Slave | FMU3Slave:
+    def slave(self) -> FMU2Slave | FMU3Slave | WasmInstance:
         """fmpy's object, for what the master does not need."""
         return self.calls.slave
 

@@ -71,6 +71,7 @@ class ComponentEntry(Strict):
     unit: Literal["plant", "wear", "reducer"] | None = None
     ratio: int = Field(default=1, ge=1)
     isolate: bool = False
+    wasm: bool = False
     parameters: dict[str, str | float | int] = {}
     record: list[str] = []
 
@@ -110,7 +111,7 @@ class Scenario:
     text: str
 
 
-def read_scenario(path: str | Path, step: float | None = None, isolate: bool = False) -> Scenario:
+def read_scenario(path: str | Path, step: float | None = None, isolate: bool = False, wasm: bool = False) -> Scenario:
     """Read a scenario file and make its components; ``step`` goes before that of the file."""
     path = Path(path)
     if not path.is_file():
@@ -134,7 +135,7 @@ def read_scenario(path: str | Path, step: float | None = None, isolate: bool = F
             f"{path}: step = {step} s, duration = {duration} s: both positive, from one to ten million steps"
         )
     components = {
-        name: make_component(name, entry, path, isolate) for name, entry in content.components.items()
+        name: make_component(name, entry, path, isolate, wasm) for name, entry in content.components.items()
     }
     control = content.step_control
     options = {
@@ -159,10 +160,10 @@ def seconds(quantity: Quantity, place: str) -> float:
     return factor * quantity.value
 
 
-def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool) -> Component:
+def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, wasm: bool) -> Component:
     place = f"{path}: components.{name}"
     if entry.fmu is not None and entry.reducer is None:
-        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate)
+        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate, wasm or entry.wasm)
     elif entry.reducer is not None and entry.fmu is None:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant", "wear" or "reducer" (both in one)')

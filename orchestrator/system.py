@@ -119,21 +119,21 @@ def whole_steps(duration: float, step: float) -> int:
     return round(steps)
 
 
-def load(path: str | Path, step: float | None = None, isolate: bool = False, **master: Any) -> System:
+def load(path: str | Path, step: float | None = None, isolate: bool = False, wasm: bool = False, **master: Any) -> System:
     """The system of an SSP package (.ssp, .ssd or a folder), a scenario (.toml), or a single FMU.
 
     ``step`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
-    what the file says; with ``isolate`` every FMU runs in a process of its own.
+    what the file says; with ``isolate`` every FMU runs in a process of its own, with ``wasm`` as WebAssembly.
     """
     path = Path(path)
     if path.suffix == ".toml":
-        read = read_scenario(path, step, isolate)
+        read = read_scenario(path, step, isolate, wasm)
         made = Master(read.components, read.connections, read.step, **read.options | master)
         return System(read.name, made, round(read.duration / read.step), read.recorded, read.text)
     if path.suffix == ".fmu":
-        return connect({path.stem: path}, (), step, isolate, **master)
+        return connect({path.stem: path}, (), step, isolate, wasm, **master)
     structure = read_ssp(path)
-    components = {name: open_fmu(name, fmu, isolate) for name, fmu in structure.fmus.items()}
+    components = {name: open_fmu(name, fmu, isolate, wasm) for name, fmu in structure.fmus.items()}
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
             apply(parameter, components[name], variable)
@@ -153,11 +153,11 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
 
 def connect(
     fmus: Mapping[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
-    step: float | None = None, isolate: bool = False, **master: Any,
+    step: float | None = None, isolate: bool = False, wasm: bool = False, **master: Any,
 ) -> System:  # fmt: skip
     """A system of FMUs by name and their connections."""
     components = {
-        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate) for name, fmu in fmus.items()
+        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate, wasm) for name, fmu in fmus.items()
     }
     size = step or usual_step(components, None)
     if size is None:

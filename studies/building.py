@@ -16,6 +16,7 @@ from fmu_src.package import VERSIONS, build_fmu, build_native, build_source, tri
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
 from fmu_src.source_hash import source_hash
+from fmu_src.wasm.linking import require_zig
 from orchestrator.component import InProcess
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer
@@ -26,11 +27,13 @@ UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which FMUs: ``flavour`` python, native, both or source; ``fmi`` 2, 3 or both; for all platforms or this one."""
+    """Which FMUs: ``flavour`` python, native, both or source; ``fmi`` 2, 3 or both; for all platforms or this one;
+    FMI 3.0 as WebAssembly besides."""
 
     flavour: str = "both"
     fmi: str = "both"
     all_platforms: bool = False
+    wasm: bool = False
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
@@ -47,17 +50,17 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tu
         identity = guid(specification, source_hash())
         editable = folder / f"{name}.fmu"
         ours = [folder / f"fmi{version}" / f"{name}.fmu" for version in native]
-        stale = [path for path in ours if not is_current(path, identity, wanted.all_platforms)]
+        stale = [path for path in ours if not is_current(path, identity, wanted.all_platforms, wanted.wasm and path.parent.name == "fmi3")]
         paths = ([] if wanted.flavour == "native" else [editable]) + ours
         if editable in paths and not is_current(editable, identity):
             stale.append(editable)
         if stale:
             with task(f"packing {name}"):
-                codes = object_codes(specification, triples_for(wanted.all_platforms))
+                codes = object_codes(specification, triples_for(wanted.all_platforms, wanted.wasm))
                 if editable in stale:
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])
                 if versions := tuple(v for v, path in zip(native, ours) if path in stale):
-                    build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes)
+                    build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes, wanted.wasm)
         for path in paths:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
@@ -98,16 +101,18 @@ def native_versions(wanted: Wanted) -> tuple[str, ...]:
         return ()
     try:
         compiler(host_platform(), wanted.all_platforms)
+        if wanted.wasm:
+            require_zig()
     except NativeFault as fault:
-        if wanted.flavour == "native" or wanted.all_platforms:
+        if wanted.flavour == "native" or wanted.all_platforms or wanted.wasm:
             raise InputFault(str(fault)) from None
         print(f"no native FMUs: {fault}", file=sys.stderr)
         return ()
     return versions_of(wanted)
 
 
-def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
-    """Whether an FMU of this identity, version and licence, for all platforms if need be, is there already."""
+def is_current(path: Path, identity: str, all_platforms: bool = False, wasm: bool = False) -> bool:
+    """Whether an FMU of this identity, version and licence, for all platforms and as WebAssembly if need be, is there already."""
     if not path.exists():
         return False
     description = fmpy.read_model_description(str(path))
@@ -117,8 +122,10 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
         return False
     with zipfile.ZipFile(path) as archive:
         libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    if wasm and not any(name.endswith(".wasm") for name in libraries):
+        return False
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return not all_platforms or len(libraries) >= 4
+    return not all_platforms or sum(not name.endswith(".wasm") for name in libraries) >= 4
 
 
 def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:

@@ -16,6 +16,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of native FMUs and those of sources")
     fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
                       " for this machine alone; needs zig: pip install \"rvwear[build]\"")
+    fmus.add_argument("--wasm", action="store_true", help="native FMUs of FMI 3.0 have a WebAssembly component besides, which runs"
+                      " on any machine and in a sandbox; needs zig: pip install \"rvwear[build]\"")
     add_json(fmus)
     fmus.set_defaults(run=build)
 
@@ -27,7 +29,7 @@ def build(options: argparse.Namespace) -> int:
     from studies.building import Wanted, build_units
 
     reducer = load_reducer(options.reducer)
-    wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
+    wanted = Wanted(options.flavour, options.fmi, options.all_platforms, options.wasm)
     built, packages = build_units(reducer, Path(options.output), wanted)
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})

@@ -52,6 +52,7 @@ def add_system_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--step-control", type=float, metavar="TOL", help="divide steps by their error, to this tolerance")
     command.add_argument("--loops", choices=("newton", "fixed-point"), help="how algebraic loops are solved")
     command.add_argument("--isolate", action="store_true", help="every FMU in a process of its own")
+    command.add_argument("--wasm", action="store_true", help="every FMU as WebAssembly (needs: pip install \"rvwear[wasm]\")")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -117,7 +118,7 @@ def refuse_pair_options(options: argparse.Namespace) -> None:
 
 
 def refuse_system_options(options: argparse.Namespace) -> None:
-    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record")
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "wasm", "record")
     given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name)]
     if given:
         raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
@@ -136,7 +137,7 @@ def open_system(options: argparse.Namespace) -> "System":
     }
     master = {name: value for name, value in given.items() if value is not None}
     with task("loading the units"):
-        system = load(options.system, options.step, options.isolate, **master)
+        system = load(options.system, options.step, options.isolate, options.wasm, **master)
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:

@@ -13,7 +13,7 @@ struct span {
     uint32_t cell, size;
 };
 
-static const struct variable *find(uint32_t cell)
+const struct variable *variable_at(uint32_t cell)
 {
     int low = 0, high = unit.variable_count;
     while (high - low > 1) {
@@ -51,7 +51,7 @@ static enum status resolve(struct instance *i, const struct call *call, size_t k
         return OK;
     }
     if (!v || reference < v->first || reference - v->first >= v->size)
-        v = find(reference);
+        v = variable_at(reference);
     if (!v || (call->whole_variables ? reference != v->first : v->role == PROFILE))
         return report(i, ERROR, "%s: %s has no variable with value reference %u", call->function, unit.name, (unsigned)reference);
     if (v->is_integer != (call->kind != REAL)) {

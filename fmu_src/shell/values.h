@@ -15,6 +15,8 @@ struct call {
     int whole_variables;
     size_t value_count;
 };
+/* The variable that a cell belongs to, or NULL. */
+INTERNAL const struct variable *variable_at(uint32_t cell);
 INTERNAL enum status get_values(struct instance *, const struct call *, void *values);
 INTERNAL enum status set_values(struct instance *, const struct call *, const void *values);
 
