@@ -23,7 +23,7 @@ from orchestrator.component import Component, Element, Snapshot, unit_of
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
-from orchestrator.wasm import FOLDER, Wasm, WasmInstance, component_of
+from orchestrator.wasm import FOLDER, Wasm, component_of
 
 VERSIONS: dict[str, type[Fmi2 | Fmi3]] = {"2.0": Fmi2, "3.0": Fmi3}
 Arguments = ParamSpec("Arguments")
@@ -87,7 +87,7 @@ class Fmu(Component):
         return VERSIONS[version](self.name, self.described, self.folder, self.messages.append, self.refuse)
 
     @property
-    def slave(self) -> FMU2Slave | FMU3Slave | WasmInstance:
+    def slave(self) -> FMU2Slave | FMU3Slave:
         """fmpy's object, for what the master does not need."""
         return self.calls.slave
 

@@ -48,7 +48,7 @@ static void *take(size_t size)
 
 EXPORT("cabi_realloc") void *cabi_realloc(void *old, size_t old_size, size_t alignment, size_t size)
 {
-    (void)alignment; /* that of a double serves all */
+    (void)alignment; /* a double's serves all */
     void *place = take(size);
     if (old_size)
         memcpy(place, old, old_size < size ? old_size : size);
@@ -86,20 +86,15 @@ static struct {
     } is;
 } area;
 
-static void *refused(fmi3Status status)
-{
-    area.mark = 1;
-    area.is.status = (uint8_t)status;
-    return &area;
-}
-
 static void *list(fmi3Status status, const void *items, size_t count)
 {
-    if (status > fmi3Warning)
-        return refused(status);
-    area.mark = 0;
-    area.is.list.items = items;
-    area.is.list.count = count;
+    area.mark = status > fmi3Warning;
+    if (area.mark) {
+        area.is.status = (uint8_t)status;
+    } else {
+        area.is.list.items = items;
+        area.is.list.count = count;
+    }
     return &area;
 }
 
@@ -246,7 +241,6 @@ ABSENT("uint64", UInt64)
 ABSENT("boolean", Boolean)
 ABSENT("string", String)
 
-/* The same for calls of the instance, a count and a name of what is missing. */
 #define NO_LIST(method, name, what)                                                                                              \
     METHOD(method) void *wasm_##name(struct held *h, const void *items, size_t count)                                            \
     {                                                                                                                            \
