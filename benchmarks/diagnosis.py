@@ -26,6 +26,7 @@ from benchmarks.ratios import Curve, Figure, Measured, exponent
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.selection import Selection
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
@@ -40,7 +41,7 @@ LIMIT = 60.0
 # What is timed -> its part of a diagnosis; the rest of the run is the verdict.
 STAGES = {
     (Workspace, "fit_base"): "base fit", (Diagnostician, "prepare"): "localisation", (Diagnostician, "screened"): "screening",
-    (Diagnostician, "singles"): "refits", (Diagnostician, "several"): "rivals",
+    (Selection, "singles"): "refits", (Selection, "several"): "rivals",
 }  # fmt: skip
 
 

@@ -54,8 +54,8 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as problem:
         print(f"rvwear {options.command}: {problem}; choose another place for input or output", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print(f"rvwear {options.command}: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as stop:
+        print(f"rvwear {options.command}: interrupted" + (f" ({stop})" if str(stop) else ""), file=sys.stderr)
         return 130
 
 

@@ -15,6 +15,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
+from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.model_file import ModelFile
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
@@ -44,11 +45,13 @@ class Comparison:
     warnings: list[str]
     predictions: list[Floats]
     outlying: list[Outlying] = field(default_factory=list)
+    figures: list[KeyFigure] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         return {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": self.signals, "runs": self.runs,
             "nuisances": self.nuisances, "warnings": self.warnings, "not_predicted": self.model.unpredicted,
+            "key_figures": [f.as_json() for f in self.figures],
             "outlying": [asdict(o) | {"weight": o.weight} for o in self.outlying],
             "localisation": self.diagnostician.localisation.to_dict(),
         }  # fmt: skip
@@ -67,7 +70,14 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     warnings = doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found)
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures_of(diagnostician, model))
+
+
+def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:
+    """Key figures of what was measured beside those of the base model with its nuisances."""
+    space = diagnostician.space
+    predictions = space.predictions(space.base.values, list(range(len(space.records))))
+    return key_figures(space, predictions, diagnostician.orders, model.campaign.rated_torque or model.bench.rated_load)
 
 
 def runs_of(space: Workspace, predictions: Sequence[Floats]) -> list[dict[str, Any]]:

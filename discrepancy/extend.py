@@ -19,7 +19,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Candidate
+from discrepancy.problem import BASE, Candidate
 from discrepancy.verdict import Answer
 from fmu_src.faults import InputFault
 from studies import building
@@ -51,7 +51,7 @@ class Extension:
 
 def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
            jobs: int = 1, answer: Answer | None = None) -> Extension:
-    """Fit the named candidates (``effect`` or ``effect.variant``) and add them.
+    """Fit the named candidates (``effect`` or ``effect.variant``) and add them; ``base.NUMBER`` corrects an assumed number of the reducer.
 
     ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from.
     """
@@ -72,13 +72,18 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
     numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
+    settings_found = dict(file.settings)
     for candidate in chosen:
+        if candidate.part == BASE:
+            # A number of the reducer file that was assumed: from now on as it was measured.
+            settings_found |= {p.name: float(fit.fit.values[p.name]) for p in candidate.parameters}
+            continue
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
                      "low": float(numbers[p.name].interval[0]), "high": float(numbers[p.name].interval[1])}
             for p in candidate.parameters
         })  # fmt: skip
-    extended = replace(file, effects=effects)
+    extended = replace(file, effects=effects, settings=settings_found)
     judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
     fitted = judgement(diagnostician, fit, diagnostician.space.training)
     outcome, reason = verdict_of(judged)

@@ -58,14 +58,22 @@ def every_effect() -> dict[str, Effect]:
         require_sound_effects(unit)
     found = dict(PLANT_EFFECTS)
     for name, effect in WEAR_EFFECTS.items():
-        if name in found:
-            have = {p.variable.name for p in found[name].parameters}
-            more = tuple(p for p in effect.parameters if p.variable.name not in have)
-            signals = tuple(dict.fromkeys(found[name].signals + effect.signals))
-            found[name] = replace(found[name], parameters=found[name].parameters + more, signals=signals)
-        else:
-            found[name] = effect
+        found[name] = joined(found[name], effect) if name in found else effect
     return found | CHAIN_EFFECTS
+
+
+def joined(effect: Effect, other: Effect) -> Effect:
+    """Both halves of an effect as one."""
+    have = {p.variable.name for p in effect.parameters}
+    more = tuple(p for p in other.parameters if p.variable.name not in have)
+    searched = {p.variable.name: p.grid for p in other.parameters}
+    own = tuple(replace(p, grid=p.grid or searched.get(p.variable.name, ())) for p in effect.parameters)
+    return replace(effect, parameters=own + more, signals=tuple(dict.fromkeys(effect.signals + other.signals)))
+
+
+def halves_of(name: str) -> list[Effect]:
+    """What the units have under the name of an effect."""
+    return [effects[name] for effects in (PLANT_EFFECTS, WEAR_EFFECTS) if name in effects]
 
 
 def load_model(name_or_path: str | Path) -> ModelFile:

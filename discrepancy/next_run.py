@@ -15,10 +15,10 @@ from discrepancy.inference.noise.noise import noise_key
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Settings
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
+from discrepancy.problem import BASE, Record
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, speed_words
 from discrepancy.verdict import Answer
@@ -91,11 +91,15 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     names: dict[str, Refit] = {}
     for member in members:
         # Variants of one effect need no separation: the effect is known.
-        names.setdefault(member.name.partition(".")[0], member)
+        names.setdefault(plainly(member), member)
     unexplained = answer.verdict in (INCOMPLETE, UNKNOWN)
     left = open_questions(answer, campaign) if unexplained else []
     known = " and ".join(names) if fits.members else ""
     start = f"{f'beside {known} ' if known else ''}something is left that no effect of the catalogue explains" if unexplained else ""
+    if answer.verdict == BASE_OFF and len(names) < 2:
+        off = ", ".join(e.name for e in answer.diagnosis.base_off)
+        text = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance, then ask again"
+        return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         text = start or (f"nothing is left to separate: {known} stands alone" if known else "nothing is left to separate: no effect was found")
         return NextRun(answer, None, list(names), text, left)
@@ -113,6 +117,11 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
     verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
     return NextRun(answer, result, [r.name for r in rivals], verdict, left)
+
+
+def plainly(member: Refit) -> str:
+    """Effects without their variants, numbers of the base model by their own names."""
+    return " + ".join(dict.fromkeys(f"the base's {c.amplitudes[0].name}" if c.part == BASE else c.name.partition(".")[0] for c in member.candidates))
 
 
 def open_questions(answer: Answer, campaign: Campaign) -> list[str]:

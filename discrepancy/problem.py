@@ -4,15 +4,31 @@ The campaign turns files into ``Record``s, the physics turns parameter values in
 predictions; between them the statistics knows neither files nor reducers.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 
+# Values that were predicted before, of which the next are a little beside: where a model that iterates may start.
+NEAR: ContextVar[Mapping[str, float] | None] = ContextVar("near", default=None)
 # Quantities whose zero nobody knows unless it is said: an encoder starts anywhere.
 FREE_ZERO = ("transmission_error", "hysteresis")
+# ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
+BASE = "base"
+
+
+@contextmanager
+def near(values: Mapping[str, float]) -> Iterator[None]:
+    """Predictions in this block are of values a little beside ``values``."""
+    before = NEAR.set(dict(values))
+    try:
+        yield
+    finally:
+        NEAR.reset(before)
 
 
 @dataclass(frozen=True)
@@ -58,6 +74,7 @@ class Parameter:
     effect vanishes); ``scale`` a typical size, for steps and for reports; ``sign`` is +1 or
     -1 where physics allows only values above or below ``off``, else 0.  ``prior`` is a
     standard deviation around ``off`` known from elsewhere (None: nothing is known).
+    ``of_base``: what the base model itself gets wrong; where it is large, the base is off.
     """
 
     name: str
@@ -69,6 +86,7 @@ class Parameter:
     sign: int = 0
     prior: float | None = None
     description: str = ""
+    of_base: bool = False
 
 
 @dataclass(frozen=True)
@@ -137,4 +155,14 @@ class Cheaper(Protocol):
 
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``Model.predict`` with errors of a few parts in a hundred of what ``values`` change."""
+        ...
+
+
+@runtime_checkable
+class Glimpsing(Protocol):
+    """What a model may have besides: a look at a few places of the records, to compare directions by."""
+
+    def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
+        """What ``values`` change next to ``base`` at a few places of the records ``which``, one after the other, roughly in units of
+        their noise; whole or to first order."""
         ...

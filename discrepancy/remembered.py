@@ -1,7 +1,7 @@
 """Diagnoses of the same model and the same measurements, kept between commands.
 
-``extend`` and ``next`` begin where ``diagnose`` ended.  What is kept goes by the contents of model, measurements and program: whatever
-changes, it is computed anew.
+``extend`` and ``next`` begin where ``diagnose`` ended, and ``diagnose`` where it was interrupted.  What is kept goes by the contents of
+model, measurements and program: whatever changes, it is computed anew.
 """
 
 import contextlib
@@ -10,17 +10,20 @@ import os
 import pickle
 from functools import cache
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
+from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, every_effect
-from discrepancy.verdict import Answer, diagnose
+from discrepancy.verdict import Answer, AnswerSoFar, diagnose
 from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
 from fmu_src.source_hash import ROOT
 
+Kept = TypeVar("Kept", Answer, Diagnostician)
 MARK = b"rvwear diagnosis 1\n"
 # Larger ones are not kept, and together they take no more than this [bytes].
 MOST, MOST_IN_ALL = 300_000_000, 2_000_000_000
@@ -31,14 +34,24 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     """The diagnosis, from before if there was one."""
     answer = remembered(file, campaign, settings, jobs)
     if answer is None:
-        answer = diagnose(file, campaign, settings, jobs=jobs)
-        write(place_of(file, campaign, settings), answer)
+        place = place_of(file, campaign, settings)
+        begun = place.with_suffix(".begun")
+        doctor = read(begun, Diagnostician)
+        if doctor is not None:
+            doctor.space.threads.jobs = jobs
+        try:
+            answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
+        except AnswerSoFar as stop:
+            write(begun, stop.answer.doctor)
+            raise
+        write(place, answer)
+        begun.unlink(missing_ok=True)
     return answer
 
 
 def remembered(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer | None:
     """The diagnosis from before, if there was one."""
-    answer = read(place_of(file, campaign, settings))
+    answer = read(place_of(file, campaign, settings), Answer)
     if answer is not None:
         answer.model.threads.jobs = jobs
     return answer
@@ -72,18 +85,18 @@ def program() -> str:
     return found.hexdigest()
 
 
-def read(place: Path) -> Answer | None:
+def read(place: Path, kind: type[Kept]) -> Kept | None:
     """What is kept there, if it is whole and one's own."""
     content = checked_file.read(place, MARK)
     if content is None:
         return None
-    answer: Answer = pickle.loads(content)  # noqa: S301 - one's own file in a private folder, and whole
-    return answer
+    found = pickle.loads(content)  # noqa: S301 - one's own file in a private folder, and whole
+    return found if isinstance(found, kind) else None
 
 
-def write(place: Path, answer: Answer) -> None:
-    """Keep the answer unless it is too large; what is older may have to go."""
-    content = pickle.dumps(answer, protocol=pickle.HIGHEST_PROTOCOL)
+def write(place: Path, kept: Answer | Diagnostician) -> None:
+    """Keep an answer, or what a diagnosis had found when it was interrupted, unless it is too large; what is older may have to go."""
+    content = pickle.dumps(kept, protocol=pickle.HIGHEST_PROTOCOL)
     if len(content) <= MOST:
         checked_file.write(place, MARK, content)
         with contextlib.suppress(OSError):

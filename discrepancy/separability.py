@@ -14,7 +14,7 @@ from discrepancy.inference.separable import APART, STRENGTH, Pair, effect_of, se
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import UNMEASURED
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
+from discrepancy.problem import BASE, Record
 from fmu_src.faults import InputFault
 
 # Samples that show all that a loop has, and all orders of a turn; more only take longer.
@@ -74,7 +74,8 @@ def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) 
     model = PhysicalModel(file, campaign, jobs=jobs)
     space = Workspace(model)
     space.fit_base()
-    candidates = list(model.candidates)
+    # Effects against each other; what a number of the base could do is said where it was measured.
+    candidates = [c for c in model.candidates if c.part != BASE]
     with space.predictions.roughly():
         columns = candidate_columns(space, candidates, space.base.values)
     pairs = separations(space, candidates, columns, strength)

@@ -10,15 +10,17 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import warnings_of
-from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.compare import figures_of, warnings_of
+from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
+from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, speed_words
+from fmu_src.progress import task
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,7 @@ class Answer:
     confusable: list[str]
     laws: list[Recovered]
     warnings: list[str]
+    figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
 
     def as_json(self) -> dict[str, Any]:
@@ -41,22 +44,42 @@ class Answer:
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
+            "key_figures": [f.as_json() for f in self.figures],
         }  # fmt: skip
 
 
-def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
-             jobs: int = 1, fmus: Path | None = None) -> Answer:
-    """The effect that the model lacks, a set that cannot be separated, none, or the law without a name.
+class AnswerSoFar(KeyboardInterrupt):
+    """Ctrl-C in a diagnosis; ``answer`` is what was known by then, and its ``doctor`` can go on."""
 
-    ``fmus``: folder of FMUs to predict with, instead of their kernels in this process.
+    def __init__(self, answer: Answer):
+        super().__init__(answer.reason)
+        self.answer = answer
+
+
+def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
+             jobs: int = 1, fmus: Path | None = None, doctor: Diagnostician | None = None) -> Answer:
+    """The effect that the model lacks, a set that cannot be separated, none, or the law without a name; ``AnswerSoFar`` at Ctrl-C.
+
+    ``fmus``: folder of FMUs to predict with, instead of their kernels in this process; ``doctor``: one that was interrupted, to go on from.
     """
+    if doctor is not None and isinstance(doctor.model, PhysicalModel):
+        model = doctor.model
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
-    doctor = Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
-    found = doctor.run()
+    doctor = doctor or Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
+    doctor.prepare()
+    figures = figures_of(doctor, model)
+    try:
+        return answer_of(model, doctor, doctor.run(calibrated_first(figures)), figures)
+    except Interrupted as stop:
+        raise AnswerSoFar(answer_of(model, doctor, stop.found, figures)) from None
+
+
+def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, figures: list[KeyFigure]) -> Answer:
+    """A diagnosis with its effects by name, and the law where none is named."""
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
-    reason = found.reason
+    reason = found.reason + (f"; beside that the base model is off: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
     if verdict in (SET, SEVERAL) and len(names) == 1:
         reason = reason_of(effects[0], verdict)
         verdict = ONE
@@ -66,9 +89,10 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         space = found.fits.space
         fit = found.fits.members[0].fit if found.fits.members else space.base
         touched = {finding["signal"] for finding in found.localisation["findings"]}
-        laws = recover(space, fit, sorted(touched) or None, told_in(model))
+        with task("recovering the law without a name"):
+            laws = recover(space, fit, sorted(touched) or None, told_in(model))
     warnings = warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), doctor)
+    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

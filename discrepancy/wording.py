@@ -4,21 +4,34 @@ from typing import Any
 
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
-from discrepancy.scales import shown
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
 # A share from here on would be rounded to all of it.
 NEARLY_ALL = 0.95
 MOST_NAMED = 3
-TONES = {SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
 
 def share_text(answer: Answer, share: float) -> str:
     """How much of the misfit an effect takes; what leaves something is never said to explain all of it."""
-    if answer.verdict in (INCOMPLETE, UNKNOWN) and share >= NEARLY_ALL:
+    if answer.verdict in (INCOMPLETE, STOPPED, UNKNOWN) and share >= NEARLY_ALL:
         return "explains most of the misfit, not all of it"
     return f"explains {100.0 * share:.0f} % of the misfit"
+
+
+def base_texts(answer: Answer) -> list[str]:
+    """What of the base model is off and by how much, one text each, in the units of campaign and field."""
+    texts = []
+    for e in answer.diagnosis.base_off:
+        value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
+        held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
+        low, high, assumed = (held.text(v, 3) for v in (*e.within, e.assumed))
+        share = f", {100.0 * (e.value / e.assumed - 1.0):+.1f} %" if e.assumed else ""
+        range_text = f"{low} to {high}" if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
+        texts.append(f"{e.name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {assumed} ({range_text}); {e.title}")
+    return texts
 
 
 def left_text(answer: Answer) -> str:

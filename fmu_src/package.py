@@ -21,6 +21,7 @@ import fmpy
 from fmpy.model_description import ValidationError
 from fmpy.validation import validate_model_description
 
+from fmu_src.capabilities import declare
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
 from fmu_src.faults import InputFault, RunFault
@@ -150,7 +151,9 @@ def compile_sources(fmu: Path, target: Path) -> Path:
 def described_unit(unit: Unit, stamp: dict[str, Any], version: str) -> Element:
     """The model description of a native unit or one of sources."""
     describe = model_description if version == "2" else model_description3
-    return describe(unit.table, stamp["guid"], stamp["source_hash"], stamp["step_size"], stamp["tool"], project())
+    root = describe(unit.table, stamp["guid"], stamp["source_hash"], stamp["step_size"], stamp["tool"], project())
+    declare(root, version, unit)
+    return root
 
 
 def described(root: Element, unit: Unit, stamp: dict[str, Any], version: str) -> dict[str, bytes]:

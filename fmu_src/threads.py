@@ -10,6 +10,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
 from typing import TypeVar
 
+from fmu_src.progress import task
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -50,6 +52,19 @@ class Threads:
             finally:
                 self.stopped = False
 
+    def told(self, what: str, function: Callable[[Item], Result], items: Iterable[Item], named: Callable[[Item], str]) -> list[Result]:
+        """``map``, telling whoever listens what is being tried and how much of it is done."""
+        work = list(items)
+        with task(what, total=len(work)) as trying:
+
+            def one(item: Item) -> Result:
+                trying.what = f"{what}, {named(item)}"
+                result = function(item)
+                trying.advance()
+                return result
+
+            return self.map(one, work)
+
     def inside(self, function: Callable[[Item], Result], item: Item) -> Result:
         self.here.inside = True
         return function(item)
@@ -77,6 +92,12 @@ class Once:
 
     def __setstate__(self, state: dict[str, int]) -> None:
         self.__init__(state["most"])  # type: ignore[misc]
+
+    def peek(self, key: object) -> object | None:
+        """What has been made under ``key``; None if nothing has."""
+        with self.lock:
+            future = self.found.get(key)
+        return None if future is None or not future.done() or future.exception() else future.result()
 
     def get(self, key: object, make: Callable[[], Result]) -> Result:
         with self.lock:

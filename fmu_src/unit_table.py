@@ -36,7 +36,7 @@ def c_source(unit: Unit, identity: str) -> str:
     {c_string(table.name)}, {c_string(identity)}, {table.cell_count}, {table.state_cells}, {table.interface_cells},
     VARIABLES, {len(variables)}, STARTS, {len(runs)}, FAULTS, {len(faults)}, CAUTIONS, {len(unit.cautions)},
     CATEGORIES, {len(LOG_CATEGORIES)},
-    {unit.guarded_cells}, {LONGEST_STEP!r},
+    {unit.guarded_cells}, {LONGEST_STEP!r}, {", ".join(str(table.offset[name]) for name in unit.pause or ()) or "-1, -1"},
 }};""",
     ]
     return "\n\n".join(parts) + "\n"
@@ -63,7 +63,7 @@ def c_variable(table: Table, v: Variable) -> str:
     shape = ", ".join(map(str, v.shape)) or "0"
     return (
         f"{{{c_string(v.name)}, {c_string(unit)}, {choices}, {role}, {int(v.is_integer)}, {table.offset[v.name]},"
-        f" {v.size}, {len(v.shape)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}}}"
+        f" {v.size}, {len(v.shape)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}, {float(v.nominal)!r}}}"
     )
 
 

@@ -191,10 +191,11 @@ class Fmu(Component):
         return records
 
     def cautions(self) -> list[str]:
+        returns = [f"{self.name}.{text}" for text in getattr(self.calls, "returns", [])]
         if self.stamp() is None:
-            return []
+            return returns
         cautions = unit_of(self.specification()).cautions
-        return [f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0]
+        return [*returns, *(f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0)]
 
     def close(self) -> None:
         with contextlib.suppress(FMICallException):

@@ -4,6 +4,7 @@ Only the component's interface is used, so components of other makers run too.  
 the function that takes its messages, and nothing of this machine.
 """
 
+import ctypes
 import importlib.util
 from collections.abc import Callable
 from functools import cache
@@ -69,6 +70,8 @@ class Wasm(Fmi3):
         self.name, self.described, self.log, self.refuse = name, described, log, refuse
         self.keeps_state = not described.description.coSimulation.canGetAndSetFMUstate
         self.slave = WasmInstance(self)
+        self.returns: list[str] = []
+        self.reached = ctypes.c_double()
         self.store = wasmtime.Store(compiler)
         with wasmtime.component.Linker(compiler) as linker:
             with linker.root() as root:
@@ -105,9 +108,10 @@ class Wasm(Fmi3):
     def instantiate(self) -> None:
         make = self.function(f"[static]{INSTANCE}.instantiate-co-simulation")
         token = self.described.description.instantiationToken
-        self.resource = make(self.store, self.name, token, "", False, True, False, False, [])
+        self.resource = make(self.store, self.name, token, "", False, True, False, True, [])
         if self.resource is None:
             raise FMICallException("instantiate-co-simulation", ERROR)
+        self.judged = self.judgements()
 
     def call_on(self, verb: str, block: Block) -> Callable[[], None]:
         kind = "int64" if block.kind == "Enumeration" else block.kind.lower()
@@ -137,12 +141,18 @@ class Wasm(Fmi3):
         self.done("fmi3ExitInitializationMode", self.call("exit-initialization-mode"))
 
     def step(self, time: float, duration: float) -> None:
+        for _, _, _, read in self.judged:
+            read()
         found = self.call("do-step", time, duration, self.keeps_state)
         if isinstance(found, str):
             self.refuse("fmi3DoStep", STATUS.index(found))
-        elif getattr(found, "terminate-simulation"):
-            self.log(f"the unit asked to end the simulation at time {getattr(found, 'last-successful-time'):.9g} s")
+            return
+        self.reached.value = getattr(found, "last-successful-time")
+        if getattr(found, "terminate-simulation"):
+            self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
             self.refuse("fmi3DoStep", ERROR)
+        if getattr(found, "early-return"):
+            self.go_on(time, duration)
 
     # The draft knows states as bytes only.
 

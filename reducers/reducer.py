@@ -4,11 +4,14 @@ A file has [reducer] (name, description), [topology] (counts) and any other sect
 with ``key = { value, unit, source }``.  The keys are names of variables of the plant, the
 wear unit or the unit of both; sections only group them.  The units' tables say what exists, in which
 unit and within which bounds, so a new parameter needs no change here.
+
+A number may have a ``range = [low, high]`` in its unit, in which it is held to lie; one whose source says
+``assumed`` has a tenth to either side where none is given.
 """
 
 import difflib
 import tomllib
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TypeVar
@@ -40,7 +43,11 @@ class Entry(Strict):
     value: float | str
     unit: str
     source: str = Field(min_length=1)
+    range: tuple[float, float] | None = None
 
+
+# What an assumed number may be off by where its file gives no range, as a share of it (assumed).
+USUAL_RANGE = 0.1
 
 # A name becomes part of file names.
 NAME = r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$"
@@ -71,6 +78,8 @@ class Reducer:
     sources: dict[str, str]
     path: Path
     resolution: Resolution = Resolution()
+    # By name (lowest, highest), SI: numbers that are not known for sure.
+    ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
@@ -136,6 +145,7 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
     topology = Topology(**counts.model_dump())
     starts: dict[str, float] = {}
     sources: dict[str, str] = {}
+    ranges: dict[str, tuple[float, float]] = {}
     tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
     for section, entries in content.items():
         if not isinstance(entries, dict):
@@ -146,12 +156,14 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
                 raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
             starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
             sources[key] = entry.source
+            if (span := range_of(tables, key, entry, f"{path}: [{section}] {key}")) is not None:
+                ranges[key] = span
     missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:
         starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
-    return Reducer(head.name, head.description, topology, starts, sources, path)
+    return Reducer(head.name, head.description, topology, starts, sources, path, ranges=ranges)
 
 
 def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
@@ -198,3 +210,22 @@ def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> f
     except ValueFault as problem:
         raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
     return value
+
+
+def range_of(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> tuple[float, float] | None:
+    """(lowest, highest) that the number may be, SI; None where nothing says that it may be another."""
+    if isinstance(entry.value, str):
+        if entry.range is not None:
+            raise InputFault(f"{place}: range = {list(entry.range)}: a choice has no range; leave it out")
+        return None
+    if entry.range is None:
+        half = USUAL_RANGE * abs(entry.value) if entry.source.startswith("assumed") else 0.0
+        limits = (entry.value - half, entry.value + half)
+    else:
+        limits = entry.range
+    if not limits[0] <= entry.value <= limits[1]:
+        raise InputFault(f"{place}: range = {list(limits)}: value = {entry.value:g} {entry.unit} lies outside; give [lowest, highest] in {entry.unit}")
+    if limits[0] == limits[1]:
+        return None
+    low, high = (si_value(tables, key, entry.model_copy(update={"value": limit}), f"{place}: range") for limit in limits)
+    return low, high

@@ -18,6 +18,8 @@ LOST_MOTION_SHARE = 0.03
 LONGEST_LIFE = 1e12
 
 NONE, FLANK, RACE, LOST_MOTION = range(4)
+# Where a step may end before its time (``pausing``).
+NOWHERE, WHERE_JUDGED_OTHERWISE, EVERYWHERE = range(3)
 
 
 @kernel
@@ -97,6 +99,14 @@ def extrapolate_life(r, flank_rate, race_rate):
     lost_motion = time_until(r.lost_motion_limit, r.lost_motion, lost_motion_rate)
     if lost_motion < r.remaining_life:
         r.remaining_life, r.limited_by = lost_motion, LOST_MOTION
+
+
+@kernel
+def pauses(r, limited_by, was_over, left):
+    """Whether a step ends here, ``left`` [s] before its time: judged is otherwise than at its beginning."""
+    if left <= 0.0 or r.pausing == NOWHERE:
+        return False
+    return r.pausing == EVERYWHERE or r.limited_by != limited_by or (r.remaining_life == 0.0) != was_over
 
 
 @kernel

@@ -14,4 +14,4 @@ def make_unit(specification: Specification) -> Unit:
     table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))
     table = table.with_starts(specification["starts"], specification["sources"])
     # The wear refuses before it changes anything; what the plant changes is what a look at lost motion puts back.
-    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size, cautions=CAUTIONS)
+    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size, cautions=CAUTIONS, pause=("pausing", "paused_after"))

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 
 from fmu_src.faults import InputFault, RunFault
+from rv_plant.faults import DYNAMIC
 from studies.pair import Pair
 from studies.solve import Turn, measure
+from studies.swing import swing_damping
 
 HOUR = 3600.0
 # Surfaces of the wear unit that a result keeps, by the names of its table.
@@ -219,6 +221,9 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
     through the life and after each jump.
     """
     if life.start is None:
+        # One that is set is kept.
+        if pair.plant.get("fidelity") == DYNAMIC and pair.plant.number("swing_damping") == 0.0:
+            pair.plant.set("swing_damping", swing_damping(pair.plant.record()))
         life.start = pair.master.save()
         begin(pair, life, life.settings.first_jumps(), keep)
     while True:

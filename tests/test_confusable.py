@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from discrepancy.inference.diagnose import against
 from discrepancy.inference.held_out.held_out import HeldOut
+from discrepancy.inference.judgement import against
 from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
 from discrepancy.problem import Candidate, Parameter
@@ -61,7 +61,7 @@ def test_membership_follows_the_likelihood():
 
 def test_a_gain_of_500_percent_stands_beside_nothing():
     """Fits as well, but its size is 500 times what is usual."""
-    assert implausible(rival("gain", 100.0, 5.0, 0.01)) == pytest.approx((np.log10(500.0 / PLAUSIBLE) / DECADE) ** 2)
+    assert implausible(np.array([500.0])) == pytest.approx((np.log10(500.0 / PLAUSIBLE) / DECADE) ** 2)
     assert names([rival("gain", 80.0, 5.0, 0.01), rival("stiffness", 100.0)]) == ["stiffness"]
 
 

@@ -93,7 +93,7 @@ def diagnosed(model):
     found = doctor.run()
     laws = recover(found.fits.space, found.fits.space.base, ["transmission_error"]) if found.verdict == UNKNOWN else []
     effects = merged([e.to_dict() for e in found.effects], found.verdict)
-    return Answer(model, found, found.verdict, found.reason, effects, found.confusable, laws, list(found.warnings), doctor)
+    return Answer(model, found, found.verdict, found.reason, effects, found.confusable, laws, list(found.warnings), [], doctor)
 
 
 def spike(load):

@@ -126,7 +126,7 @@ def test_kernels_that_are_imported_are_followed(tmp_path):
 
 @pytest.mark.parametrize(("name", "line", "message"), [
     ("befor(r)", FIRST + 1, "befor is no hook and no hook calls it; did you mean before?"),
-    ("quux(r)", FIRST + 1, "no hook calls it; hooks are prepare, warm, before"),
+    ("quux(r)", FIRST + 1, "no hook calls it; hooks are start, prepare, warm, before"),
     ("before(r, time)", FIRST + 1, "the unit calls before(r), here it is before(r, time)"),
 ])  # fmt: skip
 def test_a_wrong_hook_is_told(tmp_path, name, line, message):

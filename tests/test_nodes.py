@@ -8,7 +8,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverAngle, OverTorque, loop_change, signal
 from discrepancy.prediction.fineness import SEEN, Fineness, fast_noise
 from discrepancy.prediction.observe import hysteresis, transmission_error
-from discrepancy.prediction.support import AngleNodes, angle_nodes, reversals, torque_nodes
+from discrepancy.prediction.support import BANDS, AngleNodes, angle_nodes, banded_nodes, reversals, torque_nodes
 from discrepancy.problem import Record
 
 TURN = 2.0 * np.pi
@@ -128,3 +128,28 @@ def test_curves_know_where_their_samples_lie(benches):
     record = over_angle()
     curve = OverAngle(benches[0], record, "transmission_error")
     assert curve.places({"angle_zero[1]": 0.01}) == pytest.approx(record.axes["angle"] + 0.01)
+
+
+@pytest.mark.parametrize("level", BANDS)
+@pytest.mark.parametrize("direction", [1, -1])
+def test_few_nodes_suffice_for_the_orders_that_a_drive_shows(level: int, direction: int) -> None:
+    nodes = banded_nodes(39, 40, level, direction)
+    assert len(nodes.angles) < len(angle_nodes(np.linspace(0.0, TURN, 5000), direction, 0, always=True).angles) / 2
+
+    def signal(angles: np.ndarray) -> np.ndarray:
+        return 1.0 + np.cos(angles - 0.3) + 0.5 * np.sin(40 * angles) + 0.2 * np.cos(79 * angles + 1.0) - 0.1 * np.sin(156 * angles)
+
+    places = np.linspace(0.1, 0.1 + 1.5 * TURN, 777)
+    assert nodes.samples(signal(nodes.angles), places) == pytest.approx(signal(places), abs=2e-3)
+    assert nodes.error(signal(nodes.angles)) < 1e-9
+
+    # An order that lies between the bands is seen as an error.
+    other = np.sin(58 * nodes.angles)
+    assert nodes.error(other) > 0.5
+
+
+def test_no_search_looks_at_more_nodes_than_a_report(benches):
+    bench, record = benches[0].roughly(), over_angle()
+    found, whole = (transmission_error(b, record, {"disc_runout": 3e-6}) - transmission_error(b, record, {}) for b in (bench, benches[1]))
+    assert np.std(found - whole) < 0.1 * np.std(whole)
+    assert min(bench.fineness.added[key][0][1] for key in bench.fineness.added) < 0

@@ -142,9 +142,27 @@ def test_every_function_of_the_draft_is_there_and_what_is_missing_is_refused(pla
     assert calls.call("set-shift-fraction", [0], []) == "error"
     assert calls.call("enter-event-mode") == "error" and "no event mode" in plant.messages[-1]
     assert calls.call("update-discrete-states") == "error"
+    assert calls.call("get-adjoint-derivative", [0], [0], [1.0]) == "error"
     assert calls.call("get-number-of-variable-dependencies", 0) == "error"
     assert calls.call("set-debug-logging", True, ["logStatusError"]) == "ok"
     assert calls.call("set-debug-logging", True, ["none"]) == "error"
+
+
+@with_wasm
+def test_directional_derivatives_are_those_of_the_library(wasm_fmus):
+    found = []
+    for way in (False, True):
+        unit = open_fmu("plant", wasm_fmus / "fmi3" / "RvPlant.fmu", wasm=way)
+        unit.enter_initialisation(0.0)
+        unit.exit_initialisation()
+        lag, torque = (next(v.valueReference for v in unit.description.modelVariables if v.name == name) for name in ("lag", "load_torque"))
+        call = unit.calls
+        if way:
+            found += call.call("get-directional-derivative", [lag], [torque], [1.0])
+        else:
+            found += call.slave.getDirectionalDerivative([lag], [torque], [1.0])
+        unit.close()
+    assert found[0] == pytest.approx(found[1], rel=1e-6) and found[0] > 0.0
 
 
 @with_wasm

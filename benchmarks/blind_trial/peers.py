@@ -16,7 +16,7 @@ import numpy as np
 from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
+from discrepancy.problem import BASE, Record
 from fmu_src.arrays import Floats
 
 MODEL = "RV20E-121"
@@ -57,7 +57,7 @@ def library(folder: Path) -> tuple[Floats, Floats, Floats, Owners]:
     weights = weights_of(residual, quantities, records)
     columns: list[Floats] = []
     owners: Owners = []
-    for c in model.candidates:
+    for c in (c for c in model.candidates if c.part != BASE):
         own = []
         for shapes in c.shape_grid or ({},):
             for p in c.amplitudes:

@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -115,27 +116,35 @@ def run_localise(options: argparse.Namespace) -> int:
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
+    """Exit code 130 if it was interrupted: then it shows what was known by then."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
     from discrepancy.remembered import diagnosed
-    from discrepancy.verdict import diagnose
+    from discrepancy.verdict import AnswerSoFar, diagnose
 
     with task("diagnosing"):
         file, campaign = inputs(options)
         fmus = folder(options.fmus)
-        answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
+        stopped = False
+        try:
+            answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
+        except AnswerSoFar as stop:
+            # What is known so far is an answer, too.
+            answer, stopped = stop.answer, True
     write_html(options, answer)
     draft = None
     if options.draft:
-        draft = written_to(answer, Path(options.draft))
+        draft = None if stopped else written_to(answer, Path(options.draft))
     if options.json:
         json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
         show_answer(answer)
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
-    return 0
+    if stopped:
+        print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
+    return 130 if stopped else 0
 
 
 def run_extend(options: argparse.Namespace) -> int:
@@ -156,7 +165,7 @@ def run_extend(options: argparse.Namespace) -> int:
             answer = diagnosed(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             raise InputFault(refusal(options, answer))
-        names = [candidate for effect in answer.effects for candidate in effect["candidates"]]
+        names = [candidate for effect in answer.effects for candidate in effect["candidates"]] + numbers_of(answer)
     with task(f"adding {', '.join(names)}"):
         try:
             extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=remembered(file, campaign, jobs=all_cores()))
@@ -184,8 +193,15 @@ def run_extend(options: argparse.Namespace) -> int:
 
 def refusal(options: argparse.Namespace, answer: "Answer") -> str:
     """Why nothing is added unasked, and the command lines that add what comes into question."""
+    from discrepancy.inference.verdict import BASE_OFF
+
     found = answer.diagnosis
     start = f"the diagnosis says {answer.verdict!r} ({found.reason}): nothing is added by itself"
+    if answer.verdict == BASE_OFF:
+        numbers = numbers_of(answer)
+        takes = f"; this line takes the number as it was measured, as a setting of the model:\n  {extend_line(options, numbers)}" if numbers else ""
+        declared = answer.diagnosis.base_off[0].name.partition("[")[0] if numbers else ""
+        return start + takes + (f"\nor declare it in campaign.toml, [nuisances.{declared}], so that every command calibrates it" if declared else "")
     if answer.confusable:
         lines = [extend_line(options, effect["candidates"][:1]) for effect in answer.effects]
         return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
@@ -197,6 +213,13 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         return f"{start}; no effect of the catalogue shows in what was measured{drafted}"
     what = "what is named all the same" if named else "what comes nearest all the same"
     return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}{drafted}"
+
+
+def numbers_of(answer: "Answer") -> list[str]:
+    """Candidates of the numbers of the base model that are off."""
+    from discrepancy.problem import BASE
+
+    return [f"{BASE}.{e.name}" for e in answer.diagnosis.base_off if e.explains is not None]
 
 
 def law_with_a_form(answer: "Answer") -> bool:

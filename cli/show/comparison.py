@@ -7,11 +7,12 @@ from cli.screen import console, styled
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
-from discrepancy.wording import error_text, left_text, share_text
+from discrepancy.wording import base_texts, error_text, left_text, share_text
 
 LONGEST = 12
 WIDTH = 120
@@ -41,8 +42,28 @@ def show_comparison(comparison: Comparison) -> None:
         units = {p.name: p.unit for p in comparison.model.nuisances}
         texts = (f"{k} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
         out.print("calibrated  " + ", ".join(texts))
+    show_figures(comparison.figures, out)
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
+
+
+def show_figures(figures: list[KeyFigure], out: Console) -> None:
+    """Key figures that are furthest off the model, one row each with the condition where it is."""
+    worst: dict[tuple[str, str], KeyFigure] = {}
+    for f in sorted(figures, key=lambda f: -abs(f.off)):
+        worst.setdefault((f.signal, f.name), f)
+    if not worst:
+        return
+    table = Table(title="key figures, measured against the base model", title_justify="left")
+    for name in ("signal", "figure", "condition", "measured", "noise", "model", "off by"):
+        table.add_column(name, justify="left" if name in ("signal", "figure", "condition") else "right")
+    for f in list(worst.values())[:LONGEST]:
+        unit_of = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
+        measured, noise, model = (shown(v, f.unit, unit_of) for v in (f.measured, f.noise, f.model))
+        table.add_row(f.signal, f.name, f.condition, measured, noise, model, f"{abs(f.off):.1f} noise")
+    out.print(table)
+    if len(figures) > min(len(worst), LONGEST):
+        out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
@@ -65,6 +86,8 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
 def show_answer(answer: Answer) -> None:
     out = console(WIDTH)
     out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
+    for text in base_texts(answer):
+        out.print(f"\nbase off: {text}")
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
@@ -83,6 +106,7 @@ def show_answer(answer: Answer) -> None:
         out.print(f"in place of {name} could stand: {', '.join(others)}")
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
+    show_figures(answer.figures, out)
     rejected = answer.diagnosis.rejected[:6]
     if rejected:
         out.print("\nclosest rivals")

@@ -22,7 +22,8 @@ from discrepancy.catalogue.signature import (
     worn,
 )
 from discrepancy.effects import MODULES
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
 from fmu_src.arrays import Floats
 from pages import look
 from pages.charts import COLOURS, Curve, chart

@@ -6,8 +6,8 @@ In the order in which a diagnosis happens (``diagnose`` walks through it):
 2. ``base_fit``   the model with its declared nuisances, fitted: what is left over is the misfit
 3. ``misfit``     where it fails: signals, orders, places, conditions
 4. ``screening``  which candidates would reduce the misfit more than noise does, to first order
-5. ``refit``      those few fitted in earnest, one alone or several; which of them cannot be told apart
-6. ``held_out``   whether it is enough: what the fit leaves, and the error on runs that were never used
+5. ``refit``      those few fitted in earnest; ``selection`` chooses which, alone, several, in place of each other
+6. ``held_out``   whether it is enough: the error on runs that were never used; ``judgement`` asks it and what a fit leaves
 7. ``verdict``    what may be said
 8. ``law``        the missing law without a name, where no candidate fits
 9. ``next_experiment``  what to measure to tell rivals apart

@@ -1,75 +1,22 @@
 """The diagnosis: base fit, localisation, screening, refits, rivals, verdict."""
 
-import dataclasses
 import time
 from collections.abc import Mapping, Sequence
-from functools import cached_property, partial
 from typing import Any
 
-import numpy as np
-
+from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.held_out.consistency import lack_of_fit
-from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
+from discrepancy.inference.judgement import Judgement, against, widening
 from discrepancy.inference.misfit.features import ORDERS
-from discrepancy.inference.misfit.localise import Localisation, Localiser
-from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised
-from discrepancy.inference.refit.curvature import covariance_by_secants
-from discrepancy.inference.refit.effect_fit import renew
-from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, finished, leave_condition_out, refit
-from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, joint_gain, screen
+from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised
+from discrepancy.inference.refit.refit import Refit, estimates
+from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
+from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
-from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN, Diagnosis, Settings, decide
-from discrepancy.problem import Candidate, Model
-
-# Refits are dear: what a linear estimate leaves this far behind is not tried.
-HOPELESS = 0.35
-HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
-# Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
-FAR_SHORT = 0.2
-# A one-sided effect whose score is below this chi-square may begin with no slope; so many of them are tried beside others.
-SEEN_AT_ONCE, MOST_THRESHOLDS = 4.0, 3
-# So many further effects are tried beside what is there already.
-MOST_TRIALS = 7
-# So many of the best fits are looked for from other starts too.
-FOREMOST = 2
-# What rough predictions may add to a chi-square, of what is gained.
-ROUGH = 0.02
-# An effect that is this many times as needed as it must be is kept without a refit of the others.
-SURELY = 3.0
-
-
-def few_of_each(scores: Sequence[Score]) -> list[Score]:
-    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects."""
-    counts: dict[str, int] = {}
-    kept = []
-    for s in scores:
-        effect = s.name.partition(".")[0]
-        counts[effect] = counts.get(effect, 0) + 1
-        if counts[effect] <= 2:
-            kept.append(s)
-    return kept
-
-
-def foremost(trials: Sequence[Refit]) -> Refit:
-    """The best of joint fits, those whose newest effect ends at a bound after all others."""
-    return min([t for t in trials if not newest_at_a_bound(t)] or trials, key=penalised)
-
-
-def against(judged: HeldOut | None) -> str:
-    """What runs that were not fitted say against what is named; empty if nothing."""
-    if judged is None:
-        return ""
-    if judged.after > max(judged.before, WITHIN_NOISE):
-        return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
-    if judged.p_after < 0.0005 and judged.after > 1.5:
-        return f"runs that were not used are not explained: their error is {judged.after:.2f} after {judged.before:.2f}, with 1 for noise alone"
-    return ""
-
-
-def widening(over: bool, inflation: float) -> float:
-    """Of intervals, for a misfit that is ``over`` the noise by this factor in chi-square; twice at most."""
-    return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
+from discrepancy.problem import BASE, Candidate, Model
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -77,244 +24,168 @@ def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str,
     return Diagnostician(model, settings, orders).run()
 
 
+def likeliest(rivals: Sequence[Refit], margin: float) -> Refit:
+    """The best of single fits; before an effect that is hardly better, a number of the base model: some of these are always off a little."""
+    numbers = [r for r in rivals if r.candidates[0].part == BASE and not ends_at_a_bound(r) and penalised(r) - penalised(rivals[0]) < margin]
+    return numbers[0] if numbers else rivals[0]
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in a diagnosis; ``found`` is what was known by then."""
+
+    def __init__(self, found: Diagnosis):
+        super().__init__(found.reason)
+        self.found = found
+
+
 class Diagnostician:
     """One diagnosis; the steps can be called one by one."""
+
+    localisation: Localisation
 
     def __init__(self, model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS):
         self.model, self.settings, self.orders = model, settings, orders
         self.started = time.perf_counter()
         self.space = Workspace(model)
         self.candidates = list(model.candidates)
-        self.by_name = {c.name: c for c in self.candidates}
-        self.fitted: dict[frozenset[str], Refit] = {}
-        self.final_fits: dict[frozenset[str], Refit] = {}
-        self.widely: set[frozenset[str]] = set()
-        self.inflations: dict[frozenset[str], float] = {}
+        # Said if it is interrupted.
+        self.doing = "fitting the base model"
+        self.refits = Refits(self.space, self.candidates)
+        self.judgement = Judgement(self.space, orders, settings.leftover_level)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the large tables of its tests, which are made anew where they are asked for."""
-        return {k: v for k, v in self.__dict__.items() if k not in ("localiser", "columns")}
-
-    @cached_property
-    def localiser(self) -> Localiser:
-        return Localiser(self.space, self.orders)
+        return {k: v for k, v in self.__dict__.items() if k != "columns"}
 
     # steps --------------------------------------------------------------------------------
     def prepare(self) -> Localisation:
-        """Base fit with the noise, and localisation of its misfit."""
+        """Base fit with the noise, and localisation of its misfit; once."""
+        if hasattr(self, "localisation"):
+            return self.localisation
         self.space.fit_base()
-        self.localisation = self.localiser.test(self.space.base, self.settings.localise_level)
+        self.localisation = self.judgement.localiser.test(self.space.base, self.settings.localise_level)
+        self.judgement.localisation = self.localisation
         return self.localisation
 
-    def screened(self, candidates: Sequence[Candidate] | None = None) -> Screen:
-        """Score tests of all candidates, or of some, against the base fit."""
-        chosen = self.candidates if candidates is None else candidates
+    def screened(self, candidates: Sequence[Candidate] | None = None, beside: Refit | None = None) -> Screen:
+        """Score tests of all candidates, or of some, against the base fit or ``beside`` a fit with effects."""
+        self.chosen = self.candidates if candidates is None else list(candidates)
+        fit, exclude = (self.space.base, []) if beside is None else (beside.fit, [c.name for c in beside.candidates])
         with self.space.predictions.roughly():
-            self.columns = candidate_columns(self.space, chosen, self.space.base.values)
-        self.screening = screen(self.space, chosen, self.columns, self.space.base, self.settings.seed, self.settings.draws)
-        self.scores = {s.name: s for s in self.screening.scores}
+            self.columns = candidate_columns(self.space, self.chosen, fit.values)
+        self.screening = screen(self.space, self.chosen, self.columns, fit, self.settings.seed, self.settings.draws, exclude)
+        self.refits.scores = {**self.refits.scores, **{s.name: s for s in self.screening.scores}}
         return self.screening
 
-    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None) -> Refit:
-        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``."""
-        key = frozenset(names)
-        if key not in self.fitted:
-            found = list(scores or [self.scores[n] for n in names if n in self.scores])
-            with self.space.predictions.roughly():
-                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start)
-        return self.fitted[key]
+    @property
+    def selection(self) -> Selection:
+        return Selection(self.chosen, self.columns, self.screening, self.refits, self.judgement, self.settings)
 
-    def beside(self, names: Sequence[str], own: dict[str, float], score: Score) -> Refit:
-        """Joint refit of the named effects, which stand at ``own``, and the scored one."""
-        return self.fit([*names, score.name], own, [score])
+    def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], Refit | None]:
+        """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together."""
+        candidates = [c for c in self.candidates if c.name.partition(".")[0] in first]
+        if not candidates:
+            return [], None
+        self.screened(candidates)
+        rivals = self.selection.singles()
+        return rivals, self.selection.several(rivals[0]) if rivals else None
 
-    def singles(self) -> list[Refit]:
-        """Refits of the candidates that may win alone."""
-        scores = [s for s in self.screening.scores if s.p_single < 0.05]
-        if not scores:
-            return []
-        top = scores[0].statistic
-        chosen = few_of_each([s for s in scores if s.statistic >= 0.35 * top])[: self.settings.shortlist]
-        for s in sorted(scores, key=lambda s: s.p_single)[:2]:
-            if s not in chosen:
-                chosen.append(s)
-        fits = sorted(self.space.threads.map(lambda s: self.fit([s.name]), chosen), key=penalised)
-        # Of the best effect all forms that show as much: five springs look alike in a loop.
-        best = fits[0].candidates[0].name
-        enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
-        twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
-        fits = sorted([*fits, *self.space.threads.map(lambda s: self.fit([s.name]), twins)], key=penalised)
-        fits = sorted([*self.space.threads.map(self.widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
-        near = fits[0].fit.chi2 + 4 * self.settings.margin + ROUGH * max(fits[0].gain, 0.0)
-        fits = self.space.threads.map(lambda f: self.renewed(f) if f.fit.chi2 < near else f, fits)
-        return sorted(fits, key=penalised)
+    def run(self, first: Sequence[str] = ()) -> Diagnosis:
+        """The whole diagnosis; ``first`` are names of effects that are calibrated before others are looked for.
 
-    def widened(self, result: Refit) -> Refit:
-        """The fit from other starts too, if one of them is better: for those that may be named."""
-        key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
-        if key not in self.widely and key not in self.final_fits:
-            self.widely.add(key)
-            with self.space.predictions.roughly():
-                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, widely=True)
-            self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
-        return self.fitted[key]
+        Ctrl-C raises ``Interrupted`` with what is known by then; run again, it goes on with the fits and predictions that it has.
+        """
+        predictions = self.space.predictions
+        predictions.unfinished = True
+        try:
+            found = self.walk(first)
+        except KeyboardInterrupt:
+            if not hasattr(self, "localisation"):
+                raise
+            raise Interrupted(self.stopped()) from None
+        predictions.unfinished = False
+        return found
 
-    def final(self, names: Sequence[str]) -> Refit:
-        """The fit of the named effects as it is reported, wherever."""
-        return self.renewed(self.widened(self.fit(names)))
-
-    def renewed(self, result: Refit) -> Refit:
-        """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
-        key = frozenset(c.name for c in result.candidates)
-        if key in self.final_fits:
-            return self.final_fits[key]
-        self.space.predictions.settle(result.fit.values)
-        better = finished(self.space, result.candidates, renew(self.space, result.fit, result.candidates))
-        better = dataclasses.replace(better, covariance=covariance_by_secants(self.space, better.fit, result.candidates))
-        self.fitted[key] = self.final_fits[key] = better
-        return better
-
-    def several(self, best: Refit) -> Refit:
-        """Forward selection with a backward check; what counts is what a further effect gains of that which is left."""
-        settings, current = self.settings, best
-        while len(current.candidates) < settings.most_effects:
-            names = [c.name for c in current.candidates]
-            more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
-            promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
-            least, lenient = self.least_gain(current, best)
-            promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
-            if lenient:
-                promising += self.thresholds(more, [*names, *(s.name for s in promising)])
-            if not promising:
-                break
-            own = {p.name: current.fit.values[p.name] for p in current.own}
-            trials = self.space.threads.map(partial(self.beside, names, own), promising)
-            # exchange of an earlier member: the first choice was made without the second
-            challenger = foremost(trials)
-            newest = challenger.candidates[-1].name
-            if len(names) == 1:
-                for other in few_of_each(self.screening.scores)[:5]:
-                    if other.name in (names[0], newest) or frozenset([other.name, newest]) in self.fitted:
-                        continue
-                    if joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * challenger.gain:
-                        trials.append(self.fit([other.name, newest]))
-            challenger = self.renewed(foremost(trials))
-            extra = current.fit.chi2 - challenger.fit.chi2
-            if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
-                break
-            if lenient and not self.foretells(challenger, current):
-                break
-            current = self._backward(challenger, least)
-            if len(current.candidates) <= len(names):
-                break
-        return current
-
-    def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
-        """Effects that begin with no slope (play): beside others a score test may not see them, so they are tried at their typical size."""
-        found = []
-        for s in more.scores:
-            c = self.by_name[s.name]
-            alone = len(c.amplitudes) == 1 and c.amplitudes[0].sign != 0 and not c.shapes
-            if alone and s.name not in known and s.statistic < SEEN_AT_ONCE:
-                p = c.amplitudes[0]
-                found.append(dataclasses.replace(s, start={p.name: p.off + p.sign * p.scale}))
-        return found[:MOST_THRESHOLDS]
-
-    def least_gain(self, current: Refit, first: Refit) -> tuple[float, bool]:
-        """What a further effect must gain, and whether that is less than a fixed part of the first: then it must be seen elsewhere too."""
-        fixed = max(self.settings.second_gain * first.gain, 12.0)
-        over, left, _, _ = self.leftover(current)
-        if not over:
-            return fixed, False
-        needed = max(self.settings.needed * left, 12.0)
-        return min(fixed, needed), needed < fixed
-
-    def foretells(self, joint: Refit, current: Refit) -> bool:
-        """Whether runs that were not fitted, or conditions left out in turn, are nearer to ``joint`` than to what there is already."""
-        if self.space.held_out:
-            judge = HeldOutJudge(self.space, self.localisation, [joint, current], self.orders)
-            after, before = judge.judge(joint), judge.judge(current)
-            if after is not None and before is not None:
-                return after.after < before.after
-        left = [sum(leave_condition_out(self.space, r.fit).values()) for r in (joint, current)]
-        return left[0] < left[1]
-
-    def _backward(self, joint: Refit, least: float) -> Refit:
-        """Drops members without which the fit is hardly worse."""
-        names = [c.name for c in joint.candidates]
-        for name in names:
-            rest = [n for n in names if n != name]
-            if not rest:
-                continue
-            if drop_cost(joint, self.by_name[name]) > SURELY * least:
-                continue
-            without = self.renewed(self.fit(rest))
-            if without.fit.chi2 - joint.fit.chi2 < least:
-                return self._backward(without, least)
-        return joint
-
-    # judgement ----------------------------------------------------------------------------
-    def leftover(self, result: Refit) -> tuple[bool, float, dict[str, Any], float]:
-        """Whether ``result`` leaves a significant misfit, its size, what it is, and its inflation."""
-        local = self.localiser.test(result.fit, self.settings.leftover_level)
-        shape = lack_of_fit(self.space, result)
-        worst: dict[str, float] = {}
-        inflation = 1.0
-        for g in local.findings:
-            worst[g.signal] = max(worst.get(g.signal, 0.0), g.statistic - g.width)
-            inflation = max(inflation, g.statistic / g.width)
-        failing = {k: v for k, v in shape.items() if v[2] < self.settings.leftover_level}
-        size = max(sum(worst.values()), max((s - w for s, w, _ in failing.values()), default=0.0))
-        inflation = max([inflation, *(s / w for s, w, _ in failing.values())])
-        text: dict[str, Any] = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
-                "dependence": {k: {"statistic": s, "width": w, "p": p} for k, (s, w, p) in shape.items()}}
-        return bool(worst or failing), size, text, inflation
-
-    def run(self) -> Diagnosis:
+    def walk(self, first: Sequence[str]) -> Diagnosis:
+        """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
-        self.screened()
+        self.doing = "screening"
+        rivals, start = self.calibrated(first)
+        p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
+        self.screened(beside=start)
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
+        p_screen = min(p_screen, p_first)
         p_local = min((g.p for g in local.groups), default=1.0)
         by_place = bool(local.findings)
         # where the misfit is beyond doubt, naming needs less
         by_candidate = p_screen < (settings.naming_level if by_place else settings.screen_level)
         if not by_candidate:
             verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
-            rivals = self.singles() if by_place else []
+            if verdict == NONE and computed_wrongly(self.space.base, settings.coverage):
+                verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
+            rivals = self.selection.singles() if by_place else []
             return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
-        rivals = self.singles()
-        final = self.several(rivals[0])
-        over, size, text, inflation = self.leftover(final)
+        selection, judgement = self.selection, self.judgement
+        self.doing = "fitting effects alone"
+        if start is None:
+            rivals = selection.singles()
+            start = likeliest(rivals, settings.margin)
+        self.doing = f"looking for what is missing beside {start.name}"
+        final = selection.several(start, len(start.candidates) if first else 0)
+        self.doing = f"looking for what could stand in place of {final.name}"
+        over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
-        dof = self._dof(final)
+        dof = min((e.dof for e in estimates(self.space, final)), default=1e6)
         alternatives: dict[str, list[str]] = {}
+        # What is left speaks for none of the rivals; it may have hidden no more than all of it.
+        widened = min(inflation, 1.0 + size / settings.margin) if over else 1.0
         if len(final.candidates) == 1:
-            members = confusable_set(rivals, inflation if over else 1.0, dof, settings.margin)
+            members = confusable_set(rivals, widened, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)
-            members += self._adequate(rivals, members)
+            members += selection.adequate(rivals, members)
         else:
             members = [final]
             for c in final.candidates:
-                stand_ins = self._stand_ins(final, c, inflation if over else 1.0, dof)
+                stand_ins = selection.stand_ins(final, c, widened, dof)
                 if stand_ins:
                     alternatives[c.name] = stand_ins
         self.report([*members, *rivals])
-        judge = HeldOutJudge(self.space, local, [*members, *[r for r in rivals[:2] if r not in members]], self.orders)
+        judge = judgement.held_out([*members, *[r for r in rivals[:2] if r not in members]])
         judged = judge.judge(final)
         unproved = against(judged)
         if unproved:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
-        self.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
+        judgement.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
         one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
-        verdict, reason = decide(True, by_place, len(final.candidates), len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
+        named = sum(c.part != BASE for c in final.candidates)
+        verdict, reason = decide(True, by_place, named, len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
+        if verdict == BASE_OFF:
+            others = [m.name for m in members if m.candidates[0].part != BASE]
+            alternatives |= {final.name: others} if others else {}
+            if len(members) - len(others) > 1:
+                reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
-        shown = judge if len(members) > 1 else HeldOutJudge(self.space, local, members, self.orders)
+        shown = judge if len(members) > 1 else judgement.held_out(members)
         return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def stopped(self) -> Diagnosis:
+        """What is known so far: base fit, localisation, scores, and the best fit."""
+        fits = sorted(self.refits.fitted.values(), key=penalised)
+        done = ["base fit"] + ([f"{len(self.refits.scores)} effects screened"] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
+        reason = f"stopped while {self.doing}; done: {', '.join(done)}" + (f"; best so far: {fits[0].name}" if fits else "")
+        captured = 0.0
+        text: dict[str, Any] = {}
+        if fits:
+            _, size, text, _ = self.judgement.leftover(fits[0])
+            captured = max(fits[0].gain, 0.0) / max(max(fits[0].gain, 0.0) + size, 1e-9)
+        p_screen = min((s.p_adjusted for s in self.refits.scores.values()), default=1.0)
+        p_local = min((g.p for g in self.localisation.groups), default=1.0)
+        return self.teller.diagnosis(STOPPED, reason, fits[:1], fits, captured, text, p_screen, p_local, {}, None)
 
     def report(self, fits: Sequence[Refit]) -> None:
         """The predictions of what is told stay when the diagnosis is kept."""
@@ -327,39 +198,17 @@ class Diagnostician:
 
     @property
     def teller(self) -> Teller:
-        return Teller(self.space, self.localisation, self.scores, self.fitted, self.inflation, self.settings.coverage, self.started)
+        return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.settings.coverage, self.started)
+
+    # for those who go on from here ----------------------------------------------------------
+    def fit(self, names: Sequence[str]) -> Refit:
+        """Joint refit of the named effects, remembered; see ``Refits``."""
+        return self.refits.fit(names)
+
+    def final(self, names: Sequence[str]) -> Refit:
+        """The fit of the named effects as it is reported, wherever."""
+        return self.refits.final(names)
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""
-        key = frozenset(c.name for c in result.candidates)
-        if key not in self.inflations:
-            over, _, _, inflation = self.leftover(result)
-            self.inflations[key] = widening(over, inflation)
-        return self.inflations[key]
-
-    def _adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
-        """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
-        least = penalised(members[0])
-        margin = self.settings.adequate_margin + FORM * max(members[0].gain, 0.0)
-        near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
-        return [r for r in near if not self.leftover(r)[0]]
-
-    def _dof(self, result: Refit) -> float:
-        dofs = [e.dof for e in estimates(self.space, result)]
-        return min(dofs) if dofs else 1e6
-
-    def _stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
-        """Effects that could replace ``member`` beside the others."""
-        rest = [c.name for c in final.candidates if c is not member]
-        result = []
-        rest_fit = self.fit(rest)
-        more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
-        own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
-        needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
-        for s in few_of_each(more.scores)[:4]:
-            if s.name == member.name or s.statistic < HOPELESS_STAND_IN * needed:
-                continue
-            rival = self.fit([*rest, s.name], own, [s])
-            if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2:
-                result.append(s.name)
-        return result
+        return self.judgement.inflation(result)

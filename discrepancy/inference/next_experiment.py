@@ -5,7 +5,7 @@ difference of predictions, S the covariance of each rival's parameters.  Without
 terms experiments are proposed whose difference the parameters would swallow.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any, TypeVar
@@ -14,6 +14,7 @@ import numpy as np
 
 from discrepancy.inference.refit.refit import Refit
 from fmu_src.arrays import Floats
+from fmu_src.progress import task
 
 ENOUGH = 6.0
 """Separation (chi-square) from which two rivals count as told apart."""
@@ -127,7 +128,7 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
     """
     weight = {r.name: r.weight for r in rivals}
     proposals = []
-    for experiment in experiments:
+    for experiment in told(experiments):
         pairs = separation(predict, experiment, rivals)
         total = sum(weight[a] * weight[b] for a, b in pairs) or 1.0
         score = sum(weight[a] * weight[b] * v for (a, b), v in pairs.items()) / total
@@ -149,6 +150,15 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
     else:
         verdict = "cannot be separated on this rig: no setting within the limits reaches " + f"{enough:g}"
     return NextExperiment(bool(good), verdict, good + rest, stake, every)
+
+
+def told(experiments: Sequence[E]) -> Iterator[E]:
+    """The experiments one by one, told to whoever listens."""
+    with task("weighing experiments", total=len(experiments)) as weighing:
+        for experiment in experiments:
+            weighing.what = f"weighing experiments, {experiment.name}"
+            yield experiment
+            weighing.advance()
 
 
 def alike_together(proposals: Sequence[Proposal], enough: float = ENOUGH) -> list[Proposal]:

@@ -7,17 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.inference.base_errors import UNLIKELY, base_errors
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.refit.confusable import canonical_correlation
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
-from discrepancy.inference.verdict import Diagnosis, Effect, Fits
-from discrepancy.problem import Candidate
-
-# A nuisance further off than so many of its assumed standard deviations is said.
-UNLIKELY = 2.5
+from discrepancy.inference.verdict import BASE_OFF, Diagnosis, Effect, Fits
+from discrepancy.problem import BASE, Candidate
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,7 @@ class Teller:
         for member in members:
             before, after = self._errors(judge, member, captured, held_out)
             numbers = {e.name: e for e in estimates(self.space, member, self.coverage, self.inflation(member))}
-            for c in member.candidates:
+            for c in (c for c in member.candidates if c.part != BASE):
                 gain = self._gain_of(member, c) if several else member.gain
                 bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
                 if bounds:
@@ -78,13 +76,17 @@ class Teller:
             for k, a in enumerate(members):
                 for b in members[k + 1:]:
                     correlations[f"{a.name} ~ {b.name}"] = canonical_correlation(self.space, a, b)
+        # Where a number of the base explains the misfit, effects that would do as well are alternatives, none of them named.
+        told = base_errors(self.space, members, self.inflation, self.coverage)
+        if verdict == BASE_OFF:
+            effects = []
         confusable = [m.name for m in members] if not several and len(members) > 1 else []
         base = self.space.base
         fit = members[0].fit if members else base
         warnings += [f"{p.description or p.name}: {fit.values[p.name]:.3g} {p.unit}, which is {abs(fit.values[p.name] - p.off) / p.prior:.1f} times"
                      f" what was assumed of it ({p.off:.3g} +- {p.prior:.2g}): the base model is off there"
-                     for p in base.parameters if p.prior and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
-        return Diagnosis(verdict, effects, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
+                     for p in base.parameters if p.prior and not p.of_base and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
+        return Diagnosis(verdict, effects, told, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
                          float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,

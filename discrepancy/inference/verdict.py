@@ -12,6 +12,11 @@ SET = "set"
 SEVERAL = "several effects"
 INCOMPLETE = "named but incomplete"
 UNKNOWN = "unknown"
+# What is off is a number of the base model that was not known for sure, or what it computes itself; no effect is missing.
+BASE_OFF = "base off"
+
+# Interrupted: what was known by then.
+STOPPED = "stopped"
 
 
 @dataclass(frozen=True)
@@ -59,6 +64,24 @@ class Effect:
 
 
 @dataclass(frozen=True)
+class BaseError:
+    """By how much the base model is off, and where: ``name`` is its number (or error), ``assumed`` what it was held to be, ``within``
+    its range or assumed standard deviation; ``explains`` in chi-square."""
+
+    name: str
+    title: str
+    value: float
+    interval: tuple[float, float]
+    unit: str
+    assumed: float
+    within: tuple[float, float]
+    explains: float | None
+
+    def to_dict(self) -> dict[str, Any]:
+        return {**self.__dict__, "interval": list(self.interval), "within": list(self.within)}
+
+
+@dataclass(frozen=True)
 class Fits:
     """What a diagnosis computed with: the records with their noise, the fits of what is named, and those of its rivals."""
 
@@ -73,11 +96,12 @@ class Diagnosis:
 
     ``effects`` best first: the one, the members of the set (each an alternative), or all of several.
     ``alternatives`` maps each of several effects to those that could stand in its place.
-    ``nuisances`` and ``base`` say what was calibrated; ``fits`` keeps the objects for further use.
+    ``base_off`` says what of the base model itself is off; ``nuisances`` what was calibrated; ``fits`` keeps the objects for further use.
     """
 
     verdict: str
     effects: list[Effect]
+    base_off: list[BaseError]
     confusable: list[str]
     alternatives: dict[str, list[str]]
     correlations: dict[str, float]
@@ -99,25 +123,30 @@ class Diagnosis:
     def to_dict(self) -> dict[str, Any]:
         plain = {k: v for k, v in self.__dict__.items() if k != "fits"}
         plain["effects"] = [e.to_dict() for e in self.effects]
+        plain["base_off"] = [e.to_dict() for e in self.base_off]
         return plain
 
 
 def decide(significant_candidate: bool, significant_place: bool, named: int, members: int, captured: float, leftover: bool,
            settings: Settings, one_sensor: bool = False, unproved: str = "") -> tuple[str, str]:
-    """Verdict and the reason for it.
+    """Verdict and the reason for it; ``named`` effects of the catalogue, none of them if a number of the base model explains the misfit.
 
     ``one_sensor``: what is named are several errors of one signal's sensor; ``unproved``: what runs that were not fitted say against it.
     """
     if not significant_candidate and not significant_place:
         return NONE, "no effect and no generic function is significant against the noise of the replicates"
-    if not significant_candidate or named == 0:
+    if not significant_candidate:
         return UNKNOWN, "the misfit is significant but no effect of the catalogue explains it"
     if captured < settings.captured:
         return UNKNOWN, f"the best effect captures only {100 * captured:.0f} % of the misfit"
+    if named == 0 and (unproved or leftover):
+        return UNKNOWN, "a number of the base model is off, and beside it a misfit is left that no effect of the catalogue explains"
     if unproved:
         return INCOMPLETE, unproved
     if leftover:
         return INCOMPLETE, "what is named leaves a significant misfit"
+    if named == 0:
+        return BASE_OFF, "a number of the base model that is not known for sure explains the misfit: no effect is missing"
     if named > 1 and one_sensor:
         return INCOMPLETE, "it takes several errors of one sensor: look at its calibration, or at a law that the catalogue lacks"
     if named > 1:

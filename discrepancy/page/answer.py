@@ -3,9 +3,9 @@
 from typing import Any
 
 from discrepancy import wording
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.page import amounts, comparison, profiles, response
-from discrepancy.page.evidence import confusable, effects, held_out, listed, named, recovered, rivals
+from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
@@ -32,6 +32,9 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
+    sections += comparison.figures_section(answer.figures)
+    if diagnosis.base_off:
+        sections.insert(0, base_off(answer))
     where = comparison.conditions(answer, runs) if runs else ""
     return Page(
         "Diagnosis: which effect does the model lack?",
@@ -61,6 +64,8 @@ def sentence(answer: Answer) -> str:
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
             f"that no effect of the catalogue explains{f': {left}' if left else ''}."
         ),
+        BASE_OFF: f"No effect is missing; the base model itself is off: {listed([e.name for e in answer.diagnosis.base_off])}.",
+        STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     reason = answer.reason

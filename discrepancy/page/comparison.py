@@ -4,6 +4,7 @@ from dataclasses import asdict
 from typing import Any
 
 from discrepancy.compare import CONSPICUOUS, Comparison
+from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, maps, numbers, panels, series
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
@@ -29,6 +30,7 @@ def page(result: Comparison) -> Page:
         Section(
             "runs", "Measured against predicted", "Every run of the campaign beside the model's prediction of it.", run_figures("run", runs)
         ),
+        *figures_section(result.figures),
         nuisances(result),
     ]
     return Page(
@@ -171,6 +173,23 @@ def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = pane
         if single:
             drawn.append(numbers.figure(f"{prefix}_number", signal, single, words))
     return sorted(drawn, key=lambda f: -f.columns)
+
+
+def figures_section(figures: list[KeyFigure]) -> list[Section]:
+    """Key figures, measured against the base model; also of a diagnosis."""
+    if not figures:
+        return []
+    rows = []
+    for f in figures:
+        named = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
+        measured, noise, model = (amounts.text(v, f.unit, named) for v in (f.measured, f.noise, f.model))
+        rows.append([amounts.signal_title(f.signal), f.condition, f.name, measured, noise, model, number(abs(f.off))])
+    lead = (
+        "Read alike from what was measured and from what the base model predicts there. Noise is what repetitions differ by, over the root of their"
+        " number; where nothing is repeated, what the noise of the samples makes of it."
+    )
+    head = ["signal", "condition", "figure", "measured", "noise", "model", "off, in noise"]
+    return [Section("figures", "Key figures", lead, [], [Table("", head, rows, (3, 4, 5, 6))])]
 
 
 def nuisances(result: Comparison) -> Section:

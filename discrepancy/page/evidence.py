@@ -6,7 +6,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps
 from discrepancy.page.amounts import effect_title as words
-from discrepancy.scales import of_axis
+from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.wording import NEARLY_ALL
 from pages import look
@@ -53,6 +53,21 @@ def effects(answer: Answer) -> Section:
         range=[0.0, 112.0],
     )
     return Section("effects", "Effects", lead, [figure] if answer.verdict != SET and (len(names) > 1 or shares[0] < 99.5) else [], [table])
+
+
+def base_off(answer: Answer) -> Section:
+    """What of the base model itself is off, beside what was assumed of it."""
+    rows = []
+    for e in answer.diagnosis.base_off:
+        value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
+        held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
+        rows.append([e.name, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
+    table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
+    lead = (
+        "Numbers of the reducer file that are not known for sure, as this campaign has them, and what the base model computes by more off than"
+        " was assumed. Such an error is no missing effect."
+    )
+    return Section("base-off", "The base model is off", lead, [], [table])
 
 
 def held_out(answer: Answer) -> Section:

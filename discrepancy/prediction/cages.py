@@ -13,6 +13,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.observe import error_with_cages
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
+from fmu_src.progress import task
 
 # Samples that a ripple can be found in.
 LONG = 40
@@ -42,7 +43,12 @@ class Cages:
 
     def place(self, values: Mapping[str, float]) -> bool:
         """Find the cages with ``values``; False if there is nothing to find them by."""
-        self.ripples[self.effects(values)] = {r.name: self.found(r, self.for_record(r, values)) for r in self.records}
+        found: dict[str, Floats] = {}
+        with task("placing the roller cages", total=len(self.records)) as placing:
+            for record in self.records:
+                found[record.name] = self.found(record, self.for_record(record, values))
+                placing.advance()
+        self.ripples[self.effects(values)] = found
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:

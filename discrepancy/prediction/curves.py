@@ -3,26 +3,31 @@
 A prediction is the base model's, at fine nodes and once, and what the values change in it, at nodes of their own.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
-from discrepancy.prediction.support import AngleNodes, TorqueNodes, angle_nodes, torque_nodes
+from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
+from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE
 
-Nodes = TypeVar("Nodes", AngleNodes, TorqueNodes)
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
 LEVEL_OF_SLOPES = 6
+
+
+Nodes = TypeVar("Nodes", AngleNodes, TorqueNodes)
 
 
 class Curve(Protocol[Nodes]):
@@ -65,7 +70,12 @@ class OverAngle:
         return condition_of(self.bench, self.record)
 
     def nodes(self, level: int) -> AngleNodes | None:
-        return angle_nodes(angles_of(self.bench, self.record, 0.0), self.condition.direction, level)
+        angles, direction = angles_of(self.bench, self.record, 0.0), self.condition.direction
+        if level >= 0 or np.ptp(angles) < WHOLE * 2.0 * np.pi:
+            return angle_nodes(angles, direction, max(level, 0))
+        topology = self.bench.reducer.topology
+        nodes = banded_nodes(topology.lobes, topology.pins, level, direction)
+        return nodes if len(nodes.angles) < WORTHWHILE * len(angles) else None
 
     def places(self, values: Values) -> Floats:
         return angles_of(self.bench, self.record, values.get(angle_zero(self.record), 0.0))
@@ -95,7 +105,7 @@ class OverTorque:
     def nodes(self, level: int) -> TorqueNodes | None:
         torques = self.places({})
         # Where a way turns back is looked for sample by sample: once.
-        return self.bench.kept(("nodes", torques.tobytes(), level), lambda: torque_nodes(torques, NEAR_NOTHING * self.bench.rated_load, level))
+        return self.bench.kept(("nodes", torques.tobytes(), level), lambda: torque_nodes(torques, NEAR_NOTHING * self.bench.rated_load, max(level, 0)))
 
     def places(self, values: Values) -> Floats:
         return np.asarray(self.record.axes["torque"], np.float64)
@@ -139,24 +149,40 @@ def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) 
     return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
 
 
-def nodes_of(curve: Curve[Nodes], values: Values, slopes: bool = False) -> Nodes | None:
-    """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given.
+def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
+    """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given."""
+    return curve.nodes(level_of(curve, values))
 
-    ``slopes``: for derivatives, which jump where the signal has a kink.
-    """
+
+def level_of(curve: Curve[Nodes], values: Values) -> int:
+    """The level of ``nodes_of``."""
     fineness, bench = curve.bench.fineness, curve.bench
-    if fineness is None:
-        return None
 
-    def errs(level: int, more: Values) -> tuple[float, float] | None:
+    def change(nodes: Nodes) -> Floats:
+        return curve.run(values, nodes) - (curve.run({}, nodes) if values else 0.0)
+
+    return fineness.level(curve.record, bench.away(values), errors_by_level(curve, change)) if fineness else EVERY_SAMPLE
+
+
+def nodes_of_slopes(curve: Curve[Nodes], values: Values, base: Values, change: Callable[[Nodes], Floats]) -> Nodes | None:
+    """Nodes for what ``values`` ``change`` next to ``base`` to first order, which jumps where the signal has a kink."""
+    fineness = curve.bench.fineness
+    if fineness and fineness.rough:
+        return curve.nodes(fineness.level_of_slopes(curve.record, curve.bench.away({**base, **values}), errors_by_level(curve, change)))
+    return curve.nodes(max(level_of(curve, {**base, **values}), LEVEL_OF_SLOPES))
+
+
+def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> ErrsAt:
+    """What interpolation errs of a ``change``, and its size."""
+
+    def errs(level: int) -> tuple[float, float] | None:
         nodes = curve.nodes(level)
         if nodes is None:
             return None
-        at = curve.run(more, nodes) - (curve.run({}, nodes) if more else 0.0)
+        at = change(nodes)
         return nodes.error(at), float(np.std(at))
 
-    level = fineness.level(curve.record, bench.away(values), values, errs)
-    return curve.nodes(max(level, LEVEL_OF_SLOPES) if slopes and not fineness.rough else level)
+    return errs
 
 
 def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
@@ -165,18 +191,36 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     condition = curve.condition
     if condition.hours > 0.0:
         return None
-    nodes = nodes_of(curve, {**base, **values}, slopes=True)
+
+
+    def between(nodes: AngleNodes) -> Floats:
+        high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
+        return high - low
+
+    nodes = nodes_of_slopes(curve, values, base, between)
     if nodes is None:
         angles, place = as_turned(bench, record, values)
         before, place_before = as_turned(bench, record, base)
         high = bench.error_beside(condition, values, angles, base, before)[place]
         return high - bench.error_beside(condition, base, before, base, before)[place_before]
-    high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
-    change = nodes.samples(high - low, curve.places(values))
+    change = nodes.samples(between(nodes), curve.places(values))
     if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, angle_zero(record): values[angle_zero(record)]}) - signal(curve, base)
     return change
+
+
+def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats | None:
+    """What ``values`` change in the transmission error [rad] next to ``base`` at a few angles; None where these are not fewer."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = curve.nodes(COARSEST)
+    if nodes is None or (first_order and curve.condition.hours > 0.0):
+        return None
+    if first_order:
+        high, low = (bench.error_beside(curve.condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
+    else:
+        high, low = curve.run(values, nodes), curve.run(base, nodes)
+    return high - low
 
 
 def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
@@ -185,7 +229,12 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
     condition = curve.condition
     if condition.hours > 0.0 or bench.remembers(values) or bench.remembers(base):
         return None
-    nodes = nodes_of(curve, {**base, **values}, slopes=True)
-    path, lead = entered(bench, curve.places(values) if nodes is None else nodes.torques)
-    high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
-    return high - low if nodes is None else nodes.samples(high - low, curve.places(values))
+
+
+    def between(torques: Floats) -> Floats:
+        path, lead = entered(bench, torques)
+        high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
+        return high - low
+
+    nodes = nodes_of_slopes(curve, values, base, lambda nodes: between(nodes.torques))
+    return between(curve.places(values)) if nodes is None else nodes.samples(between(nodes.torques), curve.places(values))

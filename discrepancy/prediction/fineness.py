@@ -2,9 +2,11 @@
 
 import copy
 from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
+from discrepancy.prediction.support import COARSEST
 from discrepancy.problem import Record
 from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats
@@ -13,6 +15,10 @@ from fmu_src.arrays import Floats
 SEEN = 2.0
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
 ROUGHLY = 0.1
+# What is changed to first order is changed by such a share of a typical amplitude.
+STEP = 0.01
+# A level's error over that of the one before, and what it may be of the change, where finer ones are no better.
+NO_LESS, OF_JUMPS = 0.6, 0.5
 # Finer than this there are no nodes: every sample is computed.
 EVERY_SAMPLE = 99
 # A decision holds for all values that are less far from the base model's, and for those that are this much further.
@@ -22,9 +28,11 @@ A_LEVEL = 2.0
 
 # Quantity and condition.
 Group = tuple[str, str]
-# Error of interpolation and size of what is interpolated, root mean square, at a level with some values of the model;
-# None where nodes are not worthwhile.
-ErrsAt = Callable[[int, Mapping[str, float]], tuple[float, float] | None]
+# What is away from the base model, and to which side.
+Added = tuple[Group, tuple[tuple[str, bool], ...]]
+Known = TypeVar("Known")
+# Error of interpolation and size of what is interpolated, root mean square, at a level; None where nodes are not worthwhile.
+ErrsAt = Callable[[int], tuple[float, float] | None]
 
 
 class Fineness:
@@ -44,49 +52,83 @@ class Fineness:
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
         self.shapes: set[str] = set()
-        # By what is away from the base model, and to which side: how far off it was, and the level that it needs.
-        self.added: dict[tuple[Group, tuple[tuple[str, bool], ...]], list[tuple[Floats, int]]] = {}
+        # How far off it was, and the level that it needs.
+        self.added: dict[Added, list[tuple[Floats, int]]] = {}
+        # What is changed to first order needs, where nothing else is known.
+        self.slopes: dict[Added, int] = {}
 
     def roughly(self) -> "Fineness":
         """The same for rough predictions."""
         other = copy.copy(self)
-        other.rough, other.added = True, {}
+        other.rough, other.added, other.slopes = True, {}, {}
         return other
 
-    def level(self, record: Record, away: Mapping[str, float], values: Mapping[str, float], errs: ErrsAt) -> int:
-        """The level for ``values``; ``away`` says by name how far the plant's are off the base model's."""
+    def level(self, record: Record, away: Mapping[str, float], errs: ErrsAt) -> int:
+        """The level for values of which ``away`` says by name how far the plant's are off the base model's."""
         group = (record.quantity, record.condition)
         if group not in self.allowed:
             return EVERY_SAMPLE
-        amounts = {name: off for name, off in sorted(away.items()) if name not in self.shapes}
+        amounts = self.amounts(away)
         if not amounts:
             if group not in self.base:
-                self.base[group] = self.found(self.allowed[group], 0.0, {}, errs)
+                self.base[group] = self.found(self.allowed[group], 0.0, errs)
             return self.base[group]
         off = np.abs(np.array(list(amounts.values())))
-        known = self.added.setdefault((group, tuple((name, amount > 0.0) for name, amount in amounts.items())), [])
+        known = self.added.setdefault(added(group, amounts), [])
         for distances, level in known:
             # A share of the change is so at any distance.
             if self.rough or np.all(off <= FURTHER * distances):
                 return level
-        first = max((level for _, level in known), default=0)
-        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, values, errs, first)
+        first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
+        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first)
         known.append((off, level))
         return level
 
-    def found(self, allowed: float, share: float, values: Mapping[str, float], errs: ErrsAt, first: int = 0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change."""
-        level = first
+    def level_of_slopes(self, record: Record, away: Mapping[str, float], errs: ErrsAt) -> int:
+        """The level for what they change to first order, roughly: that of a whole change, if one is known."""
+        group = (record.quantity, record.condition)
+        if group not in self.allowed:
+            return EVERY_SAMPLE
+        amounts = self.amounts(away)
+        key = added(group, amounts)
+        if self.added.get(key):
+            return self.added[key][0][1]
+        if key not in self.slopes:
+            first = self.elsewhere(self.slopes, group, amounts, lambda level: level)
+            self.slopes[key] = self.found(STEP * self.allowed[group], ROUGHLY, errs, first, OF_JUMPS)
+        return self.slopes[key]
+
+    def elsewhere(self, levels: Mapping[Added, Known], group: Group, amounts: Mapping[str, float], level_of: Callable[[Known], int]) -> int:
+        """Where to begin: roughly, with the least level that the same change needs in other conditions."""
+        if not self.rough:
+            return 0
+        others = [levels[added(g, amounts)] for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
+        return min((level_of(known) for known in others), default=COARSEST)
+
+    def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
+        return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
+
+    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change.
+
+        An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
+        """
+        level, before = first, np.inf
         while level < EVERY_SAMPLE:
-            at = errs(level, values)
+            at = errs(level)
             if at is None:
                 return EVERY_SAMPLE
             error, size = at
             least = max(allowed, share * size)
-            if error <= least:
+            if error <= least or NO_LESS * before < error < most * size:
                 return level
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
+            before = error
         return EVERY_SAMPLE
+
+
+def added(group: Group, amounts: Mapping[str, float]) -> Added:
+    return group, tuple((name, amount > 0.0) for name, amount in amounts.items())
 
 
 def fast_noise(values: Floats) -> float:

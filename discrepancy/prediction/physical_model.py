@@ -11,11 +11,12 @@ from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import model_error
+from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, condition_of, identity
-from discrepancy.prediction.curves import shifted_errors
+from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
+from discrepancy.prediction.curves import glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.model_error import with_error
@@ -55,6 +56,10 @@ class PhysicalModel:
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
+        for record in self.records:
+            rows = row_conditions(self.bench, record)
+            # A held test looks at a life under the rated load.
+            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)])
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
@@ -81,7 +86,7 @@ class PhysicalModel:
         mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
-        )
+        ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
     def angle_nuisances(self) -> list[Parameter]:
@@ -145,6 +150,33 @@ class PhysicalModel:
         """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""
         return self.shared(which, (self.standing() | dict(values), None, True))
 
+    def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
+        """See ``problem.Glimpsing``: a transmission error at some angles, all else at its samples, under most and least load."""
+        high, low = self.standing() | dict(values), self.standing() | dict(base)
+        chosen: dict[str, Record] = {}
+        for record in sorted((self.records[i] for i in which), key=lambda r: r.factors.get("load", 0.0)):
+            chosen.setdefault(f"{record.quantity} least", record)
+            chosen[f"{record.quantity} most"] = record
+        # Runs of one condition show the same.
+        few = {(r.quantity, r.condition, r.mounting): r for r in chosen.values()}
+        return np.concatenate(self.threads.map(lambda record: self.glimpsed(record, high, low, first_order), few.values()))
+
+    def glimpsed(self, record: Record, high: Mapping[str, float], low: Mapping[str, float], first_order: bool) -> Floats:
+        """``glimpse`` of one record."""
+        own, beside, found = self.for_record(record, high), self.for_record(record, low), None
+        if record.quantity == "transmission_error" and self.bench.relevant(own, True) != self.bench.relevant(beside, True):
+            try:
+                found = glimpsed_error(self.rough_bench, record, own, beside, first_order)
+            except RunFault:
+                # Left to the whole prediction, which says so.
+                found = None
+        if found is None:
+            found = self.one(record, high, low if first_order else None, True) - self.one(record, low, low if first_order else None, True)
+        elif record.free_zero:
+            found = found - found.mean()
+        allowed = self.rough_bench.allowed(record)
+        return found * np.sqrt(len(record.values) / len(found)) / allowed if allowed > 0.0 else found
+
     def standing(self) -> dict[str, float]:
         """Nuisances where they start."""
         return {**self.zeros, **{p.name: p.off for p in self.declared}}
@@ -202,7 +234,7 @@ class PhysicalModel:
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """Values with those of this record's mounting, condition or run under the plain name."""
-        own = dict(values)
+        own = {name: value for name, value in values.items() if not model_error.is_error(name)}
         for name, per in self.per.items():
             place = {"mounting": record.mounting, "condition": record.condition, "run": record.name}.get(per)
             if place is not None and f"{name}[{place}]" in values:

@@ -4,7 +4,9 @@ A bench writes thousands of samples of what a reducer does smoothly.  Runs are c
 distances, along a torque's way on each branch between two reversals, and the samples are interpolated.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +17,14 @@ from fmu_src.arrays import Floats
 
 # Nodes of one turn of the output by level.
 PER_TURN = (509, 727, 1021, 1447, 2039, 2887, 4099, 5779, 8191, 11587, 16381)
+# Coarser than these, where a direction is looked for: nodes for what a cycloidal drive shows and no more, orders about the multiples
+# of lobes and pins.  By level the highest multiple, how far orders stand off, and nodes per unknown.
+BANDS = {-2: (4, 3, 1.7), -1: (6, 4, 1.4)}
+COARSEST = min(BANDS)
+# A record of less than this share of a turn has no orders.
+WHOLE = 0.98
+# Places of a turn from which samples are interpolated: orders of some hundred within a thousandth.
+GRID = 16384
 # Nodes of a branch on either side of no torque.
 PER_SIDE = (8, 12, 16, 24, 32, 48, 64, 96, 128)
 # Nodes stand off equal distances by up to half this share of them: else a high order looks like a low one on all nodes
@@ -34,19 +44,31 @@ HALVING = 2.8
 
 
 @dataclass(frozen=True)
-class AngleNodes:
+class AngleNodes(ABC):
     """Nodes over the output's angle [rad]: ``angles`` (m,) in the order in which they are passed."""
 
     angles: Floats
 
+    @abstractmethod
     def samples(self, values: Floats, angles: Floats) -> Floats:
         """``values`` (m,) at the nodes, at ``angles`` [rad]."""
+
+    @abstractmethod
+    def error(self, values: Floats) -> float:
+        """Error of interpolated ``values``, root mean square."""
+
+
+@dataclass(frozen=True)
+class SplineNodes(AngleNodes):
+    """Nodes between which a signal is smooth."""
+
+    def samples(self, values: Floats, angles: Floats) -> Floats:
         rising = slice(None) if self.angles[-1] > self.angles[0] else slice(None, None, -1)
         found: Floats = CubicSpline(self.angles[rising], values[rising])(angles)
         return found
 
     def error(self, values: Floats) -> float:
-        """Error of interpolated ``values``, root mean square, from every second node by the others."""
+        """From every second node by the others."""
         rising = slice(None) if self.angles[-1] > self.angles[0] else slice(None, None, -1)
         angles, values = self.angles[rising], values[rising]
         between = CubicSpline(angles[::2], values[::2])(angles[1::2])
@@ -54,7 +76,62 @@ class AngleNodes:
         return float(np.sqrt(np.mean((between - values[1::2])[inside] ** 2))) / HALVING
 
 
-def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False) -> AngleNodes | None:
+@dataclass(frozen=True)
+class BandedNodes(AngleNodes):
+    """Few nodes of one turn; what lies between has only the ``orders`` (n,).
+
+    ``inverse`` (2 n - 1, m) gives cosines and sines of the orders, the mean first.
+    """
+
+    orders: npt.NDArray[np.intp]
+    inverse: Floats
+    leverage: Floats
+
+    def samples(self, values: Floats, angles: Floats) -> Floats:
+        found = self.inverse @ values
+        spectrum = np.zeros(GRID // 2 + 1, complex)
+        spectrum[0], spectrum[self.orders[1:]] = found[0], 0.5 * (found[1::2] - 1j * found[2::2])
+        turn = np.fft.irfft(spectrum * GRID, GRID)
+        place = (angles / (2.0 * np.pi)) % 1.0 * GRID
+        first = place.astype(np.intp)
+        share = place - first
+        between: Floats = turn[first % GRID] * (1.0 - share) + turn[(first + 1) % GRID] * share
+        return between
+
+    def error(self, values: Floats) -> float:
+        """Each node by all others."""
+        left = values - waves(self.angles, self.orders) @ (self.inverse @ values)
+        return float(np.sqrt(np.mean((left / (1.0 - self.leverage)) ** 2)))
+
+
+def waves(angles: Floats, orders: npt.NDArray[np.intp]) -> Floats:
+    """One, and cosine and sine of each further order of the turn, at ``angles`` (m,): (m, 2 n - 1)."""
+    phases = np.outer(angles, orders[1:])
+    found = np.ones((len(angles), 2 * len(orders) - 1))
+    found[:, 1::2], found[:, 2::2] = np.cos(phases), np.sin(phases)
+    return found
+
+
+@lru_cache(64)
+def banded_nodes(lobes: int, pins: int, level: int, direction: int) -> BandedNodes:
+    """Nodes of a turn for the orders that a drive of these numbers of teeth shows."""
+    highest, off, per_unknown = BANDS[level]
+    low, high = min(lobes, pins), max(lobes, pins)
+    orders = np.unique([order for n in range(highest + 1) for order in range(max(0, n * low - off), n * high + off + 1)])
+    count = int(per_unknown * (2 * len(orders) - 1))
+    angles: Floats = direction * 2.0 * np.pi / count * scattered(np.arange(float(count)))
+    basis = waves(angles, orders)
+    inverse = np.asarray(np.linalg.pinv(basis, rcond=1e-6), np.float64)
+    return BandedNodes(angles, orders, inverse, np.einsum("ij,ji->i", basis, inverse))
+
+
+def scattered(count: Floats) -> Floats:
+    """Places off the whole numbers ``count``, see ``SCATTERED``."""
+    found: Floats = count + SCATTERED * ((count * GOLDEN) % 1.0 - 0.5)
+    return found
+
+
+def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False) -> SplineNodes | None:
     """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more, unless ``always``."""
     if level >= len(PER_TURN):
         return None
@@ -62,10 +139,10 @@ def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False
     low = ROUNDED * np.floor((float(angles.min()) - BEYOND) / ROUNDED)
     high = ROUNDED * np.ceil((float(angles.max()) + BEYOND) / ROUNDED)
     count = np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
-    nodes = distance * (count + SCATTERED * ((count * GOLDEN) % 1.0 - 0.5))
+    nodes = distance * scattered(count)
     if len(nodes) > WORTHWHILE * len(angles) and not always:
         return None
-    return AngleNodes(nodes[::direction])
+    return SplineNodes(nodes[::direction])
 
 
 @dataclass(frozen=True)

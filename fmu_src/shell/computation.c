@@ -112,10 +112,16 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     if (status > WARNING)
         return status;
     memcpy(i->backup, i->cells, GUARDED_BYTES);
+    if (unit.pause_cell >= 0)
+        i->cells[unit.pause_cell].integer = i->pausing;
     int64_t code = step(i->cells, time, duration);
+    /* An importer's wish is no part of the state. */
+    if (unit.pause_cell >= 0)
+        i->cells[unit.pause_cell].integer = NOWHERE;
     const struct variable *spoilt = code ? NULL : spoilt_output(i);
     if (!code && !spoilt) {
-        i->time = time + duration;
+        double done = unit.pause_cell >= 0 ? i->cells[unit.paused_cell].real : 0.0;
+        i->time = time + (done > 0.0 ? done : duration);
         say_cautions(i);
         return status;
     }

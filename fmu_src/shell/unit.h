@@ -38,7 +38,7 @@ struct variable {
     uint32_t first, size;
     int dimensions;
     uint32_t shape[MOST_DIMENSIONS];
-    double lowest, highest;
+    double lowest, highest, nominal;
 };
 
 /* Start values of all cells, equal neighbours together. */
@@ -83,6 +83,7 @@ struct unit {
     int category_count;
     uint32_t guarded_cells; /* leading cells that a failing step may have changed */
     double longest_step;
+    int pause_cell, paused_cell; /* where a step may end before its time, and how much of it was done; -1: never */
 };
 
 DECLARED const struct unit unit;

@@ -196,7 +196,7 @@ static size_t values_together(const uint32_t *references, size_t count)
 {
     size_t total = 0;
     for (size_t k = 0; k < count; k++) {
-        const struct variable *v = variable_at(references[k]);
+        const struct variable *v = find_variable(references[k]);
         total += v ? v->size : references[k] == unit.cell_count;
     }
     return total;

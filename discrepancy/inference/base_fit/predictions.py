@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.problem import Cheaper, Model, Settling
+from discrepancy.problem import Cheaper, Glimpsing, Model, Settling
 from fmu_src.arrays import Floats
 
 # Of each thread its own: one searches while another settles what is reported.
@@ -30,9 +30,13 @@ class Predictions:
         self.rough_store: dict[Key, dict[int, Floats]] = {}
         self.calls = 0
         self.reported: set[Key] = set()
+        # While a search is under way all of them may be needed again.
+        self.unfinished = False
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without what only a search needed."""
+        """Without what only a search needed, once it is over."""
+        if self.unfinished:
+            return dict(self.__dict__)
         kept = {key: known for key, known in self.store.items() if key in self.reported}
         return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}}
 
@@ -68,6 +72,20 @@ class Predictions:
         values, base, rough = self.active(values), self.active(base), self.rough
         known = self.beside_store.setdefault((rough, tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
         return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing, rough))
+
+    def changes(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> list[Floats]:
+        """What ``values`` change next to ``base``, whole or to first order."""
+        if first_order:
+            high, low = self.beside(values, base, which), self.beside(base, base, which)
+        else:
+            high, low = self(values, which), self(base, which)
+        return [a - b for a, b in zip(high, low)]
+
+    def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
+        """``changes`` at a few places of the records, roughly in units of the noise, if the model has such (``Glimpsing``)."""
+        if isinstance(self.model, Glimpsing):
+            return self.model.glimpse(self.active(values), self.active(base), which, first_order)
+        return np.concatenate(self.changes(values, base, which, first_order))
 
     def settle(self, values: Mapping[str, float]) -> None:
         """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten."""

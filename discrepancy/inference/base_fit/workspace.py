@@ -90,7 +90,11 @@ class Workspace:
     def _everywhere(self, nuisances: Sequence[Parameter], values: Mapping[str, float]) -> list[dict[int, Floats]]:
         """Sensitivities of all records, those held out too, as far as they are not zero."""
         every = list(range(len(self.records)))
-        return self.threads.map(lambda p: {i: c for i, c in self.column(values, p, every).items() if np.any(c)}, nuisances)
+
+        def shown(p: Parameter) -> dict[int, Floats]:
+            return {i: c for i, c in self.column(values, p, every).items() if np.any(c)}
+
+        return self.threads.told("base fit, sensitivity", shown, nuisances, lambda p: f"to {p.name}")
 
     def _stack(self, raw: Sequence[Mapping[int, Floats]]) -> Floats:
         stacked = np.zeros((self.size, len(raw)))
@@ -117,8 +121,8 @@ class Workspace:
         self.raw_nuisance = self._everywhere(nuisances, values)
         jacobian = self._stack(self.raw_nuisance)
         self.base = fit_of(nuisances, values, self.residual(values), jacobian)
-        # nuisances that no training record can see (mounting phases of held-out runs)
-        self.blind = [k for k in range(len(nuisances)) if not np.any(jacobian[:, k])]
+        # nuisances that no training record can see (mounting phases of held-out runs), and of which nothing is known otherwise
+        self.blind = [k for k, p in enumerate(nuisances) if p.prior is None and not np.any(jacobian[:, k])]
         return self.base
 
     def _nuisances_from(self, values: Mapping[str, float], raw: Sequence[Mapping[int, Floats]]) -> dict[str, float]:

@@ -11,7 +11,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, other_starts
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
 
 MISLED = 0.2
@@ -23,11 +23,17 @@ RENEWALS, STILL = 4, 2e-3
 OTHERS, PROMISING = 2, 0.1
 # Rounds of polishing a fit that is searched for, and one that is reported.
 ROUGH_ROUNDS, ROUNDS = 1, 8
+# A descent that would not reach what it must even if it gained this many times what its slopes promise is given up.
+HOPE = 3.0
 
 
-def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False) -> Fit:
-    """Nuisances and the parameters of ``candidates``, from the best of ``starts``; ``widely``: and from wherever else it is better."""
-    frozen = _Frozen(space, candidates)
+def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False,
+                least: float = np.inf) -> Fit:  # fmt: skip
+    """Nuisances and the parameters of ``candidates``, from the best of ``starts``; ``widely``: and from wherever else it is better.
+
+    What will not come below the chi-square ``least`` is left where that became clear.
+    """
+    frozen = _Frozen(space, candidates, least)
     own, nuisances = frozen.own, space.model.nuisances
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
     values, converged, columns = _search(frozen, candidates, [
@@ -38,7 +44,10 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     if _cost(space, Box(parameters), full)[0] > space.base.chi2:
         # Too far for frozen sensitivities: from the base fit's nuisances.
         full = {**frozen.theta, **values}
-    found = _polish(space, parameters, full, np.column_stack([frozen.jacobian, columns]), names, converged, promised)
+    every = np.column_stack([frozen.jacobian, columns])
+    if frozen.hopeless(values, promised, residual, columns):
+        return fit_of(parameters, full, space.residual(full), every, names, False)
+    found = _polish(space, parameters, full, every, names, converged, promised)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
         anew = {**{p.name: p.off for p in nuisances}, **{p.name: starts[0].get(p.name, p.off) for p in own}}
@@ -60,9 +69,10 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
 class _Frozen:
     """Chi-square of effects with the nuisances projected out, priors included, at the base fit's sensitivities."""
 
-    def __init__(self, space: Workspace, candidates: Sequence[Candidate]):
-        self.space = space
+    def __init__(self, space: Workspace, candidates: Sequence[Candidate], least: float):
+        self.space, self.least = space, least
         self.own = tuple(p for c in candidates for p in c.parameters)
+        self.part = Box(self.own)
         self.shows = {p.name: [i for i in space.touched(c) if i in space.rows] for c in candidates for p in c.parameters}
         self.which = sorted({i for indices in self.shows.values() for i in indices})
         self.theta = dict(space.base.values)
@@ -92,6 +102,27 @@ class _Frozen:
         space, at = self.space, {**self.theta, **values}
         return np.column_stack(space.threads.map(lambda p: space.whiten(space.column(at, p, self.shows[p.name])), self.own))
 
+    def normal(self, columns: Floats) -> Floats:
+        """Normal matrix (p, p) of the effects' own parameters with the nuisances projected out and the priors, from ``columns`` (N, p)."""
+        cross = self.jacobian.T @ columns
+        found: Floats = columns.T @ columns - cross.T @ self.inverse @ cross + np.diag(self.part.precision)
+        return found
+
+    def gradient(self, values: Floats, residual: Floats, columns: Floats) -> Floats:
+        """Its right side (p,) at ``values`` (p,)."""
+        pull = self.part.prior_gradient(values)
+        found: Floats = columns.T @ residual - (self.jacobian.T @ columns).T @ self.inverse @ self.nuisance_gradient(residual) - pull
+        return found
+
+    def hopeless(self, values: Mapping[str, float], cost: float, residual: Floats, columns: Floats) -> bool:
+        """Whether a descent that stands here will not come below what it must."""
+        if not np.isfinite(self.least):
+            return False
+        scale = self.part.scale
+        gradient = scale * self.gradient(self.part.array(values), residual, columns)
+        promised = gradient @ np.linalg.pinv(self.normal(columns) * np.outer(scale, scale), rcond=1e-11, hermitian=True) @ gradient
+        return bool(cost - HOPE * promised > self.least)
+
     def nuisances_with(self, residual: Floats) -> dict[str, float]:
         """The nuisances that go with what the effects leave."""
         shift = self.inverse @ self.nuisance_gradient(residual)
@@ -103,8 +134,10 @@ def _search(
 ) -> tuple[dict[str, float], bool, Floats]:  # fmt: skip
     """The best optimum (values, whether it converged, columns) from ``starts``; ``widely`` also from other sizes and along its valley."""
 
+    own = Box(frozen.own)
+
     def cost(values: Mapping[str, float]) -> float:
-        return frozen.cost(values)[0]
+        return frozen.cost(values)[0] + own.prior_cost(own.array(values))
 
     found = [_descend(frozen, start) for start in starts]
     amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()
@@ -123,15 +156,14 @@ def _search(
 
 def _information(frozen: _Frozen, columns: Floats) -> Floats:
     """Information about the effect's own parameters, nuisances projected out, in units of their scale."""
-    cross = frozen.jacobian.T @ columns
-    scale = Box(frozen.own).scale
-    found: Floats = (columns.T @ columns - cross.T @ frozen.inverse @ cross) * np.outer(scale, scale)
+    part = frozen.part
+    found: Floats = (frozen.normal(columns) - np.diag(part.precision)) * np.outer(part.scale, part.scale)
     return found
 
 
 def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:
     """Levenberg-Marquardt within bounds over the effects' parameters: values, whether it converged, columns (N, p)."""
-    box = Box(frozen.own)
+    box = frozen.part
     x = box.array(values)
 
     def total(z: Floats) -> tuple[float, Floats]:
@@ -142,16 +174,17 @@ def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12)
     damping, converged = 1e-3, False
     c, fresh = frozen.columns(box.named(x)), True
     for _ in range(iterations):
-        cross = frozen.jacobian.T @ c
-        normal = c.T @ c - cross.T @ frozen.inverse @ cross + np.diag(box.precision)
-        gradient = c.T @ r - cross.T @ frozen.inverse @ frozen.nuisance_gradient(r) - box.prior_gradient(x)
+        if frozen.hopeless(box.named(x), cost, r, c):
+            break
+        normal, gradient = frozen.normal(c), frozen.gradient(x, r, c)
         better = False
         for _ in range(6):
             scaled = normal * np.outer(box.scale, box.scale)
             scaled = scaled + damping * np.diag(np.maximum(np.diag(scaled), 1e-9 * (np.max(np.diag(scaled)) + 1e-300)))
             step = box.step(x, scaled, gradient * box.scale)
             trial = np.clip(x + step, box.lower, box.upper)
-            new, new_r = total(trial)
+            with near(frozen.theta | box.named(x)):
+                new, new_r = total(trial)
             if np.isfinite(new) and new < cost:
                 better = True
                 break
@@ -198,7 +231,8 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
         step = box.step(x, normal, box.scale * (columns.T @ r - box.prior_gradient(x)))
         for part in (1.0, 0.4, 0.1):
             trial = np.clip(x + part * step, box.lower, box.upper)
-            new, new_r = cost_of(trial)
+            with near(box.named(x)):
+                new, new_r = cost_of(trial)
             if new < cost:
                 break
         gain = cost - new

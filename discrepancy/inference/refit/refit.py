@@ -57,28 +57,35 @@ class Refit:
 
 
 def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None,
-          widely: bool = False) -> Refit:  # fmt: skip
-    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts, ``widely`` of more."""
+          widely: bool = False, least: float = np.inf) -> Refit:  # fmt: skip
+    """Fits ``candidates`` together from the screening's starting points; the best of at most two starts, ``widely`` of more.
+
+    ``least``: see ``fit_effects``.
+    """
     first = {k: v for s in scores for k, v in s.start.items()}
     starts = [{**first, **(fixed or {})}]
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely))
+    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely, least))
 
 
-def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit) -> Refit:
-    """Adds response, gain and covariance to a fit."""
+def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit, covariance: Floats | None = None) -> Refit:
+    """Adds response, gain and ``covariance`` (p, p) to a fit; that of its own sensitivities where none is given."""
     own = {p.name: fit.values[p.name] for c in candidates for p in c.parameters}
     rest = {k: v for k, v in fit.values.items() if k not in own}
     which = [i for i in space.training if any(i in space.touched(c) for c in candidates)]
     high, low = space.predictions({**rest, **own}, which), space.predictions(rest, which)
     response = space.whiten({i: a - b for i, a, b in zip(which, high, low)})
+    return Refit(tuple(candidates), fit, space.base.chi2 - fit.chi2, response, covariance_of(fit) if covariance is None else covariance)
+
+
+def covariance_of(fit: Fit) -> Floats:
+    """Covariance (p, p) of all parameters by the fit's own sensitivities."""
     # scaled before inversion: units differ by orders of magnitude
     size = np.array([p.scale for p in fit.parameters])
     scaled = np.asarray(np.linalg.pinv(fit.normal * np.outer(size, size), rcond=1e-11, hermitian=True), dtype=float)
-    covariance = scaled * np.outer(size, size)
-    return Refit(tuple(candidates), fit, space.base.chi2 - fit.chi2, response, covariance)
+    return scaled * np.outer(size, size)
 
 
 def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation: float = 1.0) -> list[Estimate]:

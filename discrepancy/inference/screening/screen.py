@@ -24,6 +24,8 @@ DRAWS = 2000
 # An effect that stays below this many noise units even at the bounds of its parameters cannot be seen; what is left
 # of it in the predictions is rounding, which scaled up would fit anything.
 LEAST_REACH = 2.0
+# Cosine of changes that count as the same direction: a score is less by a twenty-fifth, and a refit finds the rest.
+STRAIGHT = 0.98
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class Screen:
 
 def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values: dict[str, float]) -> Columns:
     """Differences of the prediction by every candidate's amplitudes, over its shape grid."""
-    made = space.threads.map(lambda candidate: _blocks(space, candidate, values), candidates)
+    made = space.threads.told("screening", lambda candidate: _blocks(space, candidate, values), candidates, lambda candidate: candidate.name)
     stacks, blocks, width = [], [], 0
     for k, own in enumerate(made):
         for shape, block, signs in own:
@@ -85,21 +87,19 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
     found: list[tuple[dict[str, float], Floats, tuple[int, ...]]] = []
     if not which:
         return found
-    linear: bool | None = None
-    two_sided = any(p.sign == 0 for p in candidate.amplitudes)
+    linear = False
     for shape in candidate.shape_grid or ({},):
         at = {**values, **{p.name: p.off for p in candidate.shapes}, **shape}
-        # The small one is cheap, and enough where the large one showed the same at the first shape.
-        made = {} if linear else {TYPICAL: _block(space, candidate, at, which, TYPICAL)}
-        seen = which if linear else _seen(space, candidate, made[TYPICAL], which)
-        if seen:
-            made[SMALL] = _block(space, candidate, at, seen, SMALL)
-        if linear is None and seen:
-            linear = _same(made[TYPICAL], made[SMALL])
-            if linear:
-                del made[TYPICAL]
-        if not linear and two_sided:
-            made[-TYPICAL] = _block(space, candidate, at, which, -TYPICAL)
+        # What is straight at the first shape at which anything shows is straight at all.
+        if not linear:
+            glimpses = {size: _glimpse(space, candidate, at, which, size) for size in (TYPICAL, SMALL)}
+            linear = _reach(candidate, glimpses[TYPICAL]) > LEAST_REACH / 20.0 and bool(np.all(_alike(*glimpses.values()) > STRAIGHT))
+        made = {}
+        if not linear:
+            made[TYPICAL] = _typical(space, candidate, at, which, glimpses)
+        made[SMALL] = _block(space, candidate, at, which, SMALL)
+        if not linear and any(p.sign == 0 for p in candidate.amplitudes):
+            made[-TYPICAL] = _opposite(space, candidate, at, which, glimpses, made)
         for size, block in made.items():
             if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for _, other, _ in found):
                 continue
@@ -110,9 +110,28 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
     return found
 
 
-def _seen(space: Workspace, candidate: Candidate, block: Floats, which: list[int]) -> list[int]:
-    """Records in which a block shows anything at all at the bounds of its parameters."""
-    return [i for i in which if _reach(candidate, block[space.rows[i]]) > LEAST_REACH / 20.0]
+def _typical(space: Workspace, candidate: Candidate, at: Mapping[str, float], which: Sequence[int], glimpses: Mapping[float, Floats]) -> Floats:
+    """Columns over a typical amplitude, those of straight ones over the small one."""
+    sizes = np.where(_alike(glimpses[SMALL], glimpses[TYPICAL]) > STRAIGHT, SMALL, TYPICAL)
+    return np.column_stack([_column(space, p, at, which, float(size)) for p, size in zip(candidate.amplitudes, sizes)])
+
+
+def _opposite(space: Workspace, candidate: Candidate, at: Mapping[str, float], which: Sequence[int], glimpses: Mapping[float, Floats],
+              made: Mapping[float, Floats]) -> Floats:  # fmt: skip
+    """Columns over a typical amplitude to the other side: from what is known where a glimpse shows that they follow from it."""
+    other = _glimpse(space, candidate, at, which, -TYPICAL)
+
+    def combined(by_size: Mapping[float, Floats]) -> tuple[Floats, ...]:
+        # Straight on this side only; even; curved.
+        return by_size[SMALL], -by_size[TYPICAL], 2.0 * by_size[SMALL] - by_size[TYPICAL]
+
+    near = [_alike(other, glimpse) for glimpse in combined(glimpses)]
+    columns = []
+    for k, p in enumerate(candidate.amplitudes):
+        nearest = int(np.argmax([cosines[k] for cosines in near]))
+        follows = near[nearest][k] > STRAIGHT
+        columns.append(combined(made)[nearest][:, k] if follows else _column(space, p, at, which, -TYPICAL))
+    return np.column_stack(columns)
 
 
 def _reach(candidate: Candidate, block: Floats) -> float:
@@ -128,30 +147,38 @@ def _step(p: Parameter, size: float) -> float:
 
 
 def _block(space: Workspace, candidate: Candidate, at: Mapping[str, float], which: Sequence[int], size: float) -> Floats:
+    return np.column_stack([_column(space, p, at, which, size) for p in candidate.amplitudes])
+
+
+def _column(space: Workspace, p: Parameter, at: Mapping[str, float], which: Sequence[int], size: float) -> Floats:
+    """Whitened change (N,) over an amplitude of this ``size``, per scale of the parameter."""
+    step = _step(p, size)
+    if step == 0.0:
+        return np.zeros(space.size)
+    changes = space.predictions.changes({**at, p.name: p.off + step}, at, which, first_order=abs(size) == SMALL)
+    return space.whiten({i: change / step * p.scale for i, change in zip(which, changes)})
+
+
+def _glimpse(space: Workspace, candidate: Candidate, at: Mapping[str, float], which: Sequence[int], size: float) -> Floats:
+    """The same at a few places of the records, roughly in units of their noise: enough to compare directions."""
     columns = []
     for p in candidate.amplitudes:
         step = _step(p, size)
-        if step == 0.0:
-            columns.append(np.zeros(space.size))
-            continue
-        moved = {**at, p.name: p.off + step}
-        if abs(size) == SMALL:
-            high, low = space.predictions.beside(moved, at, which), space.predictions.beside(at, at, which)
-        else:
-            high, low = space.predictions(moved, which), space.predictions(at, which)
-        columns.append(space.whiten({i: (a - b) / step * p.scale for i, a, b in zip(which, high, low)}))
+        seen = space.predictions.glimpse({**at, p.name: p.off + step}, at, which, first_order=abs(size) == SMALL)
+        columns.append(seen / step * p.scale if step else np.zeros_like(seen))
     return np.column_stack(columns)
+
+
+def _alike(a: Floats, b: Floats) -> Floats:
+    """Cosines of the columns of two blocks; one for two columns of nothing."""
+    na, nb = np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0)
+    found: Floats = np.where((na == 0) & (nb == 0), 1.0, np.sum(a * b, axis=0) / np.maximum(na * nb, 1e-300))
+    return found
 
 
 def _same(a: Floats, b: Floats) -> bool:
     """Whether two blocks span the same directions, column by column."""
-    if a.shape != b.shape:
-        return False
-    na, nb = np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0)
-    if np.any((na == 0) != (nb == 0)):
-        return False
-    cosine = np.sum(a * b, axis=0) / np.maximum(na * nb, 1e-300)
-    return bool(np.all((cosine > 0.9995) | (na == 0)))
+    return a.shape == b.shape and bool(np.all(_alike(a, b) > 0.9995))
 
 
 def cone_statistic(scores: Floats, gram: Floats, signs: Sequence[int]) -> tuple[Floats, Floats]:
@@ -218,8 +245,10 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         candidate = candidates[block.candidate]
         if candidate.name in exclude:
             continue
-        statistic, amplitude = cone_statistic(everything[:, own], gram[own, own], block.signs)
-        shares = {c: float(np.trace(np.linalg.pinv(gram[own, own], rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
+        # An amplitude that is known beforehand to be small gains less.
+        known = gram[own, own] + np.diag([0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in candidate.amplitudes])
+        statistic, amplitude = cone_statistic(everything[:, own], known, block.signs)
+        shares = {c: float(np.trace(np.linalg.pinv(known, rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
         entry = results.setdefault(block.candidate, _Tested(np.zeros(draws + 1)))
         entry.sup = np.maximum(entry.sup, statistic)
         entry.starts.append((float(statistic[0]), index, amplitude[0]))
@@ -254,6 +283,16 @@ def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
     gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
     score = chosen.T @ fit.settled
     return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
+
+
+def bounded_gain(columns: Columns, fit: Fit, score: Score, amplitudes: Sequence[Parameter]) -> tuple[float, Floats]:
+    """Gain in chi-square of one effect alone, linear, with its amplitudes drawn into their bounds, and their sizes before."""
+    chosen = columns.values[:, columns.blocks[score.best_block].columns]
+    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    slope = chosen.T @ fit.settled
+    free = np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ slope
+    inside = np.clip(free, [(p.lower - p.off) / p.scale for p in amplitudes], [(p.upper - p.off) / p.scale for p in amplitudes])
+    return float(2.0 * inside @ slope - inside @ gram @ inside), free
 
 
 def _tail(value: float, sims: Floats, width: int, dof: float) -> float:

@@ -1,0 +1,86 @@
+"""Is it enough: what a fit leaves, what runs say that were not used, and by how much that widens intervals."""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.held_out.consistency import lack_of_fit
+from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
+from discrepancy.inference.misfit.localise import Localisation, Localiser
+from discrepancy.inference.refit.refit import Refit, leave_condition_out
+
+
+def against(judged: HeldOut | None) -> str:
+    """What runs that were not fitted say against what is named; empty if nothing."""
+    if judged is None:
+        return ""
+    if judged.after > max(judged.before, WITHIN_NOISE):
+        return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
+    if judged.p_after < 0.0005 and judged.after > 1.5:
+        return f"runs that were not used are not explained: their error is {judged.after:.2f} after {judged.before:.2f}, with 1 for noise alone"
+    return ""
+
+
+def widening(over: bool, inflation: float) -> float:
+    """Of intervals, for a misfit that is ``over`` the noise by this factor in chi-square; twice at most."""
+    return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+
+
+class Judgement:
+    """Judges fits on the runs that were fitted and on those that were not; ``level`` is that of what a fit leaves."""
+
+    # Localisation of the base model's misfit.
+    localisation: Localisation
+
+    def __init__(self, space: Workspace, orders: Mapping[str, Sequence[float]], level: float):
+        self.space, self.orders, self.level = space, orders, level
+        self.inflations: dict[frozenset[str], float] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the large tables of its tests, which are made anew where they are asked for."""
+        return {k: v for k, v in self.__dict__.items() if k != "localiser"}
+
+    @cached_property
+    def localiser(self) -> Localiser:
+        return Localiser(self.space, self.orders)
+
+    def leftover(self, result: Refit) -> tuple[bool, float, dict[str, Any], float]:
+        """Whether ``result`` leaves a significant misfit, its size, what it is, and its inflation."""
+        local = self.localiser.test(result.fit, self.level)
+        shape = lack_of_fit(self.space, result)
+        worst: dict[str, float] = {}
+        inflation = 1.0
+        for g in local.findings:
+            worst[g.signal] = max(worst.get(g.signal, 0.0), g.statistic - g.width)
+            inflation = max(inflation, g.statistic / g.width)
+        failing = {k: v for k, v in shape.items() if v[2] < self.level}
+        size = max(sum(worst.values()), max((s - w for s, w, _ in failing.values()), default=0.0))
+        inflation = max([inflation, *(s / w for s, w, _ in failing.values())])
+        text: dict[str, Any] = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
+                "dependence": {k: {"statistic": s, "width": w, "p": p} for k, (s, w, p) in shape.items()}}
+        return bool(worst or failing), size, text, inflation
+
+    def inflation(self, result: Refit) -> float:
+        """By how much the intervals of ``result`` widen for a misfit that it leaves."""
+        key = frozenset(c.name for c in result.candidates)
+        if key not in self.inflations:
+            over, _, _, inflation = self.leftover(result)
+            self.inflations[key] = widening(over, inflation)
+        return self.inflations[key]
+
+    def held_out(self, rivals: Sequence[Refit]) -> HeldOutJudge:
+        """A judge over runs that were not used, in directions that these have in common."""
+        return HeldOutJudge(self.space, self.localisation, rivals, self.orders)
+
+    def foretells(self, joint: Refit, current: Refit) -> bool:
+        """Whether runs that were not fitted, or conditions left out in turn, are nearer to ``joint`` than to what there is already."""
+        if self.space.held_out:
+            judge = self.held_out([joint, current])
+            after, before = judge.judge(joint), judge.judge(current)
+            if after is not None and before is not None:
+                return after.after < before.after
+        left = [sum(leave_condition_out(self.space, r.fit).values()) for r in (joint, current)]
+        return left[0] < left[1]

@@ -1,0 +1,62 @@
+"""The refits of one diagnosis, each made once: roughly while effects are looked for, in earnest for what is reported."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.curvature import covariance_by_secants
+from discrepancy.inference.refit.effect_fit import renew
+from discrepancy.inference.refit.refit import Refit, finished, refit
+from discrepancy.inference.screening.screen import Score
+from discrepancy.problem import Candidate
+
+
+class Refits:
+    """``fitted`` by the names of the effects, ``final_fits`` of them those that are reported; ``scores`` say where a fit starts."""
+
+    def __init__(self, space: Workspace, candidates: Sequence[Candidate]):
+        self.space = space
+        self.by_name = {c.name: c for c in candidates}
+        self.scores: Mapping[str, Score] = {}
+        self.fitted: dict[frozenset[str], Refit] = {}
+        self.final_fits: dict[frozenset[str], Refit] = {}
+        self.widely: set[frozenset[str]] = set()
+
+    def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
+            least: float = np.inf) -> Refit:  # fmt: skip
+        """Joint refit of the named effects, remembered; by rough predictions until it is ``renewed``.
+
+        What will not come below the chi-square ``least`` is left where that became clear.
+        """
+        key = frozenset(names)
+        if key not in self.fitted:
+            found = list(scores or [self.scores[n] for n in names if n in self.scores])
+            with self.space.predictions.roughly():
+                self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start, least=least)
+        return self.fitted[key]
+
+    def widened(self, result: Refit, least: float = np.inf) -> Refit:
+        """The fit from other starts too, if one of them is better: for those that may be named."""
+        key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
+        if key not in self.widely and key not in self.final_fits:
+            self.widely.add(key)
+            with self.space.predictions.roughly():
+                other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
+            self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
+        return self.fitted[key]
+
+    def final(self, names: Sequence[str]) -> Refit:
+        """The fit of the named effects as it is reported, wherever."""
+        return self.renewed(self.widened(self.fit(names)))
+
+    def renewed(self, result: Refit) -> Refit:
+        """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
+        key = frozenset(c.name for c in result.candidates)
+        if key in self.final_fits:
+            return self.final_fits[key]
+        self.space.predictions.settle(result.fit.values)
+        fit = renew(self.space, result.fit, result.candidates)
+        better = finished(self.space, result.candidates, fit, covariance_by_secants(self.space, fit, result.candidates))
+        self.fitted[key] = self.final_fits[key] = better
+        return better

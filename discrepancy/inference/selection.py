@@ -1,0 +1,222 @@
+"""Which effects are fitted, alone and together: what may win alone, further ones beside it, and what each could be replaced by."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.judgement import Judgement
+from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised, price
+from discrepancy.inference.refit.refit import Refit, drop_cost
+from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain, joint_gain, screen
+from discrepancy.inference.verdict import Settings
+from discrepancy.problem import BASE, Candidate
+
+# What has a name and leads to a refit.
+Named = TypeVar("Named", Score, Refit)
+
+# Refits are dear: what a linear estimate leaves this far behind is not tried.
+HOPELESS = 0.35
+HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
+# Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
+FAR_SHORT = 0.2
+# A one-sided effect whose score is below this chi-square may begin with no slope; so many of them are tried beside others.
+SEEN_AT_ONCE, MOST_THRESHOLDS = 4.0, 3
+# So many further effects are tried beside what is there already.
+MOST_TRIALS = 7
+# So many of the best fits are looked for from other starts too.
+FOREMOST = 2
+# What rough predictions may add to a chi-square, of what is gained.
+ROUGH = 0.02
+# An effect that is this many times as needed as it must be is kept without a refit of the others.
+SURELY = 3.0
+
+
+def few_of_each(scores: Sequence[Score]) -> list[Score]:
+    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects.
+
+    Numbers of the base model are no variants of each other.
+    """
+    counts: dict[str, int] = {}
+    kept = []
+    for s in scores:
+        effect = s.name if s.name.startswith(BASE) else s.name.partition(".")[0]
+        counts[effect] = counts.get(effect, 0) + 1
+        if counts[effect] <= 2:
+            kept.append(s)
+    return kept
+
+
+def foremost(trials: Sequence[Refit]) -> Refit:
+    """The best of joint fits, those whose newest effect ends at a bound after all others."""
+    return min([t for t in trials if not newest_at_a_bound(t)] or trials, key=penalised)
+
+
+class Selection:
+    """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
+
+    def __init__(self, candidates: Sequence[Candidate], columns: Columns, screening: Screen, refits: Refits, judgement: Judgement, settings: Settings):
+        self.candidates, self.columns, self.screening = candidates, columns, screening
+        self.refits, self.judgement, self.settings = refits, judgement, settings
+        self.scores = {s.name: s for s in screening.scores}
+        self.space: Workspace = refits.space
+
+    # one ----------------------------------------------------------------------------------
+    def singles(self) -> list[Refit]:
+        """Refits of the candidates that may win alone."""
+        scores = [s for s in self.screening.scores if s.p_single < 0.05]
+        if not scores:
+            return []
+        top = scores[0].statistic
+        chosen = self.first_tried([s for s in scores if s.statistic >= 0.35 * top], top)
+        for s in sorted(scores, key=lambda s: s.p_single)[:2]:
+            if s not in chosen:
+                chosen.append(s)
+        fits = sorted(self.race("fitting alone", chosen), key=penalised)
+        # Of the best effect all forms that show as much: five springs look alike in a loop.
+        best = fits[0].candidates[0].name
+        enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
+        twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
+        fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
+        widened = partial(self.refits.widened, least=self.near(fits[0]))
+        fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        near = self.near(fits[0])
+        fits = [*self.tried("fitting in earnest", self.refits.renewed, [f for f in fits if f.fit.chi2 < near]), *[f for f in fits if f.fit.chi2 >= near]]
+        return sorted(fits, key=penalised)
+
+    def first_tried(self, scores: list[Score], top: float) -> list[Score]:
+        """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
+        near = 4 * self.settings.margin + ROUGH * top
+        alike = [s for s in scores if s.statistic >= top - near]
+        if len(few_of_each(alike)) <= self.settings.shortlist:
+            return few_of_each(scores)[: self.settings.shortlist]
+        promise = {s.name: self.promise(s) for s in alike}
+        likely = [s for s in alike if promise[s.name] >= max(promise.values()) - near]
+        return few_of_each(sorted(likely, key=lambda s: -promise[s.name]))
+
+    def promise(self, score: Score) -> float:
+        """What an effect could gain within its bounds if it were linear, less the price of its parameters and of an implausible size."""
+        candidate = self.refits.by_name[score.name]
+        gain, sizes = bounded_gain(self.columns, self.space.base, score, candidate.amplitudes)
+        return gain - price(candidate, sizes)
+
+    def race(self, what: str, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
+        """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""
+
+        def one(least: float, score: Score) -> Refit:
+            return self.refits.fit([*names, score.name], own, [score], least)
+
+        ahead = self.tried(what, partial(one, np.inf), scores[:2])
+        if len(scores) < 3:
+            return ahead
+        best = min(ahead, key=penalised)
+        least = self.near(best) + penalised(best) - best.fit.chi2
+        return [*ahead, *self.tried(f"{what}, those further behind", partial(one, least), scores[2:])]
+
+    def near(self, best: Refit) -> float:
+        """Chi-square below which a rough fit may be as good as ``best``."""
+        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
+
+    def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
+        """``function`` of every score or refit, told as it goes."""
+        return self.space.threads.told(what, function, items, lambda item: item.name)
+
+    # several ------------------------------------------------------------------------------
+    def several(self, best: Refit, calibrated: int = 0) -> Refit:
+        """Forward selection with a backward check; what counts is what a further effect gains of that which is left.
+
+        ``calibrated`` of the effects in ``best`` do not count towards the most that are looked for.
+        """
+        settings, current = self.settings, best
+        while len(current.candidates) < settings.most_effects + calibrated:
+            names = [c.name for c in current.candidates]
+            more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
+            promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
+            least, lenient = self.least_gain(current, best)
+            promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
+            if lenient:
+                promising += self.thresholds(more, [*names, *(s.name for s in promising)])
+            if not promising:
+                break
+            own = {p.name: current.fit.values[p.name] for p in current.own}
+            trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
+            # exchange of an earlier member: the first choice was made without the second
+            challenger = foremost(trials)
+            newest = challenger.candidates[-1].name
+            if len(names) == 1:
+                trials += self.exchanged(names[0], newest, challenger.gain)
+            challenger = self.tried("fitting in earnest", self.refits.renewed, [foremost(trials)])[0]
+            extra = current.fit.chi2 - challenger.fit.chi2
+            if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
+                break
+            if lenient and not self.judgement.foretells(challenger, current):
+                break
+            current = self.backward(challenger, least)
+            if len(current.candidates) <= len(names):
+                break
+        return current
+
+    def exchanged(self, first: str, newest: str, gain: float) -> list[Refit]:
+        """Fits of the newest effect beside others than the first that may gain as much together."""
+        return [
+            self.refits.fit([other.name, newest]) for other in few_of_each(self.screening.scores)[:5]
+            if other.name not in (first, newest) and frozenset([other.name, newest]) not in self.refits.fitted
+            and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
+        ]  # fmt: skip
+
+    def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
+        """Effects that begin with no slope (play): beside others a score test may not see them, so they are tried at their typical size."""
+        found = []
+        for s in more.scores:
+            c = self.refits.by_name[s.name]
+            alone = len(c.amplitudes) == 1 and c.amplitudes[0].sign != 0 and not c.shapes
+            if alone and s.name not in known and s.statistic < SEEN_AT_ONCE:
+                p = c.amplitudes[0]
+                found.append(dataclasses.replace(s, start={p.name: p.off + p.sign * p.scale}))
+        return found[:MOST_THRESHOLDS]
+
+    def least_gain(self, current: Refit, first: Refit) -> tuple[float, bool]:
+        """What a further effect must gain, and whether that is less than a fixed part of the first: then it must be seen elsewhere too."""
+        fixed = max(self.settings.second_gain * first.gain, 12.0)
+        over, left, _, _ = self.judgement.leftover(current)
+        if not over:
+            return fixed, False
+        needed = max(self.settings.needed * left, 12.0)
+        return min(fixed, needed), needed < fixed
+
+    def backward(self, joint: Refit, least: float) -> Refit:
+        """Drops members without which the fit is hardly worse."""
+        names = [c.name for c in joint.candidates]
+        for name in names:
+            rest = [n for n in names if n != name]
+            if not rest:
+                continue
+            if drop_cost(joint, self.refits.by_name[name]) > SURELY * least:
+                continue
+            without = self.refits.renewed(self.refits.fit(rest))
+            if without.fit.chi2 - joint.fit.chi2 < least:
+                return self.backward(without, least)
+        return joint
+
+    # in place of --------------------------------------------------------------------------
+    def adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
+        """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
+        least = penalised(members[0])
+        margin = self.settings.adequate_margin + FORM * max(members[0].gain, 0.0)
+        near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
+        return [r for r in near if not self.judgement.leftover(r)[0]]
+
+    def stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
+        """Effects that could replace ``member`` beside the others."""
+        rest = [c.name for c in final.candidates if c is not member]
+        rest_fit = self.refits.fit(rest)
+        more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
+        own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
+        needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
+        chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
+        rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s]), chosen)
+        return [s.name for s, rival in zip(chosen, rivals) if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2]

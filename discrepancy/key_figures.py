@@ -1,0 +1,228 @@
+"""What every test engineer reads first: stiffness by branch, lost motion, width of the loop, run-outs, transmission error by order.
+
+Each figure is read in one way from what was measured and from what the model predicts at the same samples; its noise is what
+repetitions differ by, or what the noise of the samples makes of it where there are none.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from scipy.signal import lfilter
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.prediction.support import reversals
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+from studies.hysteresis import LOST_MOTION_SHARE
+
+STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "width of the loop", "peak to peak"
+# Stiffness is that between half and all of the torque, as catalogues and GB/T 35089 have it; the width that up to half of it.
+FROM = 0.5
+# So many torques at which the two ways of a loop are held against each other, and draws of noise where nothing is repeated.
+TORQUES, DRAWS = 21, 25
+# The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
+# calibrates first is fitted before anything else is looked for.
+SOFTER, CLEARLY = 1.5, 5.0
+SPRINGS, FRICTION, PLAY = ("support_compliance",), ("stribeck_friction", "support_hysteresis", "drive_friction"), ("first_stage_play", "output_play")
+# Orders higher than this share of what the samples resolve are not read.
+RESOLVED = 0.9
+
+# Reads figures by name from values (n,) of a record.
+Reading = Callable[[Floats], dict[str, float]]
+
+
+@dataclass(frozen=True)
+class KeyFigure:
+    """One figure of a signal at a condition in ``unit`` (SI): measured and of the model, ``noise`` the standard deviation of the first."""
+
+    signal: str
+    condition: str
+    name: str
+    unit: str
+    measured: float
+    model: float
+    noise: float
+    runs: int
+    repeated: bool
+
+    @property
+    def off(self) -> float:
+        """Difference in times its noise."""
+        return (self.measured - self.model) / self.noise if self.noise > 0.0 else 0.0
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self) | {"off": self.off}
+
+
+def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping[str, Sequence[float]], rated: float) -> list[KeyFigure]:
+    """All figures of all signals; ``predictions`` by record, ``rated`` torque [N m]."""
+    groups: dict[tuple[str, str], list[int]] = defaultdict(list)
+    for i, record in enumerate(space.records):
+        groups[stream_of(record), record.condition].append(i)
+    readings = {key: [reading_of(space.records[i], orders, rated) for i in indices] for key, indices in groups.items()}
+    measured = {key: [r(np.asarray(space.records[i].values, float)) for i, r in zip(groups[key], own)] for key, own in readings.items()}
+    spread = between_runs(measured)
+    found = []
+    for (signal, condition), own in measured.items():
+        indices, reading = groups[signal, condition], readings[signal, condition]
+        names = [name for name in own[0] if all(name in run for run in own)]
+        if not names:
+            continue
+        drawn = with_noise(space, indices[0], predictions[indices[0]], reading[0])
+        for name in names:
+            values = [run[name] for run in own]
+            by_samples = np.array([d.get(name, np.nan) for d in drawn])
+            noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples)))
+            # Noise widens a span and lengthens an amplitude, whatever is measured.
+            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in LOOP_UNITS else by_samples
+            found.append(KeyFigure(signal, condition, name, LOOP_UNITS.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
+                                   noise / np.sqrt(len(values)), len(values), (signal, name) in spread))  # fmt: skip
+    return found
+
+
+def calibrated_first(figures: Sequence[KeyFigure]) -> list[str]:
+    """Effects that the key figures call for by name where the base is stiffer by a factor: springs, friction of an open loop, play."""
+    clear = [f for f in figures if abs(f.off) > CLEARLY]
+    if not any(f.name == STIFFNESS and f.model > SOFTER * f.measured for f in clear):
+        return []
+    wide = any(f.name == WIDTH and f.off > 0.0 for f in clear)
+    lost = any(f.name == LOST_MOTION and f.off > 0.0 for f in clear)
+    return [*SPRINGS, *(FRICTION if wide else ()), *(PLAY if lost else ())]
+
+
+def between_runs(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]]]) -> dict[tuple[str, str], float]:
+    """Standard deviation of one run's figure, by signal and figure, over all conditions with repetitions; robust against one that is off."""
+    deviations: dict[tuple[str, str], list[float]] = defaultdict(list)
+    for (signal, _), runs in measured.items():
+        for name in runs[0] if len(runs) > 1 else ():
+            values = np.array([run[name] for run in runs if name in run])
+            if len(values) > 1:
+                deviations[signal, name] += list((values - np.median(values)) * np.sqrt(len(values) / (len(values) - 1)))
+    return {key: robust(np.array(v)) for key, v in deviations.items()}
+
+
+def robust(deviations: Floats) -> float:
+    """Root mean square without those beyond three times the median size."""
+    sizes = np.abs(deviations)
+    kept = sizes <= 3.0 * max(1.4826 * float(np.median(sizes)), 1e-300)
+    return float(np.sqrt(np.mean(deviations[kept] ** 2))) if kept.any() and np.any(deviations[kept]) else float(np.sqrt(np.mean(deviations**2)))
+
+
+def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) -> list[dict[str, float]]:
+    """Figures of the model as they would be read with the noise of a run's samples, drawn several times."""
+    whitener = space.noise.whiteners[i]
+    stream = space.noise.streams[whitener.quantity]
+    scale = float(np.median(whitener.scale))
+    position = position_of(space.records[i])
+    spacing = float(np.median(np.abs(np.diff(position)))) if len(position) > 1 else 1.0
+    rho = float(np.exp(-spacing / stream.length)) if stream.length > 0.0 else 0.0
+    random = np.random.default_rng(0)
+    found = []
+    for _ in range(DRAWS):
+        slow = lfilter([np.sqrt(1.0 - rho**2)], [1.0, -rho], random.standard_normal(len(predicted)))
+        noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(predicted)))
+        found.append(reading(predicted + noise))
+    return found
+
+
+def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: float) -> Reading:
+    """How figures are read from values of a record, from the samples that it has."""
+    good = np.isfinite(record.values)
+    if record.quantity == "hysteresis" and "torque" in record.axes:
+        torque = np.asarray(record.axes["torque"], float)[good]
+        return lambda values: of_loop(torque, values[good], rated)
+    if record.quantity == "transmission_error" and "angle" in record.axes:
+        by_orders = orders_over(np.asarray(record.axes["angle"], float)[good], orders)
+        return lambda values: by_orders(values[good])
+    return lambda _: {}
+
+
+# loops ------------------------------------------------------------------------------------
+BRANCHES = {(1, True): "forward, loading", (1, False): "forward, unloading", (-1, True): "backward, loading", (-1, False): "backward, unloading"}
+LOOP_UNITS = {
+    STIFFNESS: "N.m/rad", **{f"{STIFFNESS}, {branch}": "N.m/rad" for branch in BRANCHES.values()}, LOST_MOTION: "rad", WIDTH: "rad",
+}  # fmt: skip
+
+
+def of_loop(torque: Floats, turning: Floats, rated: float) -> dict[str, float]:
+    """Figures of turning [rad] along torques [N m] in their order."""
+    if len(torque) < 4:
+        return {}
+    most = float(np.abs(torque).max())
+    rising = ways(torque)
+    found = {}
+    slopes = []
+    for (sign, loading), name in BRANCHES.items():
+        rows = (sign * torque >= FROM * most) & (rising == (loading == (sign > 0)))
+        if rows.sum() >= 2 and np.ptp(torque[rows]) > 0.2 * most:
+            slope = float(np.polyfit(torque[rows], turning[rows], 1)[0])
+            if slope > 0.0:
+                slopes.append(slope)
+                found[f"{STIFFNESS}, {name}"] = 1.0 / slope
+    if slopes:
+        found[STIFFNESS] = 1.0 / float(np.mean(slopes))
+    up, down = (branch(torque[rows], turning[rows]) for rows in (rising, ~rising))
+    if up is not None and down is not None:
+        small = LOST_MOTION_SHARE * rated
+        low, high = (max(b[0][0] for b in (up, down)), min(b[0][-1] for b in (up, down)))
+        if low <= -small and high >= small:
+            middle = [0.5 * (np.interp(t, *up) + np.interp(t, *down)) for t in (-small, small)]
+            found[LOST_MOTION] = float(middle[1] - middle[0])
+        at = np.linspace(max(low, -FROM * most), min(high, FROM * most), TORQUES)
+        if at[-1] > at[0]:
+            found[WIDTH] = float(np.mean(np.interp(at, *down) - np.interp(at, *up)))
+    return found
+
+
+def ways(torque: Floats) -> np.ndarray:
+    """Whether the torque rises at each sample (n,), between the places where it turns back for good."""
+    rising = np.zeros(len(torque), dtype=bool)
+    for begin, end in pairwise(reversals(torque)):
+        rising[begin if begin == 0 else begin + 1 : end + 1] = torque[end] > torque[begin]
+    return rising
+
+
+def branch(torque: Floats, turning: Floats) -> tuple[Floats, Floats] | None:
+    """Turning over rising torques, means where one is met again."""
+    if len(torque) < 2:
+        return None
+    levels, place = np.unique(torque, return_inverse=True)
+    return levels, np.bincount(place, turning) / np.bincount(place)
+
+
+# transmission error -----------------------------------------------------------------------
+def resolved(angle: Floats, orders: Mapping[str, Sequence[float]]) -> dict[str, tuple[float, ...]]:
+    """Families of orders as far as the samples over the angle [rad] show them."""
+    turns = float(np.ptp(angle)) / (2.0 * np.pi)
+    highest = RESOLVED * np.pi / max(float(np.median(np.abs(np.diff(angle)))), 1e-12)
+    inside = {name: tuple(o for o in family if 0.9 / max(turns, 1e-9) <= o <= highest) for name, family in orders.items()}
+    return {name: family for name, family in inside.items() if family}
+
+
+def name_of(name: str, family: Sequence[float]) -> str:
+    return f"{name}, order{'s' if len(family) > 1 else ''} {', '.join(f'{o:.4g}' for o in family)}"
+
+
+def orders_over(angle: Floats, orders: Mapping[str, Sequence[float]]) -> Reading:
+    """Span, and amplitude of each family [rad] (root of the sum of squares of its orders), of a transmission error over the angle [rad]."""
+    if len(angle) < 2:
+        return lambda _: {}
+    families = resolved(angle, orders)
+    every = list(dict.fromkeys(o for family in families.values() for o in family))
+    basis = np.column_stack([np.ones(len(angle)), *(f(o * angle) for o in every for f in (np.cos, np.sin))])
+    inverse = np.linalg.pinv(basis) if len(basis) > basis.shape[1] else None
+
+    def read(error: Floats) -> dict[str, float]:
+        found = {SPAN: float(np.ptp(error))}
+        if inverse is None:
+            return found
+        parts = inverse @ error
+        squares = {o: float(parts[1 + 2 * k] ** 2 + parts[2 + 2 * k] ** 2) for k, o in enumerate(every)}
+        return found | {name_of(name, family): float(np.sqrt(sum(squares[o] for o in family))) for name, family in families.items()}
+
+    return read

@@ -1,0 +1,119 @@
+"""Key figures: stiffness, lost motion, width of a loop and transmission error by order, measured against the model, with their noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
+from discrepancy.problem import Candidate, Parameter, Record
+from studies.hysteresis import torque_way
+
+ORDERS = {"output shaft": (1.0, 2.0), "ring pins": (78.0,), "sun": (121.0,), "first mesh": (1440.0,)}
+RATED = 167.0
+WAY = torque_way(RATED, 40)[1:]
+ANGLE = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
+
+
+def loop(way, compliance=2e-6, play=0.0, width=0.0):
+    """Turning of a spring beside play, open by ``width`` between falling and rising torque."""
+    rising = ways(way)
+    return compliance * way + 0.5 * play * np.sign(way) - np.where(rising, 0.5, -0.5) * width
+
+
+@dataclass
+class Bench:
+    """Loops and transmission errors of a reducer with a spring, friction's width and an error of the ring that the spring makes smaller."""
+
+    records: list
+    nuisances: tuple = ()
+    candidates: tuple = (
+        Candidate("support_compliance.housing", "spring", (Parameter("spring", "rad/(N.m)", 0.0, 0.0, 1e-4, 1e-6, 1),), signals=("hysteresis", "transmission_error")),
+        Candidate("stribeck_friction.mesh", "friction", (Parameter("width", "rad", 0.0, 0.0, 1e-3, 1e-5, 1),), signals=("hysteresis",)),
+        Candidate("pin_position_errors", "ring", (Parameter("ring", "rad", 0.0, -1e-3, 1e-3, 1e-5),), signals=("transmission_error",)),
+        Candidate("other", "other", (Parameter("other", "rad", 0.0, -1e-3, 1e-3, 1e-5),), signals=("transmission_error",)),
+    )
+
+    def predict(self, values, which=None):
+        return [self.one(self.records[i], values) for i in (range(len(self.records)) if which is None else which)]
+
+    def one(self, record, v):
+        if record.quantity == "hysteresis":
+            return loop(WAY, 5e-7 + v.get("spring", 0.0), width=v.get("width", 0.0))
+        load = record.factors["load"]
+        soft = 5e-7 / (5e-7 + v.get("spring", 0.0))
+        return 1e-6 * np.cos(ANGLE) + v.get("ring", 0.0) * soft * np.cos(78 * ANGLE) + v.get("other", 0.0) * np.cos(79 * ANGLE) * load / RATED
+
+
+def bench(truth, noise=(3e-6, 5e-7)):
+    random = np.random.default_rng(2)
+    records = [Record(f"loop{t}/{k}", "hysteresis", "rad", f"{t}", k, np.zeros(len(WAY)), {"torque": WAY}, {"temperature": t}) for t in (293.0, 313.0) for k in (1, 2)]
+    records += [Record(f"te{t}/{k}", "transmission_error", "rad", f"{t}", k, np.zeros(400), {"angle": ANGLE}, {"load": t}) for t in (60.0, 110.0, 167.0) for k in (1, 2)]
+    model = Bench(records)
+    values = [y + noise[r.quantity != "hysteresis"] * random.standard_normal(len(y)) for r, y in zip(records, model.predict(truth))]
+    model.records = [Record(**{**r.__dict__, "values": y}) for r, y in zip(records, values)]
+    return model
+
+
+def test_figures_of_a_loop():
+    found = of_loop(WAY, loop(WAY, 2e-6, play=3e-5, width=1e-5), RATED)
+    assert found[STIFFNESS] == pytest.approx(5e5, rel=1e-6)
+    assert all(found[f"{STIFFNESS}, {name}"] == pytest.approx(5e5, rel=1e-6) for name in ("forward, loading", "backward, unloading"))
+    assert found[LOST_MOTION] == pytest.approx(3e-5 + 0.06 * RATED * 2e-6, rel=0.02)
+    assert found[WIDTH] == pytest.approx(1e-5, rel=0.02)
+    # A ramp to one side has a stiffness and no lost motion.
+    ramp = np.concatenate([np.linspace(1.0, 100.0, 50), np.linspace(99.0, 1.0, 49)])
+    one_side = of_loop(ramp, loop(ramp), RATED)
+    assert one_side[STIFFNESS] == pytest.approx(5e5, rel=1e-6) and LOST_MOTION not in one_side
+
+
+def test_stiffness_of_each_branch_is_its_own():
+    forward = np.where(WAY > 0.0, 1.0, 2.0) * loop(WAY, 1e-6)
+    found = of_loop(WAY, forward, RATED)
+    assert found[f"{STIFFNESS}, forward, loading"] == pytest.approx(1e6) and found[f"{STIFFNESS}, backward, loading"] == pytest.approx(5e5)
+
+
+def test_amplitudes_of_orders_that_are_resolved():
+    error = 2e-6 * np.cos(ANGLE + 0.3) + 1e-6 * np.sin(2 * ANGLE) + 3e-6 * np.cos(78 * ANGLE)
+    found = orders_over(ANGLE, ORDERS)(error)
+    assert found["output shaft, orders 1, 2"] == pytest.approx(np.hypot(2e-6, 1e-6)) and found["ring pins, order 78"] == pytest.approx(3e-6)
+    assert not any("first mesh" in name for name in found)
+
+
+def test_figures_hold_what_was_measured_against_the_model_with_noise():
+    model = bench({"spring": 4e-6, "width": 2e-5})
+    space = Workspace(model)
+    space.fit_base()
+    found = {(f.signal, f.condition, f.name): f for f in key_figures(space, model.predict({}), ORDERS, RATED)}
+    stiffness = found["hysteresis", "293.0", STIFFNESS]
+    assert abs(stiffness.measured - 1.0 / 4.5e-6) < 4.0 * stiffness.noise and stiffness.model == pytest.approx(2e6)
+    assert stiffness.off < -20.0 and stiffness.runs == 2 and stiffness.repeated
+    width = found["hysteresis", "313.0", WIDTH]
+    assert abs(width.measured - 2e-5) < 4.0 * width.noise and width.off > 10.0
+    # What noise makes of an amplitude that is not there is no difference to the model.
+    assert all(abs(f.off) < 5.0 for f in found.values() if f.signal == "transmission_error")
+    assert stiffness.as_json()["off"] == stiffness.off
+
+
+def figure(name, measured, model, noise):
+    return KeyFigure("hysteresis", "a", name, "rad", measured, model, noise, 2, True)
+
+
+def test_springs_friction_and_play_come_first_where_the_base_is_stiffer_by_a_factor():
+    soft, wide = figure(STIFFNESS, 1.0, 8.0, 0.1), figure(WIDTH, 1.0, 0.0, 0.1)
+    assert calibrated_first([soft]) == ["support_compliance"]
+    assert {"support_compliance", "stribeck_friction", "drive_friction"} <= set(calibrated_first([soft, wide]))
+    assert "first_stage_play" in calibrated_first([soft, figure(LOST_MOTION, 1.0, 0.2, 0.01)])
+    assert calibrated_first([figure(STIFFNESS, 1.0, 1.2, 0.01), wide]) == []
+    assert calibrated_first([figure(STIFFNESS, 1.0, 8.0, 3.0)]) == []
+
+
+def test_what_is_left_is_looked_for_beside_the_calibrated_base():
+    # Beside the spring the ring's error shows ten times smaller than beside the base model: its size is right only if looked for there.
+    doctor = Diagnostician(bench({"spring": 4.5e-6, "width": 2e-5, "ring": 1e-5}), orders=ORDERS)
+    found = doctor.run(first=["support_compliance", "stribeck_friction"])
+    assert {e.name for e in found.effects} == {"support_compliance.housing", "stribeck_friction.mesh", "pin_position_errors"}
+    ring = next(e for e in found.effects if e.name == "pin_position_errors").parameters["ring"]
+    assert ring["interval"][0] < 1e-5 < ring["interval"][1] and found.verdict == "several effects"
