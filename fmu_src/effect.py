@@ -21,7 +21,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from fmu_src.effect_check import OWN
+from fmu_src.effect_check import OWN, is_name
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
@@ -127,8 +127,8 @@ def effect_modules(package: str) -> dict[str, ModuleType]:
     for _, file in user_effect_files(package.partition(".")[0]):
         if str(file.parent) not in parent.__path__:
             parent.__path__.append(str(file.parent))
-        if file.stem.isidentifier() and file.stem not in {*own, "__init__"}:
-            with suppress(Exception):
+        if is_name(file.stem) and file.stem not in {*own, "__init__"}:
+            with suppress(Exception, SystemExit):
                 module = importlib.import_module(f"{package}.{file.stem}")
                 if isinstance(module.EFFECT, Effect):
                     modules[file.stem] = module

@@ -19,6 +19,7 @@ from pathlib import Path
 import fmpy
 
 from fmu_src.audit import require_only_system_libraries
+from fmu_src.glibc import LINK_FLAGS, can_name_versions, old_mathematics
 from fmu_src.native import NativeFault
 
 SHELL = Path(__file__).parent / "shell"
@@ -104,9 +105,12 @@ def compiled(name: str, files: dict[str, bytes], arguments: list[str], target: P
         folder = Path(temporary)
         for file, content in files.items():
             (folder / file).write_bytes(content)
-        library = f"{name}{target.suffix}"
-        link = [flag.format(file=library) for flag in target.link_flags]
-        command = [*compiler(target, portable), *arguments, "-o", library, *link]
+        library, link, driver = f"{name}{target.suffix}", list(target.link_flags), compiler(target, portable)
+        if can_name_versions(target.name) and "-target" not in driver:
+            # zig is told the C library's version in its target.
+            (folder / "old_mathematics.c").write_text(old_mathematics(target.name), encoding="utf-8")
+            link = ["old_mathematics.c", *link, *LINK_FLAGS]
+        command = [*driver, *arguments, "-o", library, *(flag.format(file=library) for flag in link)]
         done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise NativeFault(f"{name} for {target.name}: {command[0]} failed: {done.stderr.strip()[-2000:]}")

@@ -22,6 +22,7 @@ from fmpy.model_description import ValidationError
 from fmpy.validation import validate_model_description
 
 from fmu_src.capabilities import declare
+from fmu_src.checked_file import replacing
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
 from fmu_src.faults import InputFault, RunFault
@@ -201,17 +202,13 @@ def stamp_bytes(stamp: dict[str, Any]) -> bytes:
 
 def write_archive(files: dict[str, bytes], target: Path) -> Path:
     """The FMU, its manifest included: sorted names and fixed times, so that equal contents give equal bytes."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    # Written beside the target and moved: an interrupted build leaves no half FMU.
-    partial = target.with_suffix(".part")
     files = with_manifest(files)
-    with zipfile.ZipFile(partial, "w") as archive:
+    with replacing(target) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name in sorted(files):
             info = zipfile.ZipInfo(name, EPOCH)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(info, files[name])
-    partial.replace(target)
     return target
 
 

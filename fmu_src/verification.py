@@ -12,10 +12,12 @@ import subprocess
 import tempfile
 import zipfile
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from fmu_src import references
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.manifest import FORMAT, MANIFEST, hashes, made_with
 from fmu_src.package import build_fmu, build_native, build_source
@@ -24,6 +26,8 @@ from fmu_src.source_hash import STAMP, source_hash
 # Of OpenSSH's signatures: any file.
 NAMESPACE = "file"
 SUFFIX = ".sig"
+REFERENCE_PAGES = ("documentation/index.html", "documentation/effects.html", "documentation/fmi-ls-ref.html")
+Completion = Callable[[Path, dict[str, Any]], bool]
 
 
 @dataclass
@@ -141,7 +145,7 @@ def check_signature(path: Path, findings: Findings, signature: Path | None = Non
     findings.held.append(f"signed by {names[0]}, {named}")
 
 
-def check_rebuild(path: Path, files: dict[str, bytes], findings: Findings) -> None:
+def check_rebuild(path: Path, files: dict[str, bytes], findings: Findings, complete: Completion | None = None) -> None:
     """Build it anew from its stamp and the sources that are installed, and compare bytes."""
     stamp = json.loads(files.get(f"resources/{STAMP}", b"null"))
     if stamp is None:
@@ -156,18 +160,27 @@ def check_rebuild(path: Path, files: dict[str, bytes], findings: Findings) -> No
         return
     with tempfile.TemporaryDirectory() as temporary:
         again = rebuilt(path.stem, stamp, files, Path(temporary))
+        is_whole = references.MANIFEST not in files or (complete is not None and complete(again, stamp))
         if again.read_bytes() == path.read_bytes():
             findings.held.append("a rebuild gives the same bytes")
             return
         anew, _ = members(again)
     before = len(findings.problems)
     for name in sorted(files.keys() | anew.keys()):
-        if name != MANIFEST and files.get(name) != anew.get(name):
+        if name != MANIFEST and files.get(name) != anew.get(name) and (is_whole or not is_reference(name)):
             findings.problems.append(("rebuild", difference(name, files.get(name), anew.get(name))))
-    if len(findings.problems) == before:
+    if len(findings.problems) == before and not is_whole:
+        named = stamp["specification"]["reducer"]
+        findings.held.append(f"a rebuild gives the same members, experiments and their results apart: the reducer {named} is another here, or unknown")
+    elif len(findings.problems) == before:
         findings.notes.append("a rebuild gives the same members; the archive around them was packed otherwise")
     elif differing := tools_that_differ(files):
         findings.notes.append(f"tools differ: {differing}; bytes are those of a build with the same ones")
+
+
+def is_reference(name: str) -> bool:
+    """Whether a member is made with the reducer file, which an FMU does not carry."""
+    return name.startswith(f"{references.FOLDER}/") or name in REFERENCE_PAGES
 
 
 def rebuilt(name: str, stamp: dict[str, Any], files: dict[str, bytes], folder: Path) -> Path:
@@ -214,11 +227,13 @@ def tools_that_differ(files: dict[str, bytes]) -> str:
     return ", ".join(f"{name} {then.get(name)} then, {now} here" for name, now in made_with().items() if then.get(name) != now)
 
 
-def verify(path: Path, signature: Path | None = None, signers: Path | None = None, rebuild: bool = True) -> Findings:
-    """All three."""
+def verify(
+    path: Path, signature: Path | None = None, signers: Path | None = None, rebuild: bool = True, complete: Completion | None = None
+) -> Findings:
+    """All three; ``complete(fmu, stamp)`` adds to a rebuilt FMU what is made with its reducer, or says that it cannot."""
     findings = Findings()
     files = check_hashes(path, findings)
     check_signature(path, findings, signature, signers)
     if rebuild:
-        check_rebuild(path, files, findings)
+        check_rebuild(path, files, findings, complete)
     return findings

@@ -34,9 +34,9 @@ def variables(sizes: Sizes) -> list[Variable]:
                  integer=True, minimum=1, maximum=1000, source="assumed"),
         output("residual", "1", "out-of-balance force over load at the last equilibrium"),
         output("iterations", "1", "equilibrium iterations of the last angle", integer=True),
-        state("is_free", "1", "whether the coordinate is an unknown", **sizes.over(coordinate=z), integer=True),
-        state("free", "1", "the unknown coordinates", **sizes.over(unknown=z), integer=True),
-        state("free_count", "1", "number of unknowns", integer=True),
+        state("is_free", "1", "whether the coordinate is an unknown", **sizes.over(coordinate=z), integer=True, minimum=0, maximum=1),
+        state("free", "1", "the unknown coordinates", **sizes.over(unknown=z), integer=True, minimum=0, maximum=z - 1),
+        state("free_count", "1", "number of unknowns", integer=True, minimum=0, maximum=z),
         # Newton's step, of the bodies in motion too.
         scratch("factor", (n, n)), scratch("factor_scale", (n,)), scratch("direction", (n,)),
     ]

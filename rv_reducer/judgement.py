@@ -111,11 +111,12 @@ def pauses(r, limited_by, was_over, left):
 
 @kernel
 def start_judgement(records):
-    """Of new surfaces."""
+    """Of new surfaces, or of worn ones that say what lost motion was when they were new."""
     r = records[0]
     find_worst_depths(r)
     measure_lost_motion(records)
-    r.new_lost_motion = r.lost_motion
+    if r.new_lost_motion == 0.0:
+        r.new_lost_motion = r.lost_motion
     extrapolate_life(r, 0.0, 0.0)
 
 

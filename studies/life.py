@@ -37,6 +37,8 @@ HIGHEST_ORDER = 1.5
 LEAST_DEPTH = 1e-6
 # No more jumps than this: the life shall end.
 MOST_JUMPS = 256
+# Unless so many points of the curve are asked for.
+MOST_ASKED = 10_000
 # From this many jumps on, an error that hardly falls is that of the positions per turn.
 MANY_JUMPS = 32
 
@@ -64,9 +66,19 @@ class LifeSettings:
                 raise InputFault(f"{name} = {value}: a positive finite number is needed")
         if self.tolerance > 0.5:
             raise InputFault(f"tolerance = {self.tolerance}: it is relative; 0.01 is usual, 0.5 the largest")
+        least = (2.0 * FIRST_JUMPS / MOST_JUMPS) ** 2
+        if self.tolerance < least:
+            raise InputFault(f"tolerance = {self.tolerance:g}: it would need more than {MOST_JUMPS} jumps; {least:.1g} is the smallest")
+        if not self.wanted_jumps() <= MOST_ASKED:
+            raise InputFault(
+                f"first_jump = {self.first_jump}, largest_jump = {self.largest_jump}: more than {MOST_ASKED} jumps in {self.hours:g} h; give longer ones"
+            )
 
     def first_jumps(self) -> int:
         """Jumps of the first run."""
+        return math.ceil(self.wanted_jumps() * (1.0 - 1e-9))
+
+    def wanted_jumps(self) -> float:
         number = FIRST_JUMPS / math.sqrt(self.tolerance)
         # Of n jumps the first takes 1/n^2 of the hours, the last (2 n - 1)/n^2.
         if self.first_jump is not None:
@@ -74,7 +86,7 @@ class LifeSettings:
         if self.largest_jump is not None:
             share = max(1.0, self.hours / self.largest_jump)
             number = max(number, share + math.sqrt(share * (share - 1.0)))
-        return math.ceil(number * (1.0 - 1e-9))
+        return number
 
 
 @dataclass

@@ -155,11 +155,11 @@ def test_checkpoint_of_other_inputs_is_refused(short, rv20e, tmp_path):
 def test_broken_checkpoint_is_refused(tmp_path):
     path = tmp_path / "life.checkpoint"
     path.write_bytes(b"PK\x03\x04 cut off")
-    with pytest.raises(InputFault, match="is not a checkpoint"):
+    with pytest.raises(InputFault, match="does not begin like a file of this kind .*; start anew with --restart"):
         load_checkpoint(path, {})
 
 
-@pytest.mark.parametrize("bad", [{"hours": -1.0}, {"tolerance": 0.0}, {"first_jump": np.nan}, {"tolerance": 0.9}])
+@pytest.mark.parametrize("bad", [{"hours": -1.0}, {"tolerance": 0.0}, {"first_jump": np.nan}, {"tolerance": 0.9}, {"tolerance": 1e-300}, {"first_jump": 1e-300}])
 def test_senseless_settings_are_named(bad):
     with pytest.raises(InputFault, match=next(iter(bad))):
         LifeSettings(**bad).check()

@@ -10,6 +10,8 @@ import pytest
 from cli.main import main
 from fmu_src.manifest import MANIFEST
 from fmu_src.package import build_source, write_archive
+from fmu_src.verification import verify
+from studies.reference_material import add_references
 
 ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="no ssh-keygen")
 
@@ -54,6 +56,22 @@ def test_other_flavours_are_built_anew_to_the_byte(flavour, fmus, native_fmus, c
     path = fmus / "RvPlant.fmu" if flavour == "python" else native_fmus / flavour / "RvPlant.fmu"
     code, said, _ = verified(capsys, path)
     assert code == 0 and "a rebuild gives the same bytes" in said["held"], said
+
+
+def test_experiments_that_it_carries_are_made_anew_too(rv20e, native_fmus, tmp_path, capsys):
+    path = tmp_path / "RvPlant.fmu"
+    shutil.copy(native_fmus / "fmi3" / "RvPlant.fmu", path)
+    add_references(path, rv20e, "rv_plant", 1e-3)
+    code, said, _ = verified(capsys, path)
+    assert code == 0 and "a rebuild gives the same bytes" in said["held"], said
+    with zipfile.ZipFile(path) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    spoilt = next(name for name in files if name.endswith("smoke-test-results.csv"))
+    write_archive(files | {spoilt: files[spoilt] + b"1\n"}, path)
+    assert spoilt in verified(capsys, path)[2]["rebuild"]
+    # Without the reducer file the rest is compared.
+    findings = verify(path)
+    assert not findings.problems and any("experiments and their results apart" in text for text in findings.held)
 
 
 @pytest.mark.parametrize("files, kind, words", [

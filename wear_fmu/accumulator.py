@@ -77,7 +77,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("roller_profile_slope", "m/rad", "change of roller_profile_error as the cranks turn on", **roller, nominal=1e-4),
         output("operating_time", "s", "time that the wear stands for", nominal=1e6),
         output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
-        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
+        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True, minimum=0, maximum=1),
         state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
@@ -85,7 +85,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("temperature_before", "K", "temperature at the last step"),
         state("profile_lead", "rad", "how far ahead of crank_angle the profile errors hold"),
         state("profile_reach", "rad", "turning through which their slopes are taken"),
-        state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True),
+        state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True, minimum=0, maximum=2),
     ]
 
 

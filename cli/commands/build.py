@@ -18,6 +18,9 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
                       " for this machine alone; needs zig: pip install \"rvwear[build]\"")
     fmus.add_argument("--wasm", action="store_true", help="native FMUs of FMI 3.0 have a WebAssembly component besides, which runs"
                       " on any machine and in a sandbox; needs zig: pip install \"rvwear[build]\"")
+    fmus.add_argument("--worn", metavar="TIME", help="units of a reducer that is delivered worn: --worn 5000h at rated speed and torque")
+    fmus.add_argument("--inline", action="store_true", help="RvReducer.ssp with its values in the system's description, for"
+                      " tools that read no parameter files (OpenMCx)")
     add_json(fmus)
     fmus.set_defaults(run=build)
 
@@ -29,7 +32,14 @@ def build(options: argparse.Namespace) -> int:
     from studies.building import Wanted, build_units
 
     reducer = load_reducer(options.reducer)
-    wanted = Wanted(options.flavour, options.fmi, options.all_platforms, options.wasm)
+    if options.worn is not None:
+        from fmu_src.progress import task
+        from studies.worn import hours_of, worn_reducer
+
+        hours = hours_of(options.worn)
+        with task(f"life of {hours:g} h"):
+            reducer = worn_reducer(reducer, hours)
+    wanted = Wanted(options.flavour, options.fmi, options.all_platforms, options.inline, options.wasm)
     built, packages = build_units(reducer, Path(options.output), wanted)
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})

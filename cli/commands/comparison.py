@@ -10,6 +10,7 @@ from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json, all_cores, folder
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -149,6 +150,16 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 def run_extend(options: argparse.Namespace) -> int:
     """Exit code 1 where the effect did not help on unused runs."""
+    file, campaign = inputs(options)
+    if options.draft:
+        return run_draft(options, file, campaign)
+    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+    # Read here and written at the end: nobody else's step is to be lost in between.
+    with held(target):
+        return add_effect(options, file, campaign, target)
+
+
+def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
@@ -156,9 +167,6 @@ def run_extend(options: argparse.Namespace) -> int:
     from discrepancy.model_file import save_model
     from discrepancy.remembered import diagnosed, remembered
 
-    file, campaign = inputs(options)
-    if options.draft:
-        return run_draft(options, file, campaign)
     names = options.effect
     if not names:
         with task("diagnosing"):
@@ -172,7 +180,6 @@ def run_extend(options: argparse.Namespace) -> int:
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
-    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
     save_model(extension.file, target)
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:

@@ -34,10 +34,11 @@ def run_verify(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from fmu_src.progress import task
     from fmu_src.verification import verify
+    from studies.rebuilding import complete
 
     signature, signers = (Path(name) if name else None for name in (options.signature, options.signers))
     with task("verifying"):
-        findings = verify(Path(options.file), signature, signers, not options.no_rebuild)
+        findings = verify(Path(options.file), signature, signers, not options.no_rebuild, complete)
     if options.json:
         json_text(findings.as_json(Path(options.file)))
         return 1 if findings.problems else 0

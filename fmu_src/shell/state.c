@@ -150,6 +150,18 @@ enum status serialise(struct instance *i, const char *function, void *state, voi
     return OK;
 }
 
+/* The first number of a state that the unit cannot have got to, or NULL.  A NaN fails both comparisons. */
+static const struct range *impossible(const union cell *cells)
+{
+    for (const struct range *r = unit.ranges; r < unit.ranges + unit.range_count; r++)
+        for (const union cell *c = cells + r->first; c < cells + r->first + r->size; c++) {
+            double value = r->is_integer ? (double)c->integer : c->real;
+            if (!(value >= r->lowest && value <= r->highest))
+                return r;
+        }
+    return NULL;
+}
+
 enum status deserialise(struct instance *i, const char *function, const void *bytes, size_t size, void **state)
 {
     struct header header;
@@ -174,6 +186,12 @@ enum status deserialise(struct instance *i, const char *function, const void *by
         return ERROR;
     s->header = header;
     memcpy(s->cells, (const char *)bytes + sizeof header, STATE_BYTES);
+    const struct range *wrong = impossible(s->cells);
+    if (wrong) {
+        void *useless = s;
+        free_state(i, function, &useless);
+        return report(i, ERROR, "%s: the state is impossible in %s; it was not saved by this unit", function, wrong->name);
+    }
     *state = s;
     return OK;
 }

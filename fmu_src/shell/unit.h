@@ -67,6 +67,14 @@ struct caution {
     const char *text;
 };
 
+/* What the numbers of a part of the state may be; integers are indices and counts of the kernels. */
+struct range {
+    const char *name;
+    uint32_t first, size;
+    int is_integer;
+    double lowest, highest;
+};
+
 struct unit {
     const char *name;
     const char *identity; /* FMI 2 guid, FMI 3 instantiation token */
@@ -84,6 +92,8 @@ struct unit {
     uint32_t guarded_cells; /* leading cells that a failing step may have changed */
     double longest_step;
     int pause_cell, paused_cell; /* where a step may end before its time, and how much of it was done; -1: never */
+    const struct range *ranges; /* all cells of the state, in their order */
+    int range_count;
 };
 
 DECLARED const struct unit unit;
