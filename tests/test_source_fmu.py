@@ -96,14 +96,14 @@ def test_the_same_bits_as_in_process(rv20e, sources, tmp_path, name, version, se
         unit.exit_initialisation()
         for n in range(25):
             if name == "RvWear":
-                unit.set("crank_angle", 0.1 * n)
-                unit.set("mesh_force", 300.0 + n)
-                unit.set("roller_force", 100.0)
+                unit.set("crank.angle", 0.1 * n)
+                unit.set("mesh.force", 300.0 + n)
+                unit.set("roller.force", 100.0)
             unit.step(n * 1e-4, 1e-4)
     for v in units[0].table.variables:
         if v.role != "scratch":
             assert np.array_equal(units[0].record()[v.name], units[1].record()[v.name]), v.name
-    moved = "output_angle" if name == "RvPlant" else "flank_depth"
+    moved = "output.angle" if name == "RvPlant" else "flank.depth"
     assert np.max(np.abs(units[0].get(moved))) > 0.0
     units[1].close()
 
@@ -115,7 +115,7 @@ def test_fmpy_compiles_and_simulates(sources, tmp_path):
     (tmp_path / "build").mkdir()
     build_platform_binary(folder, tmp_path / "build", cmake_options={"CMAKE_C_FLAGS:STRING": "-Werror"})
     result = fmpy.simulate_fmu(str(folder), stop_time=0.01, output_interval=1e-3)
-    assert 2e-4 < result["lag"][-1] < 3e-4
+    assert 2e-4 < result["output.lag"][-1] < 3e-4
 
 
 @gcc
