@@ -282,6 +282,10 @@ class Table:
         # Plain Python takes fields as attributes of NumPy's own records.
         return records.view(np.recarray) if PLAIN else records
 
+    def scalars(self, records: Records) -> dict[str, float]:
+        """Single values of a record by name, for the words of a fault."""
+        return {v.name: records[v.name][0] for v in self.variables if not v.shape}
+
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
         """The same table with other start values (and their sources)."""
         changed = [

@@ -73,6 +73,12 @@ def crank_turn_time(reducer: Reducer, plant: Component) -> float:
 
 def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
     """An FMU has its sizes and start values from one reducer file: it must be this one."""
+    worn = fmu.specification().get("worn")
+    if worn is not None:
+        raise InputFault(
+            f"{fmu.path} is of a reducer that is delivered worn, after {worn['hours']:g} h: what is computed here begins with a new one;"
+            f" build it: rvwear build --reducer {reducer.name} --output DIR, and give that folder. rvwear run takes {fmu.path.name} as it is"
+        )
     if fmu.specification() != reducer.specification(unit):
         raise InputFault(
             f"{fmu.path} was built from another reducer file than {reducer.name} ({reducer.path.name});"

@@ -59,7 +59,7 @@ class PhysicalModel:
         for record in self.records:
             rows = row_conditions(self.bench, record)
             # A held test looks at a life under the rated load.
-            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)])
+            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)], record.held_out)
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
