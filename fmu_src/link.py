@@ -89,28 +89,34 @@ def compiler(target: Platform, portable: bool) -> tuple[str, ...]:
 
 def shared_library(name: str, table: str, code: bytes, target: Platform, portable: bool) -> bytes:
     """The shared library of a unit: shell, table (C source) and object code; offers FMI 2.0 and 3.0."""
+    files = {source.name: source.read_bytes() for source in SHELL.iterdir()}
+    files |= {"unit_table.c": table.encode(), "unit.o": code}
+    sources = sorted(file for file in files if file.endswith(".c"))
+    return compiled(name, files, [*FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o"], target, portable)
+
+
+def library_of_sources(files: dict[str, bytes], name: str, target: Platform) -> bytes:
+    """The shared library of the folder ``sources/`` of an FMU, by this machine's compiler."""
+    return compiled(name, files, [*(flag for flag in FLAGS if flag not in ("-Wextra", "-Werror")), "all.c"], target, False)
+
+
+def compiled(name: str, files: dict[str, bytes], arguments: list[str], target: Platform, portable: bool) -> bytes:
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        (folder / "unit_table.c").write_text(table, encoding="utf-8")
-        (folder / "unit.o").write_bytes(code)
-        for source in sorted(SHELL.iterdir()):
-            shutil.copy(source, folder / source.name)
-        link = list(target.link_flags)
-        driver = compiler(target, portable)
+        for file, content in files.items():
+            (folder / file).write_bytes(content)
+        library, link, driver = f"{name}{target.suffix}", list(target.link_flags), compiler(target, portable)
         if can_name_versions(target.name) and "-target" not in driver:
             # zig is told the C library's version in its target.
             (folder / "old_mathematics.c").write_text(old_mathematics(target.name), encoding="utf-8")
-            link += LINK_FLAGS
-        sources = sorted(p.name for p in folder.glob("*.c"))
-        file = f"{name}{target.suffix}"
-        link = [flag.format(file=file) for flag in link]
-        command = [*driver, *FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o", "-o", file, *link]
+            link = ["old_mathematics.c", *link, *LINK_FLAGS]
+        command = [*driver, *arguments, "-o", library, *(flag.format(file=library) for flag in link)]
         done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise NativeFault(f"{name} for {target.name}: {command[0]} failed: {done.stderr.strip()[-2000:]}")
-        library = (folder / file).read_bytes()
-    require_only_system_libraries(library, f"{name} for {target.name}")
-    return library
+        made = (folder / library).read_bytes()
+    require_only_system_libraries(made, f"{name} for {target.name}")
+    return made
 
 
 def universal(slices: list[bytes]) -> bytes:

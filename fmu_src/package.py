@@ -1,7 +1,7 @@
 """Pack a unit as an FMU, byte for byte the same every time, and validate it.
 
-Two flavours: editable (pythonfmu: the sources, run by the importer's Python) and native
-(shared libraries, nothing else needed).
+Three flavours: editable (pythonfmu: the Python sources, run by the importer's Python),
+native (shared libraries, nothing else needed) and source (C99, no binaries).
 """
 
 import json
@@ -15,6 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 import fmpy
 from fmpy.model_description import ValidationError
@@ -24,15 +25,19 @@ from fmu_src.capabilities import declare
 from fmu_src.checked_file import replacing
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
-from fmu_src.faults import RunFault
-from fmu_src.link import PLATFORMS, Platform, host_platform, shared_library, universal
+from fmu_src.faults import InputFault, RunFault
+from fmu_src.link import PLATFORMS, Platform, host_platform, library_of_sources, shared_library, universal
+from fmu_src.manifest import with_manifest
 from fmu_src.native import host_triple, object_code, object_codes
 from fmu_src.presentation import files_for_people
 from fmu_src.project import project
 from fmu_src.slaves.kernel_slave import OBJECT_CODE
+from fmu_src.source_code import declare_sources, kernels_source, source_files
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
-from fmu_src.unit import Specification, make_unit
+from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.unit_table import c_source
+from fmu_src.wasm.component import component
+from fmu_src.wasm.linking import TRIPLE, core_module
 
 # pythonfmu's builder writes its own defaults over the description unless told so.
 CAPABILITIES = ("--no-external-tool", "--handle-state", "--serialize-state")
@@ -90,38 +95,93 @@ def build_fmu(
 
 def build_native(
     name: str, specification: Specification, step_size: float, tool: str, target: Path,
-    versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None,
+    versions: tuple[str, ...] = tuple(VERSIONS), all_platforms: bool = False, codes: dict[str, bytes] | None = None, wasm: bool = False,
 ) -> list[Path]:  # fmt: skip
     """Build ``target``/fmi2/``name``.fmu and ``target``/fmi3/``name``.fmu, which need no Python.
 
-    ``codes`` is object code by LLVM triple; made here unless given.
+    ``codes`` is object code by LLVM triple; made here unless given.  With ``wasm`` those of FMI 3.0 have a WebAssembly
+    component besides.
     """
     stamp = stamp_of(specification, step_size, tool, "native")
     unit = make_unit(specification)
-    codes = codes or object_codes(specification, triples_for(all_platforms))
+    codes = codes or object_codes(specification, triples_for(all_platforms, wasm))
     platforms = tuple(PLATFORMS.values()) if all_platforms else (host_platform(),)
     table = c_source(unit, stamp["guid"])
     libraries = {p: shared_library(name, table, codes[p.triple], p, all_platforms) for p in platforms}
     made = []
     for version in versions:
-        describe, folders = (model_description, folders2) if version == "2" else (model_description3, folders3)
-        root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool, project())
-        declare(root, version, unit)
-        ElementTree.indent(root)
-        files = {
-            "modelDescription.xml": ElementTree.tostring(root, "utf-8", xml_declaration=True),
-            f"resources/{STAMP}": stamp_bytes(stamp),
-        }
-        files |= files_for_people(unit.table, VERSIONS[version], stamp["guid"], project())
+        folders = folders2 if version == "2" else folders3
+        files = described(described_unit(unit, stamp, version), unit, stamp, version)
         files |= {f"binaries/{folder}/{name}{suffix}": data for (folder, suffix), data in folders(libraries).items()}
+        if wasm and version == "3":
+            files |= wasm_files(name, table, codes[TRIPLE])
         made.append(write_archive(files, target / f"fmi{version}" / f"{name}.fmu"))
     return made
 
 
-def triples_for(all_platforms: bool) -> tuple[str, ...]:
+def build_source(
+    name: str, specification: Specification, step_size: float, tool: str, target: Path, versions: tuple[str, ...] = tuple(VERSIONS)
+) -> list[Path]:
+    """Build ``target``/source/fmi2/``name``.fmu and ``target``/source/fmi3/``name``.fmu: C99 and no binaries."""
+    stamp = stamp_of(specification, step_size, tool, "source")
+    unit = make_unit(specification)
+    kernels = kernels_source(unit)
+    made = []
+    for version in versions:
+        root = described_unit(unit, stamp, version)
+        if version == "2":
+            declare_sources(root)
+        files = described(root, unit, stamp, version) | source_files(unit, kernels, stamp["guid"], version)
+        made.append(write_archive(files, target / "source" / f"fmi{version}" / f"{name}.fmu"))
+    return made
+
+
+def compile_sources(fmu: Path, target: Path) -> Path:
+    """Write an FMU of sources with this machine's library besides, by the C compiler that is here."""
+    with zipfile.ZipFile(fmu) as archive:
+        files = {entry: archive.read(entry) for entry in archive.namelist()}
+    if "sources/all.c" not in files:
+        raise InputFault(f"{fmu} has no sources/all.c; build one that has: rvwear build --flavour source")
+    description = fmpy.read_model_description(str(fmu))
+    name, here = description.coSimulation.modelIdentifier, host_platform()
+    library = library_of_sources({Path(n).name: data for n, data in files.items() if n.startswith("sources/")}, name, here)
+    folder = here.fmi2_folder if description.fmiVersion == "2.0" else here.name
+    return write_archive(files | {f"binaries/{folder}/{name}{here.suffix}": library}, target)
+
+
+def described_unit(unit: Unit, stamp: dict[str, Any], version: str) -> Element:
+    """The model description of a native unit or one of sources."""
+    describe = model_description if version == "2" else model_description3
+    root = describe(unit.table, stamp["guid"], stamp["source_hash"], stamp["step_size"], stamp["tool"], project())
+    declare(root, version, unit)
+    return root
+
+
+def described(root: Element, unit: Unit, stamp: dict[str, Any], version: str) -> dict[str, bytes]:
+    """What an FMU has besides sources and binaries."""
+    ElementTree.indent(root)
+    files = {
+        "modelDescription.xml": bytes(ElementTree.tostring(root, "utf-8", xml_declaration=True)),
+        f"resources/{STAMP}": stamp_bytes(stamp),
+    }
+    return files | files_for_people(unit.table, VERSIONS[version], stamp["guid"], project())
+
+
+def wasm_files(name: str, table: str, code: bytes) -> dict[str, bytes]:
+    """What the draft FMI-LS-WASM adds to an FMU: the component, and the layered standard's manifest."""
+    return {f"binaries/wasm32-wasip2/{name}.wasm": component(core_module(name, table, code)), "extra/org.modelica.fmi-ls-wasm/manifest.xml": LAYER}
+
+
+LAYER = b"""<?xml version="1.0" encoding="UTF-8"?>
+<fmiLayeredStandardManifest xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest" fmi-ls:fmi-ls-name="org.modelica.fmi-ls-wasm"
+  fmi-ls:fmi-ls-version="0.1.0" fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
+"""
+
+
+def triples_for(all_platforms: bool, wasm: bool = False) -> tuple[str, ...]:
     """LLVM triples of everything that is built: this machine as llvmlite names it, and the platforms."""
     platforms = PLATFORMS.values() if all_platforms else (host_platform(),)
-    return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms))))
+    return tuple(dict.fromkeys((host_triple(), *(p.triple for p in platforms), *([TRIPLE] if wasm else []))))
 
 
 def folders2(libraries: dict[Platform, bytes]) -> dict[tuple[str, str], bytes]:
@@ -141,7 +201,8 @@ def stamp_bytes(stamp: dict[str, Any]) -> bytes:
 
 
 def write_archive(files: dict[str, bytes], target: Path) -> Path:
-    """An archive with sorted names and fixed times: equal contents, equal bytes."""
+    """The FMU, its manifest included: sorted names and fixed times, so that equal contents give equal bytes."""
+    files = with_manifest(files)
     with replacing(target) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name in sorted(files):
             info = zipfile.ZipInfo(name, EPOCH)

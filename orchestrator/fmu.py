@@ -26,6 +26,8 @@ from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
 from orchestrator.scratch import Scratch
+from orchestrator.wasm import FOLDER as COMPONENTS
+from orchestrator.wasm import Wasm, component_of
 
 if TYPE_CHECKING:
     from fmpy.model_description import ModelDescription
@@ -41,7 +43,8 @@ Result = TypeVar("Result")
 class Fmu(Component):
     """One instance of an FMU."""
 
-    def __init__(self, name: str, path: str | Path):
+    def __init__(self, name: str, path: str | Path, wasm: bool = False):
+        """``wasm``: as WebAssembly even where there is a library for this machine."""
         self.name = name
         self.path = Path(path)
         if not self.path.is_file():
@@ -61,9 +64,9 @@ class Fmu(Component):
             self.signals = self.described.signals()
             self.take(version)
         try:
-            self.calls = VERSIONS[version](
-                name, self.described, self.folder, self.messages.append, self.refuse
-            )
+            self.calls = self.calls_of(version, wasm)
+        except InputFault:
+            raise
         except Exception as problem:  # noqa: BLE001
             # fmpy raises a bare Exception for a library that is missing or does not load.
             raise InputFault(f"{self.path} has nothing to run on this machine: {problem}") from None
@@ -73,6 +76,15 @@ class Fmu(Component):
             # fmpy raises a bare Exception here; the reason is in what the FMU logged.
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
         self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step
+
+    def calls_of(self, version: str, wasm: bool) -> Fmi2 | Fmi3:
+        """What the FMU is run by: this machine's library, or its WebAssembly component."""
+        component = component_of(self.folder, self.described)
+        if wasm and component is None:
+            raise InputFault(f"{self.path} has no binaries/{COMPONENTS}/*.wasm; FMUs that have one are built with: rvwear build --wasm")
+        if component is not None and (wasm or not (self.folder / "binaries" / fmpy.platform_tuple).is_dir()):
+            return Wasm(self.name, self.described, component, self.messages.append, self.refuse)
+        return VERSIONS[version](self.name, self.described, self.folder, self.messages.append, self.refuse)
 
     def take(self, version: str) -> None:
         """What the description says of the unit's capabilities."""

@@ -81,6 +81,7 @@ class ComponentEntry(Strict):
     unit: Literal["plant", "wear", "reducer"] | None = None
     ratio: int = Field(default=1, ge=1)
     isolate: bool = False
+    wasm: bool = False
     call_limit: float | dict[str, float] | None = None
     parameters: dict[str, str | float | int] = {}
     record: list[str] = []
@@ -127,8 +128,9 @@ class Scenario:
 
 
 def read_scenario(
-    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None
-) -> Scenario:
+    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None,
+    wasm: bool = False,
+) -> Scenario:  # fmt: skip
     """Read a scenario file and make its components; ``step``, ``call_limit`` and ``duration`` go before those of the file."""
     path = Path(path)
     text = read_text(path, "scenario file", REMEDY)
@@ -143,7 +145,7 @@ def read_scenario(
             f"{path}: start = {start} s, step = {step} s, duration = {duration} s: step and duration both positive, from one to ten million steps"
         )
     components = {
-        name: make_component(name, entry, path, isolate, (head.call_limit, entry.call_limit, call_limit))
+        name: make_component(name, entry, path, isolate, (head.call_limit, entry.call_limit, call_limit), wasm)
         for name, entry in content.components.items()
     }
     control = content.step_control
@@ -169,7 +171,7 @@ def seconds(quantity: Quantity, place: str) -> float:
     return factor * quantity.value
 
 
-def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, call_limits: Sequence[Limit]) -> Component:
+def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, call_limits: Sequence[Limit], wasm: bool) -> Component:
     """One unit; of the limits the later go before the earlier."""
     place = f"{path}: components.{name}"
     limits = USUAL_LIMITS
@@ -181,7 +183,7 @@ def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, 
     if entry.call_limit is not None and not (isolate or entry.isolate):
         raise InputFault(f"{place}.call_limit = {entry.call_limit!r}: only a unit in a process of its own can be ended; set isolate = true")
     if entry.fmu is not None and entry.reducer is None:
-        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate, limits)
+        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate, limits, wasm or entry.wasm)
     elif entry.reducer is not None and entry.fmu is None:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant", "wear" or "reducer" (both in one)')

@@ -131,18 +131,19 @@ def whole_steps(duration: float, step: float) -> int:
 
 
 def load(
-    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None, **master: Any
-) -> System:
+    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None,
+    wasm: bool = False, **master: Any,
+) -> System:  # fmt: skip
     """The system of an SSP package (.ssp, .ssd or a folder), a scenario (.toml), or a single FMU.
 
     ``step`` and ``duration`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
     what the file says; with ``isolate`` every FMU runs in a process of its own, which is ended where a call takes longer than
-    ``call_limit`` [s], one number for all calls or several by kind: ``{"step": 30}``.
+    ``call_limit`` [s], one number for all calls or several by kind: ``{"step": 30}``; with ``wasm`` every FMU runs as WebAssembly.
     """
     path = Path(path)
     require_duration(step, "step")
     require_duration(duration, "duration")
-    system = loaded(path, step, isolate, call_limit, duration, master)
+    system = loaded(path, step, isolate, call_limit, duration, wasm, master)
     if call_limit is not None and not any(isinstance(unit, Isolated) for unit in system.master.components.values()):
         system.close()
         raise InputFault("a call limit holds for units in processes of their own alone: give isolate (--isolate) too")
@@ -154,20 +155,22 @@ def require_duration(value: float | None, name: str) -> None:
         raise InputFault(f"{name} = {value:g} s: a positive number of seconds is needed")
 
 
-def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, duration: float | None, master: dict[str, Any]) -> System:
+def loaded(
+    path: Path, step: float | None, isolate: bool, call_limit: Limit, duration: float | None, wasm: bool, master: dict[str, Any]
+) -> System:
     if path.suffix == ".toml":
-        read = read_scenario(path, step, isolate, call_limit, duration)
+        read = read_scenario(path, step, isolate, call_limit, duration, wasm)
         made = Master(read.components, read.connections, read.step, **read.options | master)
         return System(read.name, made, round(read.duration / read.step), read.recorded, read.text)
     if path.suffix == ".fmu":
-        system = connect({path.stem: path}, (), step, isolate, call_limit, **master)
+        system = connect({path.stem: path}, (), step, isolate, call_limit, wasm, **master)
         if duration is not None:
             system.steps = whole_steps(duration, system.master.step_size)
         return system
     structure = read_ssp(path)
     require_duration(structure.step, f"{path}: the communication step that it names")
     limits = USUAL_LIMITS.with_changes(call_limit)
-    components = {name: open_fmu(name, fmu, isolate, limits) for name, fmu in structure.fmus.items()}
+    components = {name: open_fmu(name, fmu, isolate, limits, wasm) for name, fmu in structure.fmus.items()}
     require_shapes(path, structure, components)
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
@@ -199,13 +202,13 @@ def require_shapes(path: Path, structure: Structure, components: dict[str, Compo
 
 def connect(
     fmus: Mapping[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
-    step: float | None = None, isolate: bool = False, call_limit: Limit = None, **master: Any,
+    step: float | None = None, isolate: bool = False, call_limit: Limit = None, wasm: bool = False, **master: Any,
 ) -> System:  # fmt: skip
     """A system of FMUs by name and their connections; see ``load``."""
     require_duration(step, "step")
     limits = USUAL_LIMITS.with_changes(call_limit)
     components = {
-        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate, limits) for name, fmu in fmus.items()
+        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate, limits, wasm) for name, fmu in fmus.items()
     }
     size = step or usual_step(components, None)
     if size is None:

@@ -41,7 +41,7 @@ def test_nothing_is_overwritten(tmp_path, capsys):
 
 def test_an_unknown_example_is_refused(tmp_path, capsys):
     assert main(["example", "pear"]) == 2
-    assert "give one of catalogue_stiffness" in capsys.readouterr().err
+    assert "give one of browser, catalogue_stiffness" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

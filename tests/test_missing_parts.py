@@ -10,7 +10,7 @@ import scipy.io
 
 from discrepancy.campaign.file_format import FILE
 
-PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "nptdms", "pyarrow", "ziglang")
+PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "nptdms", "pyarrow", "wasmtime", "ziglang")
 SCRIPT = """
 import contextlib, io, json, os, sys
 for name in {parts}:

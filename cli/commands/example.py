@@ -10,6 +10,7 @@ from fmu_src.faults import InputFault
 
 # File or folder in ``examples/`` -> what it shows.
 EXAMPLES = {
+    "browser": "a page in which a reducer turns, wears and shows its forces: python examples/browser/make.py",
     "catalogue_stiffness": "stiffness and lost motion of a catalogue against those of the contacts alone",
     "cycloidal_actuator": "torque ramps of a printed cycloidal drive (its measurements: docs/real_data.md)",
     "durability_test": "lost motion over a published test of 1550 h",

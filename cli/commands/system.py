@@ -55,6 +55,7 @@ def add_system_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--step-control", type=float, metavar="TOL", help="divide steps by their error, to this tolerance")
     command.add_argument("--loops", choices=("newton", "fixed-point"), help="how algebraic loops are solved")
     command.add_argument("--isolate", action="store_true", help="every FMU in a process of its own")
+    command.add_argument("--wasm", action="store_true", help="every FMU as WebAssembly (needs: pip install \"rvwear[wasm]\")")
     command.add_argument(
         "--call-limit", action="append", default=[], metavar="[CALL=]S",
         help="end an isolated unit that takes longer for a call [s]: 30, or start=, initialise=, step=, values=, state=, end= (default 600)",
@@ -124,9 +125,9 @@ def refuse_pair_options(options: argparse.Namespace) -> None:
 
 
 def refuse_system_options(options: argparse.Namespace) -> None:
-    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record", "call_limit")
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "wasm", "record", "call_limit")
     # 0 is given, too.
-    unset = dict.fromkeys(names) | {"isolate": False, "record": None, "call_limit": []}
+    unset = dict.fromkeys(names) | {"isolate": False, "wasm": False, "record": None, "call_limit": []}
     given = [f"--{name.replace('_', '-')}" for name in names if (value := getattr(options, name)) is not unset[name] and value != unset[name]]
     if given:
         raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
@@ -146,7 +147,7 @@ def open_system(options: argparse.Namespace) -> "System":
     }
     master = {name: value for name, value in given.items() if value is not None}
     with task("loading the units"):
-        system = load(options.system, options.step, options.isolate, parse_limits(options.call_limit), options.duration, **master)
+        system = load(options.system, options.step, options.isolate, parse_limits(options.call_limit), options.duration, options.wasm, **master)
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:

@@ -10,6 +10,7 @@
     emitter    one function for given argument types, walked until its types have settled
     arithmetic numbers: operators and functions of ``math`` with Python's meaning
     module     an entry point with all it calls: one LLVM module, optimised, as object code
+    assembly, c_source, c_function, c_expressions   the same LLVM text as C99
     store      object code on disk, private to its owner, checked before it is used
     loading    object code into this process
     calling    calls from Python

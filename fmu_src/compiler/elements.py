@@ -50,7 +50,9 @@ def field_place(e: Function, value: Value, name: str) -> tuple[str, Number | Lay
         raise e.fault(f"the record has no {name}{nearest(name, known)}")
     dtype, offset = field_of(layout.dtype, name)
     base, shape = dtype.subdtype or (dtype, ())
-    place = value.parts[0] if offset == 0 else e.give(f"getelementptr inbounds i8, ptr {value.parts[0]}, i64 {offset}")
+    place = value.parts[0] if offset == 0 else e.give(
+        f"getelementptr inbounds i8, ptr {value.parts[0]}, i64 {offset}", f"{name}.at"
+    )
     if base.names:
         return place, e.module.layout(base), shape
     if isinstance(value.type, Records):

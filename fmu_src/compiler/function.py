@@ -104,10 +104,10 @@ class Function(ABC):
         if not self.ended:
             self.lines.append("  " + line)
 
-    def give(self, instruction: str) -> str:
-        """Writes an instruction; the name of its result."""
+    def give(self, instruction: str, hint: str = "t") -> str:
+        """Writes an instruction; the name of its result, which begins with the hint."""
         self.count += 1
-        name = f"%t{self.count}"
+        name = f"%{hint}{self.count}"
         self.write(f"{name} = {instruction}")
         return name
 
@@ -127,9 +127,10 @@ class Function(ABC):
         self.write(f"br i1 {test}, label %{yes}, label %{no}")
         self.ended = True
 
-    def slot(self, kind: str) -> str:
+    def slot(self, kind: str, variable: str) -> str:
+        """A place in memory, named after the variable that it is for."""
         self.count += 1
-        name = f"%s{self.count}"
+        name = f"%{variable if variable.isascii() else 'variable'}.s{self.count}"
         self.slots.append(f"  {name} = alloca {kind}")
         return name
 
@@ -153,7 +154,7 @@ class Function(ABC):
                 self.variables[name] = wider
                 raise Wider
         if name not in self.places:
-            self.places[name] = tuple(self.slot(part) for part in known.parts)
+            self.places[name] = tuple(self.slot(part, name) for part in known.parts)
         value = self.cast(value, known)
         for place, kind, part in zip(self.places[name], known.parts, value.parts):
             self.write(f"store {kind} {part}, ptr {place}")

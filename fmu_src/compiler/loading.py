@@ -58,10 +58,24 @@ def separate(kernel: Source, arguments: tuple[Type, ...]) -> str | None:
 def unit_code(initialise: Source, step: Source, layout: Layout, triples: tuple[str, ...]) -> dict[str, bytes]:
     """Object code of a unit's entry points for targets: C functions ``initialise(cells)`` and ``step(cells, time, duration)``."""
     def fill(module: Module) -> dict[str, Type]:
-        records = Records(layout)
-        return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
+        return fill_unit(module, initialise, step, layout)
 
     return compiled(initialise.module.partition(".")[0], ("unit", initialise.origin, step.origin, layout.digest), Module(), fill, triples).objects
+
+
+def fill_unit(module: Module, initialise: Source, step: Source, layout: Layout) -> dict[str, Type]:
+    """Writes a unit's entry points and all that they call into a module."""
+    records = Records(layout)
+    return {kernel.name: module.unit_entry(kernel, (records, *ENTRY_POINTS[kernel.name])) for kernel in (initialise, step)}
+
+
+def unit_source(initialise: Source, step: Source, layout: Layout) -> str:
+    """A unit's entry points as C99."""
+    from fmu_src.compiler.c_source import c_source
+
+    module = Module()
+    fill_unit(module, initialise, step, layout)
+    return c_source(module)
 
 
 def call_code(kernel: Source, arguments: tuple[Type, ...]) -> Code:

@@ -49,7 +49,7 @@ def count_through(e: Function, node: ast.For) -> None:
     elif name in e.instance.kernel.counters and name not in e.sometimes_negative:
         e.never_negative.add(name)
     head, body, onward, other, end = (e.new_block(hint) for hint in ("for", "do", "next", "else", "end"))
-    counter = e.slot("i64")
+    counter = e.slot("i64", f"{name}.counter")
     e.write(f"store i64 {first.parts[0]}, ptr {counter}")
     e.go(head)
     e.start(head)
