@@ -92,7 +92,7 @@ class Units:
             wears[name] = plants[name]
         fault = accumulator.initialise(wears)
         if fault:
-            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+            raise RunFault(accumulator.FAULTS[fault].format(**self.tables[1].scalars(wears)))
         return plants, wears
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
@@ -115,7 +115,7 @@ class Units:
         self.place(plants, first_angle, cage, **plant_values)
         fault = plant.initialise(plants)
         if fault:
-            raise RunFault(FAULTS[fault].format(**scalars(self.tables[0], plants)))
+            raise RunFault(FAULTS[fault].format(**self.tables[0].scalars(plants)))
         return plants
 
     def place(self, plants: np.ndarray, angle: float, cage: float = 0.0, **plant_values: float | Floats) -> None:
@@ -137,7 +137,7 @@ class Units:
     def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
         for code, faults, table, records in zip(status, (FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
             if code:
-                raise RunFault(faults[code].format(**scalars(table, records)))
+                raise RunFault(faults[code].format(**table.scalars(records)))
 
     def turning_time(self, condition: Condition) -> float:
         """Time of one turn of the cranks in the housing [s]."""
@@ -147,7 +147,3 @@ class Units:
 def within_turn(angle: float) -> float:
     """The same place of the output by the shorter way from 0 [rad]."""
     return math.remainder(angle, 2.0 * math.pi)
-
-
-def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
-    return {v.name: records[v.name][0] for v in table.variables if not v.shape}
