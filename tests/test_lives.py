@@ -56,6 +56,17 @@ def test_short_cycles_change_as_full_ones_do(bench, turns, off, surface):
     assert growth(turns) == pytest.approx(growth(bench.reducer.topology.lobes), rel=off)
 
 
+@pytest.mark.parametrize("turns", [SHORT_CYCLE, ROUGH_CYCLE])
+def test_the_print_of_a_standing_pin_is_that_of_full_cycles(bench, turns):
+    def standing(turns):
+        new = bench.wear_to(RATED, {}, HOURS[1:], turns)[HOURS[1]], bench.wear_to(RATED, {"pin_standing_share": 0.03}, HOURS[1:], turns)[HOURS[1]]
+        before, after = (surface_of(w, {"surface": "pin"}) for w in new)
+        return after - before
+
+    full = standing(bench.reducer.topology.lobes)
+    assert np.linalg.norm(standing(turns) - full) < 0.05 * np.linalg.norm(full)
+
+
 @pytest.mark.parametrize("hours", [0.0, HOURS[0]])
 def test_lost_motion_without_friction_is_that_of_the_whole_loop(bench, hours):
     values = {"needle_clearance_added": 1e-6}

@@ -129,7 +129,7 @@ class FmuBench(Bench):
 
         def run() -> dict[float, bytes]:
             self.renew_plant(condition, values, condition.direction * condition.load)
-            self.renew(self.wear, {**values, "temperature": condition.temperature, "largest_sweep": 1.0})
+            self.renew(self.wear, {**values, "temperature": condition.temperature, "largest_sweep": self.largest_sweep})
             with refusal_as_run_fault():
                 self.master.initialise()
             self.time = 0.0

@@ -18,6 +18,7 @@ from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condi
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
+from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.model_error import with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.problem import Candidate, Parameter, Record
@@ -60,6 +61,8 @@ class PhysicalModel:
             rows = row_conditions(self.bench, record)
             # A held test looks at a life under the rated load.
             self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)], record.held_out)
+        if not any(r.tags.get("surface") == "pin" for r in self.records):
+            self.bench.largest_sweep = WHOLE_SWEEP
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
