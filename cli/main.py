@@ -1,6 +1,6 @@
 """The command line tool ``rvwear``.
 
-Exit codes: 0 done, 1 a run that failed, 2 bad input, 130 interrupted.
+Exit codes: 0 done, 1 a run that failed, 2 bad input, 3 an effect that did not help on unused runs (``extend``), 130 interrupted.
 
 Help and completion answer at once: a command imports what it computes with when it is called.
 """

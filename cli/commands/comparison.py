@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
-from cli.options import add_json, all_cores, folder
+from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -148,7 +148,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 
 def run_extend(options: argparse.Namespace) -> int:
-    """Exit code 1 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs."""
     from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
@@ -188,7 +188,7 @@ def run_extend(options: argparse.Namespace) -> int:
             print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
         for path in fmus:
             print(f"FMU    {path}")
-    return 1 if extension.verdict == DID_NOT_HELP else 0
+    return DID_NOT_HELP_CODE if extension.verdict == DID_NOT_HELP else 0
 
 
 def refusal(options: argparse.Namespace, answer: "Answer") -> str:

@@ -106,13 +106,13 @@ def show_answer(answer: Answer) -> None:
         out.print(f"in place of {name} could stand: {', '.join(others)}")
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
+    show_warnings(out, answer.warnings)
     show_figures(answer.figures, out)
     rejected = answer.diagnosis.rejected[:6]
     if rejected:
         out.print("\nclosest rivals")
         for rival in rejected:
             out.print(f"  {rival['name']}: {rival['reason']}")
-    show_warnings(out, answer.warnings)
 
 
 def show_extension(extension: Extension) -> None:

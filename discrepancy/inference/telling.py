@@ -56,8 +56,6 @@ class Teller:
                     warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
             effects.sort(key=lambda e: -e.gain)
-        if self.space.held_out == []:
-            warnings.append("no runs are held out: the errors given are by leaving out one condition at a time")
         names = {e.name for e in effects}
         rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)
