@@ -93,7 +93,8 @@ def show_answer(answer: Answer) -> None:
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
         for name, number in effect["parameters"].items():
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
-            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}")
+            bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
+            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
         error = error_text(answer, effect)
         if error:
             out.print(f"  {error}")
