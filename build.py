@@ -4,6 +4,7 @@
     python3 build.py            set up, build and check the FMUs, run the main job, write the report
     python3 build.py test       set up, run the tests (further arguments go to pytest; --coverage shows what they reach)
     python3 build.py bench      set up, measure the cost of everything against others' (benchmarks/; --quick tries it out)
+    python3 build.py fuzz [minutes]     set up, feed every reader with mutants of its files (benchmarks/fuzzing)
     python3 build.py COMMAND    set up, then: rvwear COMMAND ...
 
 The main job co-simulates RvPlant.fmu and RvWear.fmu of the RV20E-121 at rated load over
@@ -56,14 +57,16 @@ def install(what: str, *arguments: str) -> None:
     """pip, with a line every few seconds that says how far it is."""
     count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
     with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
-        told, fetched, lines = time.monotonic(), 0, []
+        told, fetched, installing, lines = time.monotonic(), 0, False, []
         assert pip.stdout is not None
         for line in pip.stdout:
             lines.append(line)
-            fetched += line.startswith("Collecting")
-            if line.startswith("Installing"):
+            # "Processing" where an index names files of this machine.
+            fetched += line.startswith(("Collecting", "Processing"))
+            if line.startswith("Installing collected"):
+                installing = True
                 say(f"  {what}: installing")
-            elif time.monotonic() - told > 3.0:
+            elif not installing and time.monotonic() - told > 3.0:
                 told = time.monotonic()
                 say(f"  {what}: fetching {fetched} of {count}")
     if pip.returncode != 0:
@@ -100,13 +103,15 @@ def bench(arguments: list[str]) -> int:
 def main(arguments: list[str]) -> int:
     if sys.version_info < (3, 11):  # noqa: UP036
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
-    set_up(for_tests=arguments[:1] in (["test"], ["bench"]))
+    set_up(for_tests=arguments[:1] in (["test"], ["bench"], ["fuzz"]))
     if arguments[:1] == ["test"]:
         tests = ["tests/measure_coverage.py"] if "--coverage" in arguments else ["-m", "pytest"]
         arguments = [argument for argument in arguments[1:] if argument != "--coverage"]
         return subprocess.run([str(SCRIPTS / "python"), *tests, *arguments], cwd=HERE).returncode
     if arguments[:1] == ["bench"]:
         return bench(arguments[1:])
+    if arguments[:1] == ["fuzz"]:
+        return subprocess.run([str(SCRIPTS / "python"), "-m", "benchmarks.fuzzing", *arguments[1:]], cwd=HERE).returncode
     if arguments:
         return rvwear(*arguments)
     os.chdir(HERE)

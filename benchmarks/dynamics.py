@@ -250,7 +250,7 @@ def bearings_loop(records: np.ndarray, count: int) -> None:
     for _ in range(count):
         for d in range(r.roller_force.shape[0]):
             for c in range(r.roller_force.shape[1]):
-                bearing_contacts(r, d, c, r.ideal_output, r.cage, 1.0)
+                bearing_contacts(r, d, c, r.ideal_output, r.cage, 1.0, False)
 
 
 @kernel

@@ -1,18 +1,20 @@
 """The command line tool ``rvwear``.
 
-Exit codes: 0 done, 1 a run that failed, 2 bad input, 3 an effect that did not help on unused runs (``extend``), 130 interrupted.
+Exit codes: 0 done, 1 a run that failed, 2 bad input, 3 an effect that did not help on unused runs (``extend``), 130 interrupted
+(Ctrl-C), 143 terminated (SIGTERM).
 
 Help and completion answer at once: a command imports what it computes with when it is called.
 """
 
 import argparse
 import io
-import os
 import sys
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
+from cli.ending import INTERRUPTED, exit_code, hear_termination, reader_is_gone, silence
 from cli.progress import new_screen
+from fmu_src.checked_file import OF_THE_DISK
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import told_to
 
@@ -35,28 +37,45 @@ class PrintVersion(argparse.Action):
 
 def main(arguments: list[str] | None = None) -> int:
     print_whatever_the_console_can()
+    hear_termination()
     top = parser()
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
         with told_to(new_screen()):
-            return int(options.run(options))
+            code = int(options.run(options))
+        sys.stdout.flush()
+        return code
     except InputFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 2
     except RunFault as fault:
         print(f"rvwear {options.command}: {fault}", file=sys.stderr)
         return 1
-    except BrokenPipeError:
-        # The reader has seen enough (rvwear ... | head); keep Python from complaining at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except OSError as problem:
-        print(f"rvwear {options.command}: {problem}; choose another place for input or output", file=sys.stderr)
+        if isinstance(problem, BrokenPipeError) and reader_is_gone():
+            # The reader has seen enough (rvwear ... | head).
+            silence()
+            return 0
+        return ended_by(problem, options.command)
+    except KeyboardInterrupt as interruption:
+        code = exit_code(interruption)
+        how = "interrupted" if code == INTERRUPTED else "terminated"
+        print(f"rvwear {options.command}: {how}" + (f" ({interruption})" if str(interruption) else ""), file=sys.stderr)
+        return code
+
+
+def ended_by(problem: OSError, command: str) -> int:
+    """Says what the system refused; a full disk or a process that is gone is a failed run, a wrong place is bad input."""
+    if isinstance(problem, BrokenPipeError):
+        print(f"rvwear {command}: a process that computed for this one is gone ({problem}); run it again, with more memory", file=sys.stderr)
+        return 1
+    print(f"rvwear {command}: {problem}; choose another place for input or output", file=sys.stderr)
+    if problem.errno not in OF_THE_DISK:
         return 2
-    except KeyboardInterrupt as stop:
-        print(f"rvwear {options.command}: interrupted" + (f" ({stop})" if str(stop) else ""), file=sys.stderr)
-        return 130
+    # What could not be printed cannot be printed at the end either.
+    silence()
+    return 1
 
 
 def print_whatever_the_console_can() -> None:

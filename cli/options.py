@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -88,9 +89,15 @@ def folder(text: str | None) -> Path | None:
     return Path(text) if text else None
 
 
+def file_name(name: str) -> str:
+    """A name out of a file as the name of a file: no path, no sign that a system takes for another."""
+    plain = re.sub(r"[^A-Za-z0-9 ._-]", "_", name).strip(" .")[:100]
+    return plain or "unnamed"
+
+
 def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)) -> Path:
     """Where a result goes; checked before the work, so that none is lost."""
-    path = Path(text or f"results/{name}.nc")
+    path = Path(text or f"results/{file_name(name)}.nc")
     if path.suffix not in endings:
         if len(endings) > 1:
             raise InputFault(f"--output {path}: the name must end in {' or '.join(endings)}")

@@ -13,24 +13,79 @@
     [[steps]]                       # the ladder, one entry per attempt
 """
 
-import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import tomlkit
+from pydantic import Field, ValidationError
 from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
+from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest
+from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
+from fmu_src.strict_file import NAME, Strict, described, validated
+from fmu_src.units import UnitError, conversion
+from fmu_src.variables import ValueFault
 from orchestrator.settings import parse_setting
 from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
 from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
+
+REMEDY = "docs/diagnosis.md shows a model file"
+
+
+class Head(Strict):
+    name: str = Field(pattern=NAME)
+    reducer: str = Field(min_length=1)
+
+
+class Number(Strict):
+    """A parameter of an effect, and its interval."""
+
+    value: float
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+
+
+class SignalEntry(Strict):
+    signal: str
+    held_out: bool
+    unit: str
+    before: float
+    after: float
+    noise_floor: float
+
+
+class StepEntry(Strict):
+    """A step of the ladder, as ``extend`` writes it."""
+
+    campaign: str = ""
+    effects: list[str]
+    verdict: str = ""
+    reason: str = ""
+    training_before: float | None = None
+    training_after: float | None = None
+    held_out_before: float | None = None
+    held_out_after: float | None = None
+    nuisances: dict[str, float] = {}
+    signals: list[SignalEntry] = []
+    kept: bool = True
+
+
+class Content(Strict):
+    """Of the effects' parameters only the form: which there are is known from the effects."""
+
+    model: Head
+    settings: dict[str, str | float | int] = {}
+    effects: dict[str, dict[str, Any]] = {}
+    steps: list[StepEntry] = []
 
 
 @dataclass(frozen=True)
@@ -58,58 +113,81 @@ def every_effect() -> dict[str, Effect]:
         require_sound_effects(unit)
     found = dict(PLANT_EFFECTS)
     for name, effect in WEAR_EFFECTS.items():
-        if name in found:
-            have = {p.variable.name for p in found[name].parameters}
-            more = tuple(p for p in effect.parameters if p.variable.name not in have)
-            signals = tuple(dict.fromkeys(found[name].signals + effect.signals))
-            found[name] = replace(found[name], parameters=found[name].parameters + more, signals=signals)
-        else:
-            found[name] = effect
+        found[name] = joined(found[name], effect) if name in found else effect
     return found | CHAIN_EFFECTS
+
+
+def joined(effect: Effect, other: Effect) -> Effect:
+    """Both halves of an effect as one."""
+    have = {p.variable.name for p in effect.parameters}
+    more = tuple(p for p in other.parameters if p.variable.name not in have)
+    searched = {p.variable.name: p.grid for p in other.parameters}
+    own = tuple(replace(p, grid=p.grid or searched.get(p.variable.name, ())) for p in effect.parameters)
+    return replace(effect, parameters=own + more, signals=tuple(dict.fromkeys(effect.signals + other.signals)))
+
+
+def halves_of(name: str) -> list[Effect]:
+    """What the units have under the name of an effect."""
+    return [effects[name] for effects in (PLANT_EFFECTS, WEAR_EFFECTS) if name in effects]
 
 
 def load_model(name_or_path: str | Path) -> ModelFile:
     """A model file, a reducer file, or the name of a reducer of the library."""
     path = Path(name_or_path)
-    if path.suffix == ".toml" and path.is_file():
-        try:
-            content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-            raise InputFault(f"{path}: not a TOML file: {problem}") from None
-        if "model" in content:
-            return model_of(content, path)
-    elif path.suffix == ".toml":
-        raise InputFault(f"{path}: no such file; give a model file, a reducer file or the name of a reducer")
+    if path.suffix == ".toml":
+        with reading(path, "a model file", REMEDY):
+            content = read_toml(path, "such file", "give a model file, a reducer file or the name of a reducer")
+            if "model" in content:
+                return model_of(content, path)
     reducer = load_reducer(name_or_path)
     return ModelFile(reducer.name, reducer)
 
 
 def model_of(content: dict[str, Any], path: Path) -> ModelFile:
-    head = content["model"]
-    for key in ("name", "reducer"):
-        if not isinstance(head.get(key), str):
-            raise InputFault(f"{path}: model.{key} = {head.get(key)!r}: a text is needed")
-    near = path.parent / head["reducer"]
-    reducer = load_reducer(near if near.is_file() else head["reducer"])
+    stated = validated(Content, content, path, REMEDY)
+    near = path.parent / stated.model.reducer
+    reducer = load_reducer(near if near.is_file() else stated.model.reducer)
     tables = [reducer.plant, reducer.wear]
     settings = {}
-    for name, text in content.get("settings", {}).items():
+    for name, text in stated.settings.items():
         try:
             settings[name] = parse_setting(f"{name}={text}", tables).value
         except InputFault as problem:
             raise InputFault(f"{path}: settings.{name}: {problem}") from None
     known = every_effect()
-    effects = content.get("effects", {})
-    for name, parameters in effects.items():
+    effects: dict[str, dict[str, dict[str, Any]]] = {}
+    for name, parameters in stated.effects.items():
         if name not in known:
-            raise InputFault(f"{path}: effects.{name}: there is no such effect; `rvwear effects` lists those there are, your own with {USER_EFFECTS}=DIR")
-        have = {p.variable.name for p in known[name].parameters}
-        for parameter, entry in parameters.items():
-            if parameter.partition("[")[0] not in have:
-                raise InputFault(f"{path}: effects.{name}.{parameter}: the effect has {', '.join(sorted(have))}")
-            if not isinstance(entry, dict) or "value" not in entry:
-                raise InputFault(f"{path}: effects.{name}.{parameter} = {entry!r}: write {{ value = ..., unit = \"...\" }}")
-    return ModelFile(head["name"], reducer, settings, effects, tuple(content.get("steps", ())), path)
+            raise InputFault(
+                f"{path}: effects.{shown(name)}: there is no such effect{nearest(name, known, 1)}; `rvwear effects` lists those there are, your own"
+                f" with {USER_EFFECTS}=DIR"
+            )
+        effects[name] = {key: number_of(known[name], key, entry, f"{path}: effects.{name}.{shown(key)}") for key, entry in parameters.items()}
+    # As they stand in the file, where they are shown from.
+    return ModelFile(stated.model.name, reducer, settings, effects, tuple(content.get("steps", ())), path)
+
+
+def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any]:
+    """A parameter's value and interval in its own unit, within its bounds."""
+    have = {p.variable.name: p.variable for p in effect.parameters}
+    variable = have.get(key.partition("[")[0])
+    if variable is None:
+        raise InputFault(f"{place}: the effect has {', '.join(sorted(have))}{nearest(key, have, 1)}")
+    if not isinstance(entry, dict) or "value" not in entry:
+        raise InputFault(f'{place} = {quoted(entry)}: write {{ value = ..., unit = "..." }}')
+    unknown = sorted(entry.keys() - set(Number.model_fields))
+    if unknown:
+        raise InputFault(f"{place}.{shown(unknown[0])}: there is no such key{nearest(unknown[0], Number.model_fields, 1)}")
+    try:
+        number = Number(**entry)
+        factor, offset = conversion(number.unit or variable.unit, variable.unit)
+        numbers = {name: factor * value + offset for name in ("value", "low", "high") if (value := getattr(number, name)) is not None}
+        variable.check(numbers["value"], key)
+    except ValidationError as problem:
+        raise InputFault(f"{place}.{described(problem, Number, entry)}") from None
+    except (UnitError, ValueFault) as problem:
+        raise InputFault(f"{place} = {quoted(entry)}: {problem}") from None
+    return {"value": numbers["value"], "unit": variable.unit} | numbers
 
 
 def save_model(model: ModelFile, path: Path) -> None:
@@ -125,9 +203,7 @@ def save_model(model: ModelFile, path: Path) -> None:
         for step in model.steps:
             steps.append(tomlkit.item({k: v for k, v in step.items() if v is not None}))
         document["steps"] = steps
-    partial = path.with_suffix(".part")
-    partial.write_text(tomlkit.dumps(document), encoding="utf-8")
-    partial.replace(path)
+    write_text(path, tomlkit.dumps(document))
 
 
 def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | str:

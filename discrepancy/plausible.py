@@ -12,7 +12,7 @@ from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from discrepancy.model_file import ModelFile
-from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.physical_model import PhysicalModel, require_known
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
@@ -51,6 +51,7 @@ def scale_doubts(campaign: Campaign) -> list[Finding]:
     """Runs of each signal, from different files, against the reducer of the campaign; nothing without a reducer."""
     if campaign.reducer is None:
         return []
+    require_known(campaign.folder, campaign.nuisances, (campaign.reducer.plant, campaign.reducer.wear))
     chosen: dict[Hashable, dict[str, Record]] = defaultdict(dict)
     # New units first: a worn one costs a life.
     for record in sorted(campaign.records, key=hours_of):

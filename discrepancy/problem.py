@@ -4,17 +4,31 @@ The campaign turns files into ``Record``s, the physics turns parameter values in
 predictions; between them the statistics knows neither files nor reducers.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 
+# Values that were predicted before, of which the next are a little beside: where a model that iterates may start.
+NEAR: ContextVar[Mapping[str, float] | None] = ContextVar("near", default=None)
 # Quantities whose zero nobody knows unless it is said: an encoder starts anywhere.
 FREE_ZERO = ("transmission_error", "hysteresis")
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
 BASE = "base"
+
+
+@contextmanager
+def near(values: Mapping[str, float]) -> Iterator[None]:
+    """Predictions in this block are of values a little beside ``values``."""
+    before = NEAR.set(dict(values))
+    try:
+        yield
+    finally:
+        NEAR.reset(before)
 
 
 @dataclass(frozen=True)

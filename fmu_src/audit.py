@@ -6,6 +6,7 @@ library is audited as it is built.
 
 import struct
 
+from fmu_src.glibc import require_old_library
 from fmu_src.native import NativeFault
 
 # Shared libraries that every machine of the kind has: C and mathematics.
@@ -16,13 +17,17 @@ SYSTEM = (
 
 
 def require_only_system_libraries(library: bytes, name: str) -> None:
-    """NativeFault if the library needs more than C and mathematics, or shows more than FMI's functions."""
+    """NativeFault if the library needs more than C and mathematics, those of a newer system, or shows more than FMI's functions."""
     foreign = sorted(n for n in needed_libraries(library) if not n.lower().startswith(tuple(s.lower() for s in SYSTEM)))
     if foreign:
         raise NativeFault(f"{name} needs {', '.join(foreign)}; only the C and mathematics libraries are sure to be there")
     shown = sorted(s for s in exported_symbols(library) if not s.lstrip("_").startswith(("fmi2", "fmi3")))
     if shown:
         raise NativeFault(f"{name} exports {', '.join(shown[:5])}, which could collide with other units")
+
+
+    if isinstance(binary := kind_of(library)(library), Elf):
+        require_old_library(binary.versions, name)
 
 
 def needed_libraries(library: bytes) -> set[str]:
@@ -62,8 +67,38 @@ class Elf:
         self.imported: set[str] = set()
         self.exported: set[str] = set()
         names = sections[symbols[6]][4]
-        for name, _info, _, section, _, _ in struct.iter_unpack("<IBBHQQ", data[symbols[4] + 24 : symbols[4] + symbols[5]]):
-            (self.exported if section else self.imported).add(text_at(data, names + name))
+        wanted = self.wanted_versions(data, sections)
+        # Versions wanted of other libraries, where these keep several, each with its symbols.
+        self.versions: dict[str, list[str]] = {version: [] for version in wanted.values()}
+        marks = next((s for s in sections if s[1] == 0x6FFFFFFF), None)
+        for k, symbol in enumerate(struct.iter_unpack("<IBBHQQ", data[symbols[4] : symbols[4] + symbols[5]])):
+            name, section = text_at(data, names + symbol[0]), symbol[3]
+            if k == 0:
+                # The first symbol of every table is none.
+                continue
+            (self.exported if section else self.imported).add(name)
+            if marks is not None and not section:
+                mark = struct.unpack_from("<H", data, marks[4] + 2 * k)[0] & 0x7FFF
+                if mark in wanted:
+                    self.versions[wanted[mark]].append(name)
+
+    @staticmethod
+    def wanted_versions(data: bytes, sections: list[tuple[int, ...]]) -> dict[int, str]:
+        """Names of the versions that are wanted of other libraries, by the number that symbols refer to."""
+        section = next((s for s in sections if s[1] == 0x6FFFFFFE), None)
+        if section is None:
+            return {}
+        found, names, library = {}, sections[section[6]][4], section[4]
+        while True:
+            _, count, _, first, following = struct.unpack_from("<HHIII", data, library)
+            place = library + first
+            for _ in range(count):
+                _, _, number, name, distance = struct.unpack_from("<IHHII", data, place)
+                found[number] = text_at(data, names + name)
+                place += distance
+            if not following:
+                return found
+            library += following
 
 
 class Pe:

@@ -1,6 +1,8 @@
 """Where what can be made again is kept between runs: per user, private, and never in the way of a run."""
 
+import atexit
 import os
+import shutil
 import stat
 import sys
 import tempfile
@@ -14,22 +16,30 @@ KEPT_DAYS = 30
 @cache
 def cache_folder(name: str) -> Path:
     """A folder in ``$XDG_CACHE_HOME/rvwear`` or ``~/.cache/rvwear``; where that is no place of one's own, a temporary one."""
-    return root() / name if usable(root() / name) else Path(tempfile.mkdtemp(prefix=f"rvwear-{name}-"))
+    return root() / name if usable(root() / name) else temporary(f"rvwear-{name}-")
 
 
 @cache
 def root() -> Path:
     try:
         # A user without a home and without an entry among the users has none.
-        home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-        place = Path(home) / "rvwear"
+        chosen = os.environ.get("XDG_CACHE_HOME")
+        if not chosen and not Path.home().is_dir():
+            raise FileNotFoundError(f"there is no {Path.home()}")
+        place = Path(chosen or Path.home() / ".cache") / "rvwear"
         place.mkdir(parents=True, exist_ok=True, mode=0o700)
         require_private(place)
         return place
     except (OSError, RuntimeError) as problem:
-        temporary = Path(tempfile.mkdtemp(prefix="rvwear-"))
         print(f"rvwear: no cache between runs ({problem}); set XDG_CACHE_HOME to a folder of your own", file=sys.stderr)
-        return temporary
+        return temporary("rvwear-")
+
+
+def temporary(prefix: str) -> Path:
+    """A new folder that goes when this process ends."""
+    folder = Path(tempfile.mkdtemp(prefix=prefix))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 def usable(place: Path) -> bool:

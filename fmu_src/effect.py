@@ -21,7 +21,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from fmu_src.effect_check import OWN
+from fmu_src.effect_check import OWN, is_name
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 
@@ -91,9 +91,9 @@ def amplitude(
     name: str, unit: str, text: str, scale: float, low: float, high: float, off: float = 0.0, sign: int = 0, source: str = "off",
     group: str = "", **more: Any,
 ) -> EffectParameter:  # fmt: skip
-    """A parameter that is off at ``off``; [low, high] are its bounds in ``unit``."""
+    """A parameter that is off at ``off``; [low, high] are its bounds in ``unit``.  It may be set during a run."""
     variable = Variable(name, "parameter", unit, f"{text} ({off:g}: off)", off, minimum=low, maximum=high,
-                        nominal=abs(scale), source=source, **more)
+                        nominal=abs(scale), source=source, tunable=True, **more)
     return EffectParameter(variable, "amplitude", scale, sign, (), group)
 
 
@@ -127,16 +127,33 @@ def effect_modules(package: str) -> dict[str, ModuleType]:
     for _, file in user_effect_files(package.partition(".")[0]):
         if str(file.parent) not in parent.__path__:
             parent.__path__.append(str(file.parent))
-        if file.stem.isidentifier() and file.stem not in {*own, "__init__"}:
-            with suppress(Exception):
+        if is_name(file.stem) and file.stem not in {*own, "__init__"}:
+            with suppress(Exception, SystemExit):
                 module = importlib.import_module(f"{package}.{file.stem}")
                 if isinstance(module.EFFECT, Effect):
                     modules[file.stem] = module
     return dict(sorted(modules.items()))
 
 
+def amplitude_memory(effects: Iterable[Effect]) -> Variable:
+    """The state that ``keep_amplitudes`` of a unit's composed effects fills."""
+    count = sum(len(effect.amplitudes()) for effect in effects)
+    return Variable("amplitude_kept", "state", "1", "amplitudes that hold now", shape=(count,), axes=("amplitude",))
+
+
+def tuning_lines(modules: Mapping[str, ModuleType]) -> list[str]:
+    """Kernels ``amplitudes_changed(r)``, since ``keep_amplitudes(r)``."""
+    names = [p.variable.name for module in modules.values() for p in module.EFFECT.amplitudes()]
+    return [
+        "", "", "@kernel", "def amplitudes_changed(r):",
+        *(f"    if r.{name} != r.amplitude_kept[{i}]:\n        return True" for i, name in enumerate(names)), "    return False",
+        "", "", "@kernel", "def keep_amplitudes(r):",
+        *(f"    r.amplitude_kept[{i}] = r.{name}" for i, name in enumerate(names)),
+    ]  # fmt: skip
+
+
 def compose(package: str, hooks: Mapping[str, tuple[str, str]], guards: Mapping[str, Guard] | None = None) -> ModuleType:
-    """One module with a kernel per hook that calls every effect's kernel of that name.
+    """One module with a kernel per hook that calls every effect's kernel of that name, and those of ``tuning_lines``.
 
     ``hooks`` maps the hook's name to (arguments, operation): operation ``""`` calls one after
     the other, ``"*"`` gives the product of what they return.  ``guards`` maps it to a condition of each call, whose
@@ -162,7 +179,7 @@ def compose(package: str, hooks: Mapping[str, tuple[str, str]], guards: Mapping[
             body += ["    value = 1.0", *(f"    {call}" for call in calls), "    return value"]
         else:
             body += [f"    {call}" for call in calls] or ["    pass"]
-    text = "\n".join(lines + body) + "\n"
+    text = "\n".join([*lines, *body, *tuning_lines(modules)]) + "\n"
     # Not on disk: the compiler, tracebacks and debuggers find its text in ``linecache``.
     file = f"<{name}>"
     linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)

@@ -7,6 +7,7 @@ multiplying, and read nothing that others change at the same time: then the orde
 import ast
 import importlib
 import importlib.util
+import keyword
 import os
 import re
 import sys
@@ -20,7 +21,7 @@ from typing import Any
 
 from fmu_src.faults import InputFault, nearest
 from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, source_of
-from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, user_effect_files
+from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, readable, user_effect_files
 from fmu_src.variables import Variable
 
 # Units that take effects.
@@ -80,9 +81,11 @@ def folder_findings(folder: Path) -> list[Finding]:
         return [Finding(folder, 0, f"{USER_EFFECTS} names this folder, and there is none; effects lie in {WHERE}")]
     findings = [
         Finding(file, 1, f"no unit looks here for effects; put it into {WHERE}")
-        for file in sorted([*folder.glob("*.py"), *folder.glob("*/*.py")])
-        if file.parent.name not in UNITS and LOOKS_LIKE_EFFECT.search(file.read_text(encoding="utf-8", errors="replace"))
+        for file in sorted([*folder.glob("[!.]*.py"), *folder.glob("*/[!.]*.py")])
+        if file.parent.name not in UNITS and readable(file) and LOOKS_LIKE_EFFECT.search(file.read_text(encoding="utf-8", errors="replace"))
     ]
+    here = [file for unit in UNITS for file in sorted((folder / unit).glob("[!.]*.py"))]
+    findings += [Finding(file, 0, "no file, or one that cannot be read") for file in here if not readable(file)]
     if not any((folder / unit).is_dir() for unit in UNITS):
         findings.append(Finding(folder, 0, f"{USER_EFFECTS} names this folder, which has neither {' nor '.join(UNITS)} in it"))
     return findings
@@ -90,9 +93,10 @@ def folder_findings(folder: Path) -> list[Finding]:
 
 def check_any_file(file: Path) -> list[Finding]:
     """Everything that is wrong with an effect's file; its folder says which unit it is for."""
-    file = file.resolve()
-    if not file.is_file():
-        return [Finding(file, 0, "there is no such file")]
+    # As it is called: a link lies where it lies.
+    file = file.absolute()
+    if not readable(file):
+        return [Finding(file, 0, "there is no such file, or it cannot be read")]
     if file.parent.name in UNITS:
         return check_file(file, file.parent.name)
     text = f"no unit would look for it in this folder; put it into {WHERE}, and name DIR by {USER_EFFECTS}"
@@ -139,7 +143,7 @@ def frame_of(package: str, file: Path) -> Frame:
     effects = importlib.import_module(f"{package}.effects")
     variables = importlib.import_module(f"{package}.variables")
     others = {name: (effect, Path(sys.modules[f"{package}.effects.{name}"].__file__ or "")) for name, effect in effects.EFFECTS.items()}
-    for beside in file.parent.glob("*.py") if file.parent.name == package else ():
+    for beside in filter(readable, file.parent.glob("[!.]*.py")) if file.parent.name == package else ():
         effect = getattr(imported(beside, package)[0], "EFFECT", None)
         if beside.stem not in others and is_effect(effect):
             others[beside.stem] = effect, beside
@@ -162,15 +166,20 @@ def imported(file: Path, package: str) -> tuple[ModuleType | None, list[Finding]
     module = importlib.util.module_from_spec(specification)
     try:
         specification.loader.exec_module(module)
-    except Exception as error:  # noqa: BLE001 (the file may do anything when it is imported)
+    except (Exception, SystemExit) as error:  # noqa: BLE001 (the file may do anything when it is imported)
         lines = [f.lineno or 1 for f in traceback.extract_tb(error.__traceback__) if f.filename == str(file)]
         return None, [Finding(file, lines[-1] if lines else 1, f"{type(error).__name__}: {error}")]
     return module, []
 
 
+def is_name(text: str) -> bool:
+    """Whether Python code can call something so."""
+    return text.isidentifier() and not keyword.iskeyword(text)
+
+
 def of_name(file: Path, frame: Frame) -> list[Finding]:
-    if not file.stem.isidentifier():
-        return [Finding(file, 1, "the file's name must be a Python name: letters, digits and _")]
+    if not is_name(file.stem):
+        return [Finding(file, 1, "the file's name must be a Python name: letters, digits and _, and no word of Python's own")]
     if file.stem in frame.effects or file.stem == "composed":
         return [Finding(file, 1, f"there is an effect {file.stem} already; rename the file")]
     return []

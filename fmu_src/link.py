@@ -19,6 +19,7 @@ from pathlib import Path
 import fmpy
 
 from fmu_src.audit import require_only_system_libraries
+from fmu_src.glibc import LINK_FLAGS, can_name_versions, old_mathematics
 from fmu_src.native import NativeFault
 
 SHELL = Path(__file__).parent / "shell"
@@ -94,10 +95,16 @@ def shared_library(name: str, table: str, code: bytes, target: Platform, portabl
         (folder / "unit.o").write_bytes(code)
         for source in sorted(SHELL.iterdir()):
             shutil.copy(source, folder / source.name)
+        link = list(target.link_flags)
+        driver = compiler(target, portable)
+        if can_name_versions(target.name) and "-target" not in driver:
+            # zig is told the C library's version in its target.
+            (folder / "old_mathematics.c").write_text(old_mathematics(target.name), encoding="utf-8")
+            link += LINK_FLAGS
         sources = sorted(p.name for p in folder.glob("*.c"))
         file = f"{name}{target.suffix}"
-        link = [flag.format(file=file) for flag in target.link_flags]
-        command = [*compiler(target, portable), *FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o", "-o", file, *link]
+        link = [flag.format(file=file) for flag in link]
+        command = [*driver, *FLAGS, f"-I{FMI_HEADERS}", *sources, "unit.o", "-o", file, *link]
         done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8", errors="replace")
         if done.returncode != 0:
             raise NativeFault(f"{name} for {target.name}: {command[0]} failed: {done.stderr.strip()[-2000:]}")

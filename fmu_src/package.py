@@ -20,6 +20,8 @@ import fmpy
 from fmpy.model_description import ValidationError
 from fmpy.validation import validate_model_description
 
+from fmu_src.capabilities import declare
+from fmu_src.checked_file import replacing
 from fmu_src.description import guid, model_description
 from fmu_src.description3 import model_description3
 from fmu_src.faults import RunFault
@@ -104,6 +106,7 @@ def build_native(
     for version in versions:
         describe, folders = (model_description, folders2) if version == "2" else (model_description3, folders3)
         root = describe(unit.table, stamp["guid"], stamp["source_hash"], step_size, tool, project())
+        declare(root, version, unit)
         ElementTree.indent(root)
         files = {
             "modelDescription.xml": ElementTree.tostring(root, "utf-8", xml_declaration=True),
@@ -139,16 +142,12 @@ def stamp_bytes(stamp: dict[str, Any]) -> bytes:
 
 def write_archive(files: dict[str, bytes], target: Path) -> Path:
     """An archive with sorted names and fixed times: equal contents, equal bytes."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    # Written beside the target and moved: an interrupted build leaves no half FMU.
-    partial = target.with_suffix(".part")
-    with zipfile.ZipFile(partial, "w") as archive:
+    with replacing(target) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name in sorted(files):
             info = zipfile.ZipInfo(name, EPOCH)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(info, files[name])
-    partial.replace(target)
     return target
 
 

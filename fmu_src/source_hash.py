@@ -14,10 +14,17 @@ STAMP = "unit.json"
 
 
 def user_effect_files(package: str) -> list[tuple[str, Path]]:
-    """(name inside the project, file) of the user's effects of a package, in a fixed order."""
+    """(name inside the project, file) of the user's effects of a package, in a fixed order.
+
+    What editors and file managers put beside files begins with a dot.  What cannot be read is told by ``effect_check``.
+    """
     folder = None if (ROOT / STAMP).is_file() else os.environ.get(USER_EFFECTS)
-    files = sorted((Path(folder).resolve() / package).glob("*.py")) if folder else []
-    return [(f"{package}/effects/{file.name}", file) for file in files]
+    files = sorted((Path(folder).resolve() / package).glob("[!.]*.py")) if folder else []
+    return [(f"{package}/effects/{file.name}", file) for file in files if readable(file)]
+
+
+def readable(file: Path) -> bool:
+    return file.is_file() and os.access(file, os.R_OK)
 
 
 def source_files(packages: tuple[str, ...] = KERNEL_PACKAGES, root: Path = ROOT) -> list[tuple[str, Path]]:

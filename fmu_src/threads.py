@@ -93,6 +93,12 @@ class Once:
     def __setstate__(self, state: dict[str, int]) -> None:
         self.__init__(state["most"])  # type: ignore[misc]
 
+    def peek(self, key: object) -> object | None:
+        """What has been made under ``key``; None if nothing has."""
+        with self.lock:
+            future = self.found.get(key)
+        return None if future is None or not future.done() or future.exception() else future.result()
+
     def get(self, key: object, make: Callable[[], Result]) -> Result:
         with self.lock:
             future = self.found.get(key)

@@ -2,16 +2,18 @@
 
 The specification is a plain dictionary, so that it travels inside an FMU as JSON:
 ``unit`` names the package that makes it (``rv_plant``, ``wear_fmu``), ``sizes`` its
-array sizes, ``starts`` and ``sources`` the start values that differ from the table's.
+array sizes, ``starts`` and ``sources`` the start values that differ from the table's, ``worn``
+what else a unit starts with that is not new.
 """
 
 import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TypedDict
+from typing import NotRequired, TypedDict
 
 from fmu_src.arrays import Records
 from fmu_src.kernel import Kernel
+from fmu_src.start_arrays import decode
 from fmu_src.variables import Table
 
 # A communication step beyond this is a slip, not a wish [s].
@@ -30,6 +32,13 @@ class UnitFault(RuntimeError):
     """A unit that refused to initialise or to step; the text says what, where and the remedy."""
 
 
+class Worn(TypedDict):
+    """Operating hours, and start values of outputs and states by name (see fmu_src.start_arrays)."""
+
+    hours: float
+    arrays: dict[str, str]
+
+
 class Specification(TypedDict):
     """See above; ``reducer`` is the name of the reducer file's."""
 
@@ -38,6 +47,7 @@ class Specification(TypedDict):
     sizes: dict[str, dict[str, int]]
     starts: dict[str, float]
     sources: dict[str, str]
+    worn: NotRequired[Worn]
 
 
 @dataclass(frozen=True)
@@ -47,6 +57,8 @@ class Unit:
     ``fault_reach`` is how many of the leading cells a step that returns a fault may have
     changed (None: all of the state).  An FMU keeps a copy of these during each step.
     ``cautions`` are said once when the integer output of the name is no longer 0.
+    ``pause`` names two states of a unit whose steps may end before their time: where they may (0 nowhere, 1 where a
+    judgement changes, 2 after every part), which the importer's wishes decide, and how much of the step was done (0: all) [s].
     """
 
     table: Table
@@ -55,6 +67,7 @@ class Unit:
     faults: dict[int, str]
     fault_reach: int | None = None
     cautions: Mapping[str, str] = field(default_factory=dict)
+    pause: tuple[str, str] | None = None
 
     @property
     def guarded_cells(self) -> int:
@@ -85,6 +98,16 @@ class Unit:
         """What a status code means for this record, in words."""
         scalars = {v.name: records[v.name][0] for v in self.table.variables if not v.shape}
         return f"{self.table.name} at time {time:.9g} s: {self.faults[code].format(**scalars)}"
+
+
+def started(table: Table, specification: Specification) -> Table:
+    """A unit's table with the specification's start values."""
+    table = table.with_starts(specification["starts"], specification["sources"])
+    worn = specification.get("worn")
+    if worn is None:
+        return table
+    arrays = {name: decode(text, table.by_name[name].shape) for name, text in worn["arrays"].items()}
+    return table.with_arrays(arrays, f"{table.description}; delivered as after {worn['hours']:g} hours")
 
 
 def make_unit(specification: Specification) -> Unit:

@@ -31,12 +31,17 @@ def c_source(unit: Unit, identity: str) -> str:
         *(c_array("struct piece", f"FAULT_{i}", pieces) for i, pieces in enumerate(faults)),
         c_array("struct fault", "FAULTS", [f"{{{code}, FAULT_{i}, {len(faults[i])}}}" for i, code in enumerate(sorted(unit.faults))]),
         c_array("struct caution", "CAUTIONS", [f"{{{table.offset[name]}, {c_string(text)}}}" for name, text in unit.cautions.items()]),
+        c_array("struct range", "RANGES", [
+            f"{{{c_string(v.name)}, {table.offset[v.name]}, {v.size}, {int(v.is_integer)}, {float(lowest)!r}, {float(highest)!r}}}"
+            for v, lowest, highest in table.state_ranges
+        ]),
         c_array("char *const", "CATEGORIES", [c_string(name) for name in LOG_CATEGORIES]),
-        f"""const struct unit unit = {{
+        f"""DEFINED const struct unit unit = {{
     {c_string(table.name)}, {c_string(identity)}, {table.cell_count}, {table.state_cells}, {table.interface_cells},
     VARIABLES, {len(variables)}, STARTS, {len(runs)}, FAULTS, {len(faults)}, CAUTIONS, {len(unit.cautions)},
     CATEGORIES, {len(LOG_CATEGORIES)},
-    {unit.guarded_cells}, {LONGEST_STEP!r},
+    {unit.guarded_cells}, {LONGEST_STEP!r}, {", ".join(str(table.offset[name]) for name in unit.pause or ()) or "-1, -1"},
+    RANGES, {len(table.state_ranges)},
 }};""",
     ]
     return "\n\n".join(parts) + "\n"
@@ -63,7 +68,7 @@ def c_variable(table: Table, v: Variable) -> str:
     shape = ", ".join(map(str, v.shape)) or "0"
     return (
         f"{{{c_string(v.name)}, {c_string(unit)}, {choices}, {role}, {int(v.is_integer)}, {table.offset[v.name]},"
-        f" {v.size}, {len(v.shape)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}}}"
+        f" {v.size}, {len(v.shape)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}, {float(v.nominal)!r}}}"
     )
 
 

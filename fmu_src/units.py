@@ -1,9 +1,14 @@
 """Units: read from text, converted, decomposed for FMI.  All by pint."""
 
+import base64
+import json
+import tempfile
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
 
 if TYPE_CHECKING:
@@ -14,6 +19,10 @@ FMI_BASE = {
     "kg": "kilogram", "m": "meter", "s": "second", "A": "ampere", "K": "kelvin",
     "mol": "mole", "cd": "candela", "rad": "radian",
 }
+
+
+# What pint made of its definitions: the files of its own cache in one that is checked.
+MARK = b"rvwear units 1\n"
 
 
 class UnitError(ValueError):
@@ -37,10 +46,24 @@ class BaseUnit:
 
 @cache
 def registry() -> "pint.UnitRegistry[float]":
-    """pint's units; half a second of reading, for those only who need them."""
+    """pint's units; half a second of reading, for those only who need them.
+
+    pint loads whatever lies in its cache: it is given a folder of its own, with what an earlier run kept there and is whole.
+    """
     import pint
 
-    return pint.UnitRegistry(cache_folder=cache_folder("units"))
+    place = cache_folder("units") / pint.__version__
+    kept: dict[str, str] = json.loads(checked_file.read(place, MARK) or "{}")
+    with tempfile.TemporaryDirectory(prefix="rvwear-units-") as name:
+        folder = Path(name)
+        for file, content in kept.items():
+            (folder / file).write_bytes(base64.b64decode(content))
+        made: pint.UnitRegistry[Any] = pint.UnitRegistry(cache_folder=folder)
+        files = {path.name: path for path in folder.iterdir()}
+        if files.keys() != kept.keys():
+            text = json.dumps({file: base64.b64encode(path.read_bytes()).decode() for file, path in sorted(files.items())})
+            checked_file.write(place, MARK, text.encode())
+    return made
 
 
 @cache

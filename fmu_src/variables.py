@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.arrays import Floats, Mask, Records, field_of
+from fmu_src.kernel import PLAIN
 from fmu_src.limits import usual_limits
 
 
@@ -29,6 +30,7 @@ class ValueFault(ValueError):
 
 
 ROLES = ("input", "parameter", "output", "state", "scratch")
+LARGEST = float(np.finfo(float).max)
 # In place of a bound or nominal value: the usual one.
 USUAL = math.nan
 
@@ -145,16 +147,19 @@ class Table:
     ``views`` lay other records over the same cells, each as {its field: variable of this
     table}: a kernel written for another table then works on this one (``records.plant``).
     A record with views also has all its ``cells`` as one row of ``i8``.
+
+    ``arrays`` are start values of outputs and states that are not alike in all elements (worn surfaces).
     """
 
     def __init__(
         self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False,
-        views: dict[str, dict[str, str]] | None = None,
+        views: dict[str, dict[str, str]] | None = None, arrays: dict[str, Floats] | None = None,
     ):  # fmt: skip
         self.name = name
         self.description = description
         self.starts_from_nothing = starts_from_nothing
         self.views = views or {}
+        self.arrays = arrays or {}
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
@@ -221,7 +226,10 @@ class Table:
         records = np.zeros(1, self.dtype)
         for v in self.variables:
             records[v.name] = v.start
-        return records
+        for name, values in self.arrays.items():
+            records[name] = values
+        # Plain Python takes fields as attributes of NumPy's own records.
+        return records.view(np.recarray) if PLAIN else records
 
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
         """The same table with other start values (and their sources)."""
@@ -229,7 +237,11 @@ class Table:
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views)
+        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views, self.arrays)
+
+    def with_arrays(self, arrays: dict[str, Floats], description: str) -> "Table":
+        """The same table that starts with these outputs and states, described as such."""
+        return Table(self.name, description, self.variables, self.starts_from_nothing, self.views, self.arrays | arrays)
 
     def cells(self, records: Records) -> Floats:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
@@ -270,6 +282,37 @@ class Table:
             if variable.role not in ("input", "parameter"):
                 raise ValueFault(f"{element} is an output of {self.name}; it cannot be set")
             variable.check(float(value), element)
+
+    @cached_property
+    def state_ranges(self) -> list[tuple[Variable, float, float]]:
+        """(variable, lowest, highest) of all that makes up the state.
+
+        Numbers that are set, and whole numbers (indices and counts of the kernels), lie within their bounds; all others need be finite alone.
+        """
+        within = ("input", "parameter")
+        return [
+            (v, v.minimum, v.maximum) if v.is_integer or v.role in within else (v, -LARGEST, LARGEST)
+            for v in self.variables if v.role != "scratch"
+        ]  # fmt: skip
+
+    @cached_property
+    def state_bounds(self) -> tuple[Floats, Floats, Mask]:
+        """(lowest, highest, whether it is an integer) of each cell of the state."""
+        sizes = [v.size for v, _, _ in self.state_ranges]
+        columns = zip(*((lowest, highest, v.is_integer) for v, lowest, highest in self.state_ranges))
+        lowest, highest, integers = (np.repeat(np.array(column), sizes) for column in columns)
+        return lowest, highest, integers
+
+    def check_state(self, cells: Floats) -> None:
+        """Raise ValueFault unless a unit can have got to this state (its leading cells, integers reinterpreted)."""
+        if len(cells) != self.state_cells:
+            raise ValueFault(f"a state of {self.name} has {self.state_cells} numbers, not {len(cells)}")
+        lowest, highest, integers = self.state_bounds
+        values = np.where(integers, cells.view("i8"), cells)
+        wrong = np.flatnonzero(~((values >= lowest) & (values <= highest)))
+        if len(wrong):
+            _, element = self.element_at(int(wrong[0]))
+            raise ValueFault(f"the state is impossible: {element} = {values[wrong[0]]:.6g}; it was not saved by this unit")
 
     def markdown(self) -> str:
         """The documentation table of the interface."""

@@ -259,7 +259,16 @@ class InProcess(Component):
         return self.cells[: self.table.state_cells].tobytes()
 
     def restore(self, state: bytes) -> None:
-        self.cells[: self.table.state_cells] = np.frombuffer(state, "f8")
+        """InputFault for bytes that are no state of this unit: they may come from a file."""
+        try:
+            cells = np.frombuffer(state, "f8")
+            self.table.check_state(cells)
+        except ValueError as problem:
+            raise InputFault(f"{self.name}: {problem}") from None
+        self.cells[: self.table.state_cells] = cells
+
+    def revert(self, snapshot: Snapshot) -> None:
+        self.cells[: self.table.state_cells] = np.frombuffer(snapshot, "f8")
 
     def record(self) -> Records:
         return self.records.copy()

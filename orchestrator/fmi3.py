@@ -49,13 +49,16 @@ class Fmi3:
             modelIdentifier=description.coSimulation.modelIdentifier, requireFunctions=False,
         )  # fmt: skip
         self.described, self.log, self.refuse = described, log, refuse
+        # What was judged otherwise where the unit returned early from a step.
+        self.returns: list[str] = []
         self.keeps_state = not description.coSimulation.canGetAndSetFMUstate
 
     def instantiate(self) -> None:
         def message(environment: object, status: int, category: bytes, text: bytes) -> None:
             self.log(text.decode("utf-8", "replace").strip())
 
-        self.slave.instantiate(loggingOn=True, logMessage=message)
+        self.slave.instantiate(loggingOn=True, logMessage=message, earlyReturnAllowed=True)
+        self.judged = self.judgements()
         # event handling needed, terminate, early return (Booleans) and the last successful time.
         self.flags, self.reached = (ctypes.c_bool * 3)(), ctypes.c_double()
         first = ctypes.addressof(self.flags)
@@ -135,12 +138,38 @@ class Fmi3:
 
     def exit_initialisation(self) -> None:
         self.slave.exitInitializationMode()
+        for _, _, _, read in self.judged:
+            read()
 
     def step(self, time: float, duration: float) -> None:
         self.do_step(time, duration, self.keeps_state, *self.results)
         if self.flags[1]:
             self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
             self.refuse("fmi3DoStep", ERROR)
+        if self.flags[2]:
+            self.go_on(time, duration)
+
+    def go_on(self, time: float, duration: float) -> None:
+        """The rest of a step from which the unit returned early, to say what it judges otherwise."""
+        done = self.reached.value - time
+        if not 0.0 < done <= duration:
+            self.log(f"the unit returned early from its step at time {self.reached.value:.9g} s, which does not lie in the step")
+            self.refuse("fmi3DoStep", ERROR)
+        for name, choices, buffer, read in self.judged:
+            before = int(buffer[0])
+            read()
+            if buffer[0] != before:
+                self.returns.append(f"{name} became {choices[int(buffer[0])]} at time {self.reached.value:.9g} s (was {choices[before]})")
+        if done < duration:
+            self.step(self.reached.value, duration - done)
+
+    def judgements(self) -> list[tuple[str, tuple[str, ...], np.ndarray, Callable[[], None]]]:
+        """Outputs that are choices, of a unit that may return early from a step when they change: as last read, and their readers."""
+        if not self.described.description.coSimulation.mightReturnEarlyFromDoStep:
+            return []
+        chosen = [s for s in self.described.signals().values() if s.causality == "output" and s.choices and not s.shape]
+        buffers = [s.new_buffer() for s in chosen]
+        return [(s.name, s.choices, b, self.reader(s.references, b)) for s, b in zip(chosen, buffers)]
 
     def snapshot(self) -> Snapshot:
         return self.slave.getFMUState()

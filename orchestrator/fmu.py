@@ -2,11 +2,12 @@
 
 import contextlib
 import json
-import shutil
-import weakref
+import math
+import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from zipfile import is_zipfile
 
 import fmpy
 import numpy as np
@@ -16,6 +17,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from fmu_src.arrays import Records
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.reading import quoted, reading, require_size, unpack_archive
 from fmu_src.source_hash import STAMP, source_hash
 from fmu_src.state import unpack
 from fmu_src.unit import Specification
@@ -23,7 +25,14 @@ from orchestrator.component import Component, Element, Snapshot, unit_of
 from orchestrator.fmi2 import Fmi2
 from orchestrator.fmi3 import Fmi3
 from orchestrator.model_description import Described
+from orchestrator.scratch import Scratch
 
+if TYPE_CHECKING:
+    from fmpy.model_description import ModelDescription
+
+# Bytes of a description (assumed: 100,000 variables take a third).
+MOST = 100_000_000
+IDENTIFIER = re.compile("[A-Za-z_][A-Za-z0-9_]*")
 VERSIONS: dict[str, type[Fmi2 | Fmi3]] = {"2.0": Fmi2, "3.0": Fmi3}
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -37,30 +46,20 @@ class Fmu(Component):
         self.path = Path(path)
         if not self.path.is_file():
             raise InputFault(f"no FMU at {self.path}; this project's own are built with: rvwear build")
-        try:
-            # Other people's descriptions need not be flawless: what matters is checked where it is used.
-            self.description = fmpy.read_model_description(str(self.path), validate=False)
-        except Exception as problem:  # noqa: BLE001
-            raise InputFault(f"{self.path} is not an FMU: {problem}") from None
+        self.scratch = Scratch()
+        self.folder = self.scratch.path
+        self.description = description_of(self.path, self.folder)
         version = self.description.fmiVersion
         if self.description.coSimulation is None:
             raise InputFault(f"{self.path} is for model exchange only; the master steps co-simulation units")
         if version not in VERSIONS:
             raise InputFault(f"{self.path} is of FMI {version}; the master steps units of FMI 2.0 and 3.0")
-        self.folder = Path(fmpy.extract(str(self.path)))
-        # At the latest when the process ends, also if this unit is refused below or never closed.
-        self.discard_folder = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
         self.require_same_sources()
         self.messages: list[str] = []
-        self.described = Described(self.description)
-        self.signals = self.described.signals()
-        capability = self.description.coSimulation
-        self.can_restore = capability.canGetAndSetFMUstate
-        self.can_vary_step = capability.canHandleVariableCommunicationStepSize
-        # FMI 2 does not say up to which order; FMI 3 has dropped input derivatives.
-        self.input_derivatives = int(capability.canInterpolateInputs and version == "2.0")
-        experiment = self.description.defaultExperiment
-        self.usual_step = float(experiment.stepSize) if experiment and experiment.stepSize else None
+        with reading(self.path, "an FMU"):
+            self.described = Described(self.description)
+            self.signals = self.described.signals()
+            self.take(version)
         try:
             self.calls = VERSIONS[version](
                 name, self.described, self.folder, self.messages.append, self.refuse
@@ -75,6 +74,19 @@ class Fmu(Component):
             raise RunFault(f"{self.name} ({self.path}): {problem}: {self.last_messages()}") from None
         self.step = self.begin_step = self.calls.step  # type: ignore[method-assign]  # a call less per step
 
+    def take(self, version: str) -> None:
+        """What the description says of the unit's capabilities."""
+        capability = self.description.coSimulation
+        if not IDENTIFIER.fullmatch(capability.modelIdentifier or ""):
+            raise InputFault(f"{self.path}: modelIdentifier = {quoted(capability.modelIdentifier)}: letters, digits and underscores name the library")
+        self.can_restore = capability.canGetAndSetFMUstate
+        self.can_vary_step = capability.canHandleVariableCommunicationStepSize
+        # FMI 2 does not say up to which order; FMI 3 has dropped input derivatives.
+        self.input_derivatives = int(capability.canInterpolateInputs and version == "2.0")
+        experiment = self.description.defaultExperiment
+        step = float(experiment.stepSize) if experiment and experiment.stepSize else None
+        # A step that is none is no suggestion.
+        self.usual_step = step if step is not None and 0.0 < step < math.inf else None
 
     @property
     def slave(self) -> FMU2Slave | FMU3Slave:
@@ -154,7 +166,13 @@ class Fmu(Component):
     def stamp(self) -> dict[str, Any] | None:
         """What this project writes into its FMUs; None for an FMU made by others."""
         path = self.folder / "resources" / STAMP
-        return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+        if not path.is_file():
+            return None
+        # Others may have a file of this name, too.
+        with reading(self.path, f"an FMU of this project (resources/{STAMP})", "build it anew with: rvwear build"):
+            require_size(path, MOST)
+            stamp = json.loads(path.read_text(encoding="utf-8"))
+        return stamp if isinstance(stamp, dict) and stamp.keys() >= {"source_hash", "specification"} else None
 
     def require_same_sources(self) -> None:
         """This project's editable FMUs share this process's modules: they must be of its sources.
@@ -181,17 +199,32 @@ class Fmu(Component):
         return records
 
     def cautions(self) -> list[str]:
+        returns = [f"{self.name}.{text}" for text in getattr(self.calls, "returns", [])]
         if self.stamp() is None:
-            return []
+            return returns
         cautions = unit_of(self.specification()).cautions
-        return [f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0]
+        return [*returns, *(f"{self.name}: {text}" for name, text in cautions.items() if self.number(name) > 0)]
 
     def close(self) -> None:
         with contextlib.suppress(FMICallException):
             # Refused before initialisation; it is freed all the same.
             self.slave.terminate()
         self.slave.freeInstance()
-        self.discard_folder()
+        self.scratch.remove()
+
+
+def description_of(path: Path, folder: Path) -> "ModelDescription":
+    """The model description of an FMU, which is unpacked into the folder."""
+    if not is_zipfile(path):
+        raise InputFault(f"{path} is not an FMU: it is no zip archive")
+    unpack_archive(path, folder, "FMU")
+    text = folder / "modelDescription.xml"
+    if not text.is_file():
+        raise InputFault(f"{path} is not an FMU: it holds no modelDescription.xml")
+    with reading(path, "an FMU"):
+        require_size(text, MOST)
+        # Other people's descriptions need not be flawless: what matters is checked where it is used.
+        return fmpy.read_model_description(str(folder), validate=False)
 
 
 def raise_refusal(function: str, status: int) -> None:

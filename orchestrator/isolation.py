@@ -1,106 +1,125 @@
-"""A unit in a process of its own: when it crashes, the run and the other units survive.
+"""A unit in a process of its own: when it crashes or hangs, the run and the other units survive.
 
-The process talks through its standard input and output, a pickled request and a pickled
-answer at a time; what the unit itself prints goes to standard error.
+The process talks through its standard input and output, a request and an answer at a time, both data (``fmu_src.framing``); what the unit
+itself prints goes to standard error.
 """
 
-import contextlib
-import os
-import pickle
+import json
+import math
 import signal as signals
-import struct
-import subprocess
-import sys
+import time as clock
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from threading import Timer
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
 from fmu_src.arrays import Records
+from fmu_src.child_process import Watch, end, started, streams
 from fmu_src.faults import InputFault, RunFault
-from orchestrator.component import Component, Element, Snapshot
-from orchestrator.fmu import Fmu
-from orchestrator.interrupts import interrupts_later
+from fmu_src.framing import FrameFault, read, write
+from fmu_src.reading import reading
+from fmu_src.units import BaseUnit
+from orchestrator.call_limits import USUAL_LIMITS, CallLimits
+from orchestrator.component import Component, Element, Signal, Snapshot, unit_of
+from orchestrator.isolated_unit import SHOWN
 from orchestrator.scratch import Scratch
 
-LENGTH = struct.Struct("<Q")
 FAULTS = {"InputFault": InputFault, "RunFault": RunFault}
-# Attributes of a component that its stand-in shows.
-SHOWN = ("signals", "can_restore", "can_vary_step", "input_derivatives", "usual_step")
-CLOSING_SECONDS = 2.0
 # Exit codes of Windows for crashes begin here.
 WINDOWS_CRASH = 0xC0000000
-START = "import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from orchestrator.isolation import main; main(*sys.argv[2:])"
+# Method -> (which limit holds for it, what it is called in a fault).
+CALLS = {
+    "new_reader": ("values", "reading values"), "new_writer": ("values", "writing values"), "read": ("values", "reading values"),
+    "write": ("values", "writing values"), "set_text": ("values", "writing a text"), "cautions": ("values", "reading values"),
+    "enter_initialisation": ("initialise", "initialisation"), "exit_initialisation": ("initialise", "initialisation"),
+    "save": ("state", "saving its state"), "restore": ("state", "restoring a state"), "keep_snapshot": ("state", "saving its state"),
+    "revert_to": ("state", "restoring a state"), "drop_snapshot": ("state", "freeing a state"), "record_cells": ("state", "saving its state"),
+}  # fmt: skip
 
 
 class Isolated(Component):
-    """Stands for an FMU that lives in another process.
+    """Stands for an FMU that lives in another process; ``limits`` end one that hangs in a call."""
 
-    ``timeout`` [s] ends a unit that hangs in a step.
-    """
-
-    def __init__(self, name: str, path: str | Path, timeout: float | None = None):
-        self.name, self.path, self.timeout = name, Path(path), timeout
-        self.doing = "its start"
-        self.timed_out = False
+    def __init__(self, name: str, path: str | Path, limits: CallLimits = USUAL_LIMITS):
+        self.name, self.path, self.limits = name, Path(path), limits
+        self.time, self.doing, self.limit = math.nan, "its start", limits.start
         # Where the unit is unpacked: a process that crashes cannot remove it.
         self.scratch = Scratch()
-        # With this process's own path: a folder named like a module where somebody happens to stand is none.
-        with interrupts_later():
-            self.process = subprocess.Popen(
-                [sys.executable, "-P", "-c", START, repr(sys.path), name, str(self.path)],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | {"TMPDIR": str(self.scratch.path)},
-            )  # fmt: skip
-        # Also when nobody closes this: a unit that hangs would stay behind.
+        self.process, lifeline = started("orchestrator.isolated_unit:main", name, str(self.path), environment={"TMPDIR": str(self.scratch.path)})
+        self.watch = Watch(self.process, limits.least)
         self.requests, self.answers = streams(self.process)
-        self.end = weakref.finalize(self, end, self.process)
+        # Also when nobody closes this: a unit that hangs would stay behind.
+        self.end = weakref.finalize(self, end, self.process, self.watch, lifeline, limits.end)
         try:
             shown = self.answer()
+            with reading(self.path, "what a unit says of itself"):
+                self.take(shown)
         except (InputFault, RunFault):
             self.close()
             raise
+
+    def take(self, shown: dict[str, Any]) -> None:
+        """What the unit told of itself."""
         for key in SHOWN:
             setattr(self, key, shown[key])
-        self.through: dict[Element, tuple[Element, ...]] = shown["feedthrough"]
+        self.through: dict[Element, tuple[Element, ...]] = dict(shown["feedthrough"])
+        self.signals = {}
+        for plain in shown["signals"]:
+            base = plain["base_unit"]
+            self.signals[plain["name"]] = Signal(**plain | {"base_unit": None if base is None else BaseUnit(*base)})
 
     def call(self, method: str, *arguments: object) -> Any:
         """Have the unit do something and return what comes of it."""
+        kind, self.doing = CALLS[method]
+        self.limit = getattr(self.limits, kind)
         self.send(method, *arguments)
         return self.answer()
 
     def send(self, method: str, *arguments: object) -> None:
+        self.watch.until = clock.monotonic() + self.limit
         try:
             write(self.requests, (method, arguments))
         except OSError:
             raise self.loss() from None
+        finally:
+            self.watch.until = math.inf
 
     def answer(self) -> Any:
+        # It counts from now on: meanwhile the unit may have waited for the master.
+        self.watch.until = clock.monotonic() + self.limit
         try:
             kind, value = read(self.answers)
         except (EOFError, OSError):
             raise self.loss() from None
+        except (FrameFault, TypeError, ValueError) as problem:
+            raise self.loss(f"gave an answer that is none ({problem}) and was ended") from None
+        finally:
+            self.watch.until = math.inf
         if kind in FAULTS:
-            raise FAULTS[kind](value)
+            raise FAULTS[kind](str(value))
         return value
 
-    def loss(self) -> RunFault:
+    def loss(self, known: str = "") -> RunFault:
         """What is known of a process that is gone."""
         self.process.kill()
         code = self.process.wait()
-        if self.timed_out:
-            end = f"gave no answer for {self.timeout:g} s and was ended"
+        if known:
+            how = known
+        elif self.watch.has_ended_it:
+            how = f"gave no answer for {self.limit:g} s and was ended"
         elif code < 0:
-            end = f"crashed with signal {-code} ({signals.Signals(-code).name})"
+            how = f"crashed with signal {-code} ({signals.Signals(-code).name})"
         elif code >= WINDOWS_CRASH:
-            end = f"crashed with code {code:#x}"
+            how = f"crashed with code {code:#x}"
         else:
-            end = f"ended with exit code {code}"
+            how = f"ended with exit code {code}"
+        longer = ", or with a longer call limit" if self.watch.has_ended_it else ""
+        when = "" if math.isnan(self.time) or " at time " in self.doing else f" at time {self.time:.9g} s"
         return RunFault(
-            f"{self.name} ({self.path.name}): the process of this unit {end} during {self.doing}. The other units are"
-            " unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step"
+            f"{self.name} ({self.path.name}): the process of this unit {how} during {self.doing}{when}. The other units are"
+            f" unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step{longer}"
         )
 
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
@@ -110,7 +129,10 @@ class Isolated(Component):
         key = self.call("new_reader", references, buffer.dtype.str)
 
         def read_values() -> None:
-            buffer[:] = np.frombuffer(self.call("read", key), buffer.dtype)
+            values = self.call("read", key)
+            if not isinstance(values, bytes) or len(values) != buffer.nbytes:
+                raise self.loss("gave other values than it was asked for and was ended")
+            buffer[:] = np.frombuffer(values, buffer.dtype)
 
         return read_values
 
@@ -126,7 +148,7 @@ class Isolated(Component):
         self.call("set_text", name, text)
 
     def enter_initialisation(self, start_time: float) -> None:
-        self.doing = "initialisation"
+        self.time = start_time
         self.call("enter_initialisation", start_time)
 
     def exit_initialisation(self) -> None:
@@ -137,26 +159,17 @@ class Isolated(Component):
         self.end_step()
 
     def begin_step(self, time: float, duration: float) -> None:
+        self.time, self.limit = time + duration, self.limits.step
         self.doing = f"the step of {duration:.6g} s at time {time:.9g} s"
         self.send("step", time, duration)
 
     def end_step(self) -> None:
-        if self.timeout is None:
-            self.answer()
-            return
-        watch = Timer(self.timeout, self.give_up)
-        watch.start()
-        try:
-            self.answer()
-        finally:
-            watch.cancel()
-
-    def give_up(self) -> None:
-        self.timed_out = True
-        self.process.kill()
+        self.answer()
 
     def save(self) -> bytes:
-        state: bytes = self.call("save")
+        state = self.call("save")
+        if not isinstance(state, bytes):
+            raise self.loss("gave a state that is none and was ended")
         return state
 
     def restore(self, state: bytes) -> None:
@@ -172,120 +185,15 @@ class Isolated(Component):
         self.call("drop_snapshot", snapshot)
 
     def record(self) -> Records:
-        record: Records = self.call("record")
-        return record
+        specification, cells = self.call("record_cells")
+        with reading(self.path, "a unit of this project"):
+            records = unit_of(json.loads(specification)).table.new_records()
+            records.view("u1")[:] = np.frombuffer(cells, "u1")
+        return records
+
+    def cautions(self) -> list[str]:
+        return [str(text) for text in self.call("cautions")]
 
     def close(self) -> None:
         self.end()
         self.scratch.remove()
-
-
-def streams(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:
-    """To where requests go and from where answers come."""
-    assert process.stdin is not None and process.stdout is not None
-    return process.stdin, process.stdout
-
-
-def end(process: subprocess.Popen[bytes]) -> None:
-    """Let go of a process: it ends when it comes to read, and is killed if it does not come to that."""
-    requests, answers = streams(process)
-    # What was not sent to a process that crashed cannot be sent any more.
-    with contextlib.suppress(OSError):
-        requests.close()
-    try:
-        process.wait(CLOSING_SECONDS)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-    answers.close()
-
-
-class Worker:
-    """The other end: the unit, its prepared transfers and its snapshots by number."""
-
-    def __init__(self, component: Component):
-        self.component = component
-        self.transfers: list[tuple[Callable[[], None], np.ndarray]] = []
-        self.snapshots: dict[int, Snapshot] = {}
-        self.taken = 0
-
-    def do(self, method: str, arguments: tuple[Any, ...]) -> Any:
-        own = getattr(self, method, None)
-        return own(*arguments) if own is not None else getattr(self.component, method)(*arguments)
-
-    def new_reader(self, references: tuple[int, ...], dtype: str) -> int:
-        buffer = np.zeros(len(references), dtype)
-        self.transfers.append((self.component.reader(references, buffer), buffer))
-        return len(self.transfers) - 1
-
-    def new_writer(self, references: tuple[int, ...], dtype: str, order: int | None = None) -> int:
-        buffer = np.zeros(len(references), dtype)
-        made = self.component.writer(references, buffer) if order is None else (
-            self.component.derivative_writer(references, order, buffer))
-        self.transfers.append((made, buffer))
-        return len(self.transfers) - 1
-
-    def read(self, key: int) -> bytes:
-        transfer, buffer = self.transfers[key]
-        transfer()
-        return buffer.tobytes()
-
-    def write(self, key: int, values: bytes) -> None:
-        transfer, buffer = self.transfers[key]
-        buffer[:] = np.frombuffer(values, buffer.dtype)
-        transfer()
-
-    def keep_snapshot(self) -> int:
-        self.taken += 1
-        self.snapshots[self.taken] = self.component.snapshot()
-        return self.taken
-
-    def revert_to(self, key: int) -> None:
-        self.component.revert(self.snapshots[key])
-
-    def drop_snapshot(self, key: int) -> None:
-        self.component.forget(self.snapshots.pop(key))
-
-
-def write(stream: IO[bytes], message: object) -> None:
-    data = pickle.dumps(message)
-    stream.write(LENGTH.pack(len(data)) + data)
-    stream.flush()
-
-
-def read(stream: IO[bytes]) -> Any:
-    head = stream.read(LENGTH.size)
-    if len(head) < LENGTH.size:
-        raise EOFError
-    return pickle.loads(stream.read(LENGTH.unpack(head)[0]))  # noqa: S301
-
-
-def main(name: str, path: str) -> None:
-    """Serve one unit until the master lets go of it or is gone.  Ctrl-C is for the master to hear."""
-    signals.signal(signals.SIGINT, signals.SIG_IGN)
-    requests = sys.stdin.buffer
-    answers = os.fdopen(os.dup(1), "wb")
-    # A unit may print: that must not get among the answers.
-    os.dup2(2, 1)
-    try:
-        component = Fmu(name, path)
-    except (InputFault, RunFault) as fault:
-        write(answers, (type(fault).__name__, str(fault)))
-        return
-    worker = Worker(component)
-    shown = {key: getattr(component, key) for key in SHOWN} | {"feedthrough": component.feedthrough()}
-    write(answers, ("done", shown))
-    while True:
-        try:
-            method, arguments = read(requests)
-        except EOFError:
-            break
-        try:
-            answer = ("done", worker.do(method, arguments))
-        except (InputFault, RunFault) as fault:
-            answer = (type(fault).__name__, str(fault))
-        try:
-            write(answers, answer)
-        except OSError:
-            break
-    component.close()

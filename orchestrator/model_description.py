@@ -5,6 +5,7 @@ the set is complete and in order.  FMI 3 has arrays; each element gets a number 
 (``Cells``), because a value reference there names the whole array.
 """
 
+import math
 import re
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fmu_src.arrays import Integers
+from fmu_src.faults import InputFault
+from fmu_src.reading import shown
 from fmu_src.units import BaseUnit
 from orchestrator.component import Element, Signal
 
@@ -27,6 +30,8 @@ KINDS = (*REALS, *INTEGERS, "Boolean")
 INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 # Enumerations may count from any number; a list longer than this is no list of choices.
 MOST_CHOICES = 1000
+# Of an array (assumed: the largest surface takes a hundredth).
+MOST_ELEMENTS, MOST_DIMENSIONS = 10_000_000, 16
 
 
 @dataclass(frozen=True)
@@ -115,7 +120,10 @@ class Described:
 
 def shape_of(variable: "ModelVariable") -> tuple[int, ...]:
     """An FMI 3 variable's shape; a dimension is a number or a structural parameter's start."""
-    return tuple(int(d.start if d.start is not None else d.variable.start) for d in variable.dimensions or [])
+    shape = tuple(int(d.start if d.start is not None else d.variable.start) for d in variable.dimensions or [])
+    if min(shape, default=1) < 0 or math.prod(shape) > MOST_ELEMENTS or len(shape) > MOST_DIMENSIONS:
+        raise InputFault(f"variable {shown(variable.name)}: the shape {shape} is none that can be handled, of up to {MOST_ELEMENTS} elements")
+    return shape
 
 
 def grouped(variables: list["ModelVariable"]) -> dict[str, list["ModelVariable"]]:
@@ -136,6 +144,9 @@ def array_shape(members: list["ModelVariable"]) -> tuple[int, ...] | None:
             return None
         indices.append(tuple(int(i) for i in match[2].split(",")))
     shape = indices[-1]
+    # What is too large, or too deep, to be the array that they make up.
+    if len(shape) > MOST_DIMENSIONS or math.prod(shape) != len(members):
+        return None
     alike = len({(v.causality, v.type, v.unit) for v in members}) == 1 and len({len(i) for i in indices}) == 1
     if not alike or indices != [tuple(i + 1 for i in index) for index in np.ndindex(shape)]:
         return None

@@ -9,8 +9,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from fmu_src.checked_file import replacing, require_seal, seal
+from fmu_src.faults import InputFault, RunFault
+from fmu_src.reading import reading, require_size
+from fmu_src.reading_apart import plain, read_apart, restored
 from fmu_src.source_hash import source_hash
 
+# Attribute of a file that ends with its checksum, and the most that is read [bytes] (assumed: the longest lives take a tenth).
+SEALED = "sha256 of all bytes before the last line, in the last line"
+MOST = 1_000_000_000
 LIBRARIES = ("llvmlite", "numpy", "scipy", "xarray", "fmpy", "pythonfmu")
 
 
@@ -36,16 +43,41 @@ def series_dataset(series: dict[str, np.ndarray], units: dict[str, str], inputs:
 
 
 def write(dataset: xr.Dataset, path: Path) -> Path:
-    """Write compressed; beside the target first, so that an interruption leaves no half file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".part")
+    """Write compressed, whole or not at all, with a checksum behind the end that NetCDF knows."""
     encoding = {n: {"zlib": True, "complevel": 4} for n, v in dataset.data_vars.items() if v.ndim}
-    dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
-    partial.replace(path)
+    with replacing(path) as partial:
+        try:
+            dataset.assign_attrs(checksum=SEALED).to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        except RuntimeError as problem:
+            # What the NetCDF library makes of a full disk.
+            raise RunFault(f"{path} was not written: {problem}; what stood there before is unharmed. Make room, or choose another place") from None
+        seal(partial)
     return path
 
 
 def read(path: Path) -> xr.Dataset:
-    """A result file in memory."""
-    with xr.open_dataset(path, engine="netcdf4", decode_timedelta=False) as dataset:
+    """A result file in memory; Damaged if it is not what was written, InputFault if it is none.  Others' NetCDF files have no checksum."""
+    if not path.is_file():
+        raise InputFault(f"no result file at {path}")
+    with reading(path, "a NetCDF file"):
+        require_size(path, MOST)
+        if SEALED.encode() in path.read_bytes():
+            require_seal(path)
+            return opened(path)
+        # What others wrote may be more than the library can bear.
+        content = restored(read_apart("orchestrator.netcdf:read_plain", path))
+        return xr.Dataset({name: (dimensions, values) for name, (dimensions, values) in content["variables"].items()}, attrs=content["attributes"])
+
+
+def opened(path: Path) -> xr.Dataset:
+    with xr.open_dataset(path, engine="netcdf4", decode_times=False) as dataset:
+        if sum(variable.nbytes for variable in dataset.variables.values()) > MOST:
+            raise InputFault(f"{path}: more than {MOST / 1e9:g} GB of values; write fewer of them")
         return dataset.load()
+
+
+def read_plain(path: Path) -> dict[str, Any]:
+    """A NetCDF file as data: {"variables": {name: (dimensions, values)}, "attributes": {name: text}}."""
+    dataset = opened(path)
+    variables = {str(name): [[str(d) for d in v.dims], plain(np.asarray(v.values))] for name, v in dataset.variables.items()}
+    return {"variables": variables, "attributes": {str(name): str(value) for name, value in dataset.attrs.items()}}

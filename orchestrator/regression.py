@@ -4,6 +4,7 @@ A value may differ from its reference by ``relative`` times the largest value th
 has in the run, plus ``absolute``.  Each variable is a test case of the JUnit file.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -12,6 +13,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
 
 USUAL_RELATIVE = 1e-6
@@ -59,8 +61,8 @@ def parse_tolerance(text: str) -> Tolerance:
         tolerance = Tolerance(pattern if equals else "*", *values)
     except (ValueError, TypeError):
         raise InputFault(f"tolerance {text!r}: write 1e-6, plant.lag=1e-6 or wear.*=1e-6,1e-12 (relative, absolute)") from None
-    if not all(value >= 0.0 for value in values):
-        raise InputFault(f"tolerance {text!r}: must not be negative")
+    if not all(0.0 <= value < math.inf for value in values):
+        raise InputFault(f"tolerance {text!r}: finite numbers are needed that are not negative")
     return tolerance
 
 
@@ -78,6 +80,8 @@ def compare(
 ) -> list[Comparison]:
     """All variables of the reference, at its times; between two rows the run is taken as straight."""
     time, at = series["time"], reference["time"]
+    if len(reference) < 2:
+        raise InputFault("the reference holds nothing but the time: nothing can be compared")
     slack = SAME_TIME * max(abs(time[-1]), abs(time[0]))
     if at.min() < time[0] - slack or at.max() > time[-1] + slack:
         raise InputFault(
@@ -112,6 +116,5 @@ def write_junit(comparisons: Sequence[Comparison], suite: str, seconds: float, w
             ElementTree.SubElement(case, "failure", message=str(comparison), type="difference").text = str(comparison)
     if warnings:
         ElementTree.SubElement(element, "system-err").text = "\n".join(warnings)
-    path.parent.mkdir(parents=True, exist_ok=True)
     ElementTree.indent(root)
-    ElementTree.ElementTree(root).write(path, "utf-8", xml_declaration=True)
+    write_text(path, '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(root, "unicode"))

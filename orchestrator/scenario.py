@@ -20,21 +20,29 @@
 Paths are relative to the file.  Every error names file, key, value and remedy.
 """
 
-import tomllib
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from fmu_src.faults import InputFault
+from fmu_src.reading import parse_toml, read_text
+from fmu_src.strict_file import NAME, Strict, validated
 from fmu_src.units import UnitError, conversion
+from orchestrator.call_limits import USUAL_LIMITS, CallLimits
 from orchestrator.component import Component, InProcess
 from orchestrator.master import Connection, LoopSettings, StepControl
 from orchestrator.master.power import THRESHOLD
 from orchestrator.opening import open_fmu
 from orchestrator.settings import parse_value
-from reducers.reducer import NAME, Strict, load_reducer
+from reducers.reducer import load_reducer
+
+REMEDY = "see docs/scenarios.md"
+# Seconds for all calls of a unit, or by kind of call; None: as the file says, or as usual.
+Limit = float | Mapping[str, float] | CallLimits | None
 
 
 class Quantity(Strict):
@@ -50,6 +58,7 @@ class ScenarioHead(Strict):
     scheme: Literal["gauss-seidel", "jacobi"] = "gauss-seidel"
     extrapolation: Literal[0, 1, 2] = 0
     power_threshold: float = Field(default=THRESHOLD, gt=0.0)
+    call_limit: float | dict[str, float] | None = None
 
 
 class StepControlEntry(Strict):
@@ -71,6 +80,7 @@ class ComponentEntry(Strict):
     unit: Literal["plant", "wear", "reducer"] | None = None
     ratio: int = Field(default=1, ge=1)
     isolate: bool = False
+    call_limit: float | dict[str, float] | None = None
     parameters: dict[str, str | float | int] = {}
     record: list[str] = []
 
@@ -110,31 +120,25 @@ class Scenario:
     text: str
 
 
-def read_scenario(path: str | Path, step: float | None = None, isolate: bool = False) -> Scenario:
-    """Read a scenario file and make its components; ``step`` goes before that of the file."""
+def read_scenario(
+    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None
+) -> Scenario:
+    """Read a scenario file and make its components; ``step``, ``call_limit`` and ``duration`` go before those of the file."""
     path = Path(path)
-    if not path.is_file():
-        raise InputFault(f"no scenario file at {path}")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = ScenarioFile(**tomllib.loads(text))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        raise InputFault(f"{path}: {key} = {first['input']!r}: {first['msg']}; see docs/scenarios.md") from None
+    text = read_text(path, "scenario file", REMEDY)
+    content = validated(ScenarioFile, parse_toml(text, path, REMEDY), path, REMEDY)
     head = content.scenario
-    own_step, duration, start = (
+    own_step, own_duration, start = (
         seconds(getattr(head, key), f"{path}: scenario.{key}") for key in ("step", "duration", "start")
     )
-    step = step or own_step
-    if not step > 0.0 or not step <= duration <= 1e7 * step:
+    step, duration = own_step if step is None else step, own_duration if duration is None else duration
+    if not 0.0 < step < math.inf or not step * (1.0 - 1e-9) <= duration <= 1e7 * step or not abs(start) < math.inf:
         raise InputFault(
-            f"{path}: step = {step} s, duration = {duration} s: both positive, from one to ten million steps"
+            f"{path}: start = {start} s, step = {step} s, duration = {duration} s: step and duration both positive, from one to ten million steps"
         )
     components = {
-        name: make_component(name, entry, path, isolate) for name, entry in content.components.items()
+        name: make_component(name, entry, path, isolate, (head.call_limit, entry.call_limit, call_limit))
+        for name, entry in content.components.items()
     }
     control = content.step_control
     options = {
@@ -159,10 +163,19 @@ def seconds(quantity: Quantity, place: str) -> float:
     return factor * quantity.value
 
 
-def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool) -> Component:
+def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, call_limits: Sequence[Limit]) -> Component:
+    """One unit; of the limits the later go before the earlier."""
     place = f"{path}: components.{name}"
+    limits = USUAL_LIMITS
+    try:
+        for given in call_limits:
+            limits = limits.with_changes(given)
+    except InputFault as fault:
+        raise InputFault(f"{place}: {fault}") from None
+    if entry.call_limit is not None and not (isolate or entry.isolate):
+        raise InputFault(f"{place}.call_limit = {entry.call_limit!r}: only a unit in a process of its own can be ended; set isolate = true")
     if entry.fmu is not None and entry.reducer is None:
-        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate)
+        component = open_fmu(name, path.parent / entry.fmu, isolate or entry.isolate, limits)
     elif entry.reducer is not None and entry.fmu is None:
         if entry.unit is None:
             raise InputFault(f'{place}: reducer needs unit = "plant", "wear" or "reducer" (both in one)')

@@ -10,10 +10,13 @@ from dataclasses import dataclass
 
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest
+from fmu_src.reading import quoted
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault, Variable
 from orchestrator.component import Component, Signal
 
+# Signs of a setting (assumed: names and units have a fraction of it).
+LONGEST = 500
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
 
 
@@ -37,6 +40,8 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
     """Read ``name=value``; InputFault names what is wrong."""
     name, equals, value = text.partition("=")
     name = name.strip()
+    if len(text) > LONGEST:
+        raise InputFault(f"setting {quoted(text)}: longer than {LONGEST} signs; write name=value, for instance load_torque=200")
     if not equals:
         raise InputFault(f"setting {text!r}: write name=value, for instance load_torque=200")
     owners = [t for t in tables if name.partition("[")[0] in t.by_name]

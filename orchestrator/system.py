@@ -5,6 +5,7 @@
     series = system.run(duration=0.2, record=["plant.lag"])
 """
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
@@ -15,21 +16,25 @@ import numpy as np
 import numpy.typing as npt
 
 from fmu_src.faults import InputFault
+from orchestrator.call_limits import USUAL_LIMITS
 from orchestrator.component import Component
+from orchestrator.isolation import Isolated
 from orchestrator.master import Connection, Master
 from orchestrator.master.connections import resolve
 from orchestrator.opening import open_fmu
-from orchestrator.scenario import read_scenario
+from orchestrator.scenario import Limit, read_scenario
 from orchestrator.schemes import SCHEMES
 from orchestrator.scratch import Scratch
 from orchestrator.settings import parse_value
-from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.importer import Structure, read_ssp
 from orchestrator.ssp.parameters import apply
 
 # Steps of a system whose files give none, and the step [s] where they do not even give a duration.
 USUAL_STEPS = 1000
 LAST_RESORT = 1e-3
 MOST_STEPS = 1e7
+# Bytes of what is recorded.
+MOST_RECORDED = 4e9
 
 
 @dataclass
@@ -75,6 +80,9 @@ class System:
         readers = [
             master.components[name].reader(signal.references, buffers[path]) for path, (name, signal) in signals.items()
         ]
+        size = 8.0 * (steps + 1) * sum(buffer.size for buffer in buffers.values())
+        if size > MOST_RECORDED:
+            raise InputFault(f"{steps} steps of {len(buffers)} recorded variables take {size / 1e9:.3g} GB: record fewer (--record), or run shorter")
         rows = {path: np.zeros((steps + 1, buffer.size), buffer.dtype) for path, buffer in buffers.items()}
         time = np.zeros(steps + 1)
         for i in range(steps + 1):
@@ -119,21 +127,45 @@ def whole_steps(duration: float, step: float) -> int:
     return round(steps)
 
 
-def load(path: str | Path, step: float | None = None, isolate: bool = False, **master: Any) -> System:
+def load(
+    path: str | Path, step: float | None = None, isolate: bool = False, call_limit: Limit = None, duration: float | None = None, **master: Any
+) -> System:
     """The system of an SSP package (.ssp, .ssd or a folder), a scenario (.toml), or a single FMU.
 
-    ``step`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
-    what the file says; with ``isolate`` every FMU runs in a process of its own.
+    ``step`` and ``duration`` [s] and options of ``Master`` (scheme, extrapolation, step_control, ...) go before
+    what the file says; with ``isolate`` every FMU runs in a process of its own, which is ended where a call takes longer than
+    ``call_limit`` [s], one number for all calls or several by kind: ``{"step": 30}``.
     """
     path = Path(path)
+    require_duration(step, "step")
+    require_duration(duration, "duration")
+    system = loaded(path, step, isolate, call_limit, duration, master)
+    if call_limit is not None and not any(isinstance(unit, Isolated) for unit in system.master.components.values()):
+        system.close()
+        raise InputFault("a call limit holds for units in processes of their own alone: give isolate (--isolate) too")
+    return system
+
+
+def require_duration(value: float | None, name: str) -> None:
+    if value is not None and not 0.0 < value < math.inf:
+        raise InputFault(f"{name} = {value:g} s: a positive number of seconds is needed")
+
+
+def loaded(path: Path, step: float | None, isolate: bool, call_limit: Limit, duration: float | None, master: dict[str, Any]) -> System:
     if path.suffix == ".toml":
-        read = read_scenario(path, step, isolate)
+        read = read_scenario(path, step, isolate, call_limit, duration)
         made = Master(read.components, read.connections, read.step, **read.options | master)
         return System(read.name, made, round(read.duration / read.step), read.recorded, read.text)
     if path.suffix == ".fmu":
-        return connect({path.stem: path}, (), step, isolate, **master)
+        system = connect({path.stem: path}, (), step, isolate, call_limit, **master)
+        if duration is not None:
+            system.steps = whole_steps(duration, system.master.step_size)
+        return system
     structure = read_ssp(path)
-    components = {name: open_fmu(name, fmu, isolate) for name, fmu in structure.fmus.items()}
+    require_duration(structure.step, f"{path}: the communication step that it names")
+    limits = USUAL_LIMITS.with_changes(call_limit)
+    components = {name: open_fmu(name, fmu, isolate, limits) for name, fmu in structure.fmus.items()}
+    require_shapes(path, structure, components)
     for name, variable, parameter in structure.parameters:
         if parameter.kind == "String" or components[name].has(variable):
             apply(parameter, components[name], variable)
@@ -147,17 +179,30 @@ def load(path: str | Path, step: float | None = None, isolate: bool = False, **m
         made.warn(f"{path.name}: left out the values of {', '.join(structure.notes)}, which are no variables of the system")
     if named is None:
         made.warn(f"step = {size:g} s: neither {path.name} nor its units name a communication step; give one (--step)")
-    stop = structure.stop if structure.stop is not None else structure.start + USUAL_STEPS * size
-    return System(structure.name, made, whole_steps(stop - structure.start, size), [], str(path), structure.folders)
+    if duration is None:
+        duration = structure.stop - structure.start if structure.stop is not None else USUAL_STEPS * size
+    return System(structure.name, made, whole_steps(duration, size), [], str(path), structure.folders)
+
+
+def require_shapes(path: Path, structure: Structure, components: dict[str, Component]) -> None:
+    """InputFault if an array connector is not as large as the FMU's variable."""
+    for (name, connector), shape in structure.shapes.items():
+        if name in components and components[name].signal(connector).shape != shape:
+            raise InputFault(
+                f"{path}: connector {connector} of {name} has the dimensions {' x '.join(map(str, shape))}, its FMU's variable"
+                f" {' x '.join(map(str, components[name].signal(connector).shape)) or 'none'}; write the FMU's"
+            )
 
 
 def connect(
     fmus: Mapping[str, str | Path | Component], connections: Sequence[Connection | tuple[str, str]],
-    step: float | None = None, isolate: bool = False, **master: Any,
+    step: float | None = None, isolate: bool = False, call_limit: Limit = None, **master: Any,
 ) -> System:  # fmt: skip
-    """A system of FMUs by name and their connections."""
+    """A system of FMUs by name and their connections; see ``load``."""
+    require_duration(step, "step")
+    limits = USUAL_LIMITS.with_changes(call_limit)
     components = {
-        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate) for name, fmu in fmus.items()
+        name: fmu if isinstance(fmu, Component) else open_fmu(name, fmu, isolate, limits) for name, fmu in fmus.items()
     }
     size = step or usual_step(components, None)
     if size is None:

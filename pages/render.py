@@ -9,6 +9,7 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from fmu_src.checked_file import write_text
 from pages.content import Choosable, Page
 from pages.look import Figure
 
@@ -38,13 +39,9 @@ def rendered_sections(page: Page) -> str:
 
 
 def written(text: str, path: Path) -> Path:
-    """Write a page beside its place and move it there: an interruption leaves no half page."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(path.name + ".part")
-    partial.write_text(text, encoding="utf-8", newline="\n")
-    partial.replace(path)
-    return path
+    """Write a page, whole or not at all."""
+    write_text(Path(path), text)
+    return Path(path)
 
 
 def inside(name: str) -> Markup:

@@ -10,16 +10,17 @@ A number may have a ``range = [low, high]`` in its unit, in which it is held to 
 """
 
 import difflib
-import tomllib
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
-from fmu_src.faults import InputFault
-from fmu_src.unit import Specification
+from fmu_src.faults import InputFault, nearest
+from fmu_src.reading import quoted, read_toml, reading, shown
+from fmu_src.strict_file import NAME, Piece, Strict, keys_at
+from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Table, ValueFault
 from reducers.library import LIBRARY, available
@@ -29,12 +30,7 @@ from rv_plant.variables import plant_table
 from rv_reducer.variables import reducer_table
 from wear_fmu.variables import Resolution, wear_table
 
-
-class Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=False)
-
-
-Piece = TypeVar("Piece", bound=Strict)
+REMEDY = "the reducers of the library, in the folder reducers, show what one holds"
 
 
 class Entry(Strict):
@@ -48,9 +44,6 @@ class Entry(Strict):
 
 # What an assumed number may be off by where its file gives no range, as a share of it (assumed).
 USUAL_RANGE = 0.1
-
-# A name becomes part of file names.
-NAME = r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$"
 
 
 class Head(Strict):
@@ -78,6 +71,8 @@ class Reducer:
     sources: dict[str, str]
     path: Path
     resolution: Resolution = Resolution()
+    # What a worn one starts with, by unit; a new one has nothing.
+    worn: dict[str, Worn] = field(default_factory=dict)
     # By name (lowest, highest), SI: numbers that are not known for sure.
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
 
@@ -85,13 +80,16 @@ class Reducer:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])
         names = table.by_name
-        return {
+        specification: Specification = {
             "unit": unit,
             "reducer": self.name,
             "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
             "starts": {k: v for k, v in self.starts.items() if k in names},
             "sources": {k: v for k, v in self.sources.items() if k in names},
         }
+        if unit in self.worn:
+            specification["worn"] = self.worn[unit]
+        return specification
 
     @cached_property
     def plant(self) -> Table:
@@ -118,10 +116,12 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
         raise InputFault(
             f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
         )
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
+    with reading(path, "a reducer file", REMEDY):
+        return reducer_of(read_toml(path, "reducer file", REMEDY), path)
+
+
+def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
+    """The reducer of a file's content."""
     head = checked(Head, content.pop("reducer", None), path, "reducer")
     counts = checked(Counts, content.pop("topology", None), path, "topology")
     if counts.pins != counts.lobes + 1:
@@ -172,7 +172,7 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
         raise InputFault(f"{path}: section [{place}] is missing; it needs {', '.join(model.model_fields)}")
     if not isinstance(raw, dict):
         raise InputFault(
-            f"{path}: {place} = {raw!r} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
+            f"{path}: {place} = {quoted(raw)} has no unit: write {place.rsplit('.', maxsplit=1)[-1]} ="
             ' { value = ..., unit = "...", source = "..." }'
         )
     try:
@@ -180,9 +180,9 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
     except ValidationError as problem:
         first = problem.errors()[0]
         key = ".".join(map(str, (place, *first["loc"])))
-        fields = ", ".join(model.model_fields)
-        given = "" if first["type"] == "missing" else f" = {first['input']!r}"
-        raise InputFault(f"{path}: {key}{given}: {first['msg']}; {place} takes {fields}") from None
+        given = "" if first["type"] == "missing" else f" = {quoted(first['input'])}"
+        hint = nearest(str(first["loc"][-1]), keys_at(model, ()), 1) if first["type"] == "extra_forbidden" else ""
+        raise InputFault(f"{path}: {shown(key)}{given}: {first['msg']}{hint}; {place} takes {', '.join(model.model_fields)}") from None
 
 
 def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> float:

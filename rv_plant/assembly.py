@@ -24,6 +24,7 @@ from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift
 from rv_plant.mesh import mesh_contacts
+from rv_plant.near_mesh import is_near, keep_place, near_contacts
 from rv_plant.needle_bearing import roller_contacts
 from rv_plant.output_pins import has_output_pins, output_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
@@ -61,8 +62,8 @@ def clear(r):
 
 
 @kernel
-def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
-    """Needle bearing of disc d on crank c: adds to residual and tangent, fills the roller forces."""
+def bearing_contacts(r, d, c, ideal_output, cage_angle, side, near):
+    """Needle bearing of disc d on crank c: adds to residual and tangent, fills the roller forces; ``near`` as in ``add_all``."""
     discs = r.roller_force.shape[0]
     lobes = r.lobe_pitch_error.shape[1]
     eccentric = -lobes * ideal_output + disc_offset(r, d)
@@ -92,7 +93,7 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side):
     zx, zy = z[3 * d], z[3 * d + 1]
     ux = ax + shift_x + ex - (r.eccentricity * ce + zx * ce - zy * se) - hx
     uy = ay + shift_y + ey - (r.eccentricity * se + zx * se + zy * ce) - hy
-    roller_contacts(r, d, c, ux, uy, disc_turn + crank_position(r, c) + cage_angle, 0.0, 0.0, 0.0, 0.0)
+    roller_contacts(r, d, c, ux, uy, disc_turn + crank_position(r, c) + cage_angle, 0.0, 0.0, 0.0, 0.0, near)
     fx, fy, moment = r.bearing_total[0], r.bearing_total[1], r.bearing_total[2]
     r.crank_force[c, 0] -= fx
     r.crank_force[c, 1] -= fy
@@ -150,6 +151,22 @@ def bearing_coordinate(column, d, carrier, crank):
 @kernel
 def assemble(r, ideal_output, cage_angle, load_torque):
     """Residual (gradient of the potential) and tangent at r.z; fills all contact forces."""
+    keep_place(r)
+    add_all(r, ideal_output, cage_angle, load_torque, False)
+
+
+@kernel
+def assemble_beside(r, ideal_output, cage_angle, load_torque):
+    """The same beside the last ``assemble`` of this position; disc and pins are carried on where that is near enough."""
+    if is_near(r):
+        add_all(r, ideal_output, cage_angle, load_torque, True)
+    else:
+        assemble(r, ideal_output, cage_angle, load_torque)
+
+
+@kernel
+def add_all(r, ideal_output, cage_angle, load_torque, near):
+    """All contacts, load and supports; ``near``: disc and pins by what is kept of them, rollers by their forces then."""
     discs, cranks = r.roller_force.shape[:2]
     clear(r)
     for c in range(cranks):
@@ -157,11 +174,15 @@ def assemble(r, ideal_output, cage_angle, load_torque):
     lobes = r.lobe_pitch_error.shape[1]
     side = 1.0 if load_torque >= 0.0 else -1.0
     for d in range(discs):
-        mesh_contacts(r, d, ideal_output, -lobes * ideal_output + disc_offset(r, d), 0.0)
+        axes = -lobes * ideal_output + disc_offset(r, d)
+        if near:
+            near_contacts(r, d, axes)
+        else:
+            mesh_contacts(r, d, ideal_output, axes, 0.0)
         for c in range(cranks):
-            bearing_contacts(r, d, c, ideal_output, cage_angle, side)
+            bearing_contacts(r, d, c, ideal_output, cage_angle, side, near)
         if has_output_pins(r):
-            output_contacts(r, d, ideal_output, -lobes * ideal_output + disc_offset(r, d))
+            output_contacts(r, d, ideal_output, axes)
     r.residual_vector[3 * discs] += load_torque
     for i in range(3 * discs + 1, r.z.shape[0]):
         if r.compliance[i] > 0.0:

@@ -36,6 +36,8 @@ DAMPINGS = ("none", "step", "lankarani-nikravesh", "modal")
 # Below this a touch is no impact; it keeps the hysteretic factor finite [m/s].
 SLOWEST_IMPACT = 1e-3
 SI, LITERAL = 0, 1
+# Relative change of a penetration up to which a series stands for the power.
+BESIDE = 0.02
 READINGS = ("SI", "literal")
 
 
@@ -84,6 +86,27 @@ def contact_force(penetration, stiffness, exponent):
         return 0.0, 0.0
     slope = stiffness * penetration ** (exponent - 1.0)
     return slope * penetration, exponent * slope
+
+
+@kernel
+def power_beside(u, exponent):
+    """(1 + u)^exponent by its series; for |u| <= BESIDE and exponents up to 1 right to 1e-13."""
+    e = exponent
+    c = 1.0 + (e - 5.0) * (1.0 / 6.0) * u
+    c = 1.0 + (e - 4.0) * (1.0 / 5.0) * u * c
+    c = 1.0 + (e - 3.0) * (1.0 / 4.0) * u * c
+    c = 1.0 + (e - 2.0) * (1.0 / 3.0) * u * c
+    c = 1.0 + (e - 1.0) * (1.0 / 2.0) * u * c
+    return 1.0 + e * u * c
+
+
+@kernel
+def force_beside(penetration, known, known_force, stiffness, exponent):
+    """``contact_force`` where it is ``known_force`` [N] at the penetration ``known`` [m]: near that without a power."""
+    if known > 0.0 and abs(penetration - known) <= BESIDE * known:
+        slope = known_force / known * power_beside((penetration - known) / known, exponent - 1.0)
+        return slope * penetration, exponent * slope
+    return contact_force(penetration, stiffness, exponent)
 
 
 @kernel

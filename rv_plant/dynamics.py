@@ -22,7 +22,7 @@ from fmu_src.variables import Sizes, Variable, scratch, state
 from rv_plant.assembly import clear
 from rv_plant.constraints import CONSTRAINED, SETTLING
 from rv_plant.coordinates import moving_count
-from rv_plant.gear_stage import planet_radius
+from rv_plant.gear_stage import planet_radius, total_ratio
 from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import cage_rate, roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
@@ -54,6 +54,8 @@ def variables(sizes: Sizes) -> list[Variable]:
                  " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant"),
         Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
                  maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+        Variable("swing_damping", "parameter", "N.m.s/rad", "damper in motion between the load and the input's turning over the ratio;"
+                 " 0: none", 0.0, minimum=0.0, maximum=1e9, nominal=100.0, tunable=True, source="chosen by the master"),
         state("q", "1", "places of the bodies, see dynamics", **bodies),
         state("v", "1", "velocities of the coordinates, sun and load", **bodies),
         state("acceleration", "1", "accelerations of the bodies", **bodies),
@@ -104,7 +106,7 @@ def bearing_in_motion(r, d, c, cage_speed, rate_weight):
     vx = v[crank] - v[crank + 2] * ey - v[disc] + v[disc + 2] * hy
     vy = v[crank + 1] + v[crank + 2] * ex - v[disc + 1] - v[disc + 2] * hx
     direction = q[disc + 2] + crank_position(r, c) + r.cage
-    roller_contacts(r, d, c, ux, uy, direction, vx, vy, v[disc + 2] + cage_speed, rate_weight)
+    roller_contacts(r, d, c, ux, uy, direction, vx, vy, v[disc + 2] + cage_speed, rate_weight, False)
     fx, fy, moment = r.bearing_total[0], r.bearing_total[1], r.bearing_total[2]
     r.cage_power -= moment * v[disc + 2]
     # Columns of d(ux, uy, turning of disc)/dq, disc before crank as in q.
@@ -232,6 +234,19 @@ def joint_springs(r, rate_weight):
 
 
 @kernel
+def swing_damper(r, rate_weight):
+    """Between load and sun: takes the energy of the load's swing about ideal motion, turns nothing by itself."""
+    sun, load = ring_coordinate(r) + 1, ring_coordinate(r) + 2
+    index, gradient = r.joint_index, r.joint_gradient
+    ratio = total_ratio(r.first_stage_ratio, r.pin_x.shape[0], r.lobe_pitch_error.shape[1])
+    index[0], index[1] = load, sun
+    gradient[0], gradient[1] = 1.0, -1.0 / ratio
+    rate = r.v[load] - r.v[sun] / ratio
+    r.dissipation += r.swing_damping * rate * rate
+    add_gradient(r, index, gradient, 2, r.swing_damping * rate, rate_weight * r.swing_damping)
+
+
+@kernel
 def assemble_motion(r, rate_weight):
     """Gradient and tangent at r.q, r.v; fills contact forces, potential energy and dissipation.
 
@@ -271,6 +286,8 @@ def assemble_motion(r, rate_weight):
             spring(r, index, gradient, 2, q[index[0]] - q[sun], 0.0, rate_weight)
     if r.joints != CONSTRAINED:
         joint_springs(r, rate_weight)
+    if r.swing_damping > 0.0:
+        swing_damper(r, rate_weight)
     r.residual_vector[load] += r.load_torque
     r.residual_vector[sun] -= r.input_torque
     # Friction and drag resist the sun; smooth through standstill.

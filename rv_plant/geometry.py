@@ -93,6 +93,21 @@ def least_distance(cx, cy, ideal_cos, ideal_sin, generating_circle, eccentricity
 
 
 @kernel
+def curvature_and_slopes(c, s, lobes, generating_circle, k1):
+    """Curvature of the centre curve and its first two derivatives along the arc [1/m, 1/m^2, 1/m^3] at the phase of cosine ``c`` and sine ``s``."""
+    s2 = 1.0 + k1 * k1 - 2.0 * k1 * c
+    per_s2 = 1.0 / s2
+    top = 1.0 + (lobes + 1) * k1 * k1 - (lobes + 2) * k1 * c
+    steep = (lobes + 2) - 3.0 * top * per_s2
+    steeper = -3.0 * k1 * s * ((lobes + 2) * s2 - 2.0 * top) * per_s2 * per_s2
+    per_arc = lobes / generating_circle
+    root = math.sqrt(per_s2)
+    slope = per_arc / generating_circle * k1 * s * steep * per_s2 * per_s2
+    curl = c * steep + s * steeper - 4.0 * k1 * s * s * steep * per_s2
+    return top * per_s2 * root / generating_circle, slope, per_arc * per_arc / generating_circle * k1 * curl * per_s2 * per_s2 * root
+
+
+@kernel
 def closest_distance(cx, cy, ideal_cos, ideal_sin, shift, lobes, generating_circle, eccentricity, k1):
     """True closest distance of a pin centre (cx, cy) to the centre curve of a lobe.
 

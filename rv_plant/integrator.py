@@ -37,7 +37,7 @@ def variables(sizes: Sizes) -> list[Variable]:
                  integer=True, minimum=2, maximum=100, source="assumed"),
         state("smooth", "1", "the integrator's acceleration", **bodies),
         state("length_scale", "1", "small change of each coordinate", **bodies),
-        state("assemblies", "1", "evaluations of all forces in the last communication step", integer=True),
+        state("assemblies", "1", "evaluations of all forces in the last communication step", integer=True, minimum=0),
         scratch("unknown", (n,), integer=True),
         *(scratch(name, (n,)) for name in ("q_start", "v_start", "acceleration_start", "smooth_start")),
     ]

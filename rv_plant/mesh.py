@@ -6,9 +6,10 @@ from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
-from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
+from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
+from rv_plant.near_mesh import NEAR, keep_contact, keep_force
 
-# Pins nearer than this have their distance and phase computed, touching or not [m].
+# Pins nearer than this have their distance and phase computed, touching or not; at rest those that may come to touch too [m].
 APART = 1e-9
 
 
@@ -121,6 +122,9 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     rx = ry = rt = rr = 0.0
     kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
     loaded = 0
+    still = rate_weight == 0.0
+    apart = NEAR if still else APART
+    r.near_count[d] = 0
     for j in range(pins):
         # Pin centre from the disc's centre, in the housing and in the profile's frame.
         pin_x = ring_cos * r.pin_x[j] - ring_sin * r.pin_y[j]
@@ -146,7 +150,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         clearance += r.lobe_profile_error[d, lobe] + r.lobe_gap_added[d, lobe] + r.mesh_profile_error[d, j]
         # Half of the pins are far from touching, which is cheaper to see than how far.
         least = least_distance(cx, cy, ideal_cos, ideal_sin, circle, r.eccentricity, k1, hollow)
-        if least + clearance > APART:
+        if least + clearance > apart:
             r.mesh_force_now[d, j] = 0.0
             r.mesh_phase[d, j] = ideal_phase + r.phase_shift[d, j]
             continue
@@ -159,7 +163,8 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gap = distance + clearance
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
-            continue
+            if gap > apart or not still:
+                continue
         # Gradient of the penetration: (N, arm about the disc, minus arm about the ring),
         # with the normal turned back from the displaced flank.
         nx, ny = nx - pitch * ny, ny + pitch * nx
@@ -167,8 +172,25 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gx, gy = ca * nhx + sa * nhy, ca * nhy - sa * nhx
         gt = px * nhy - py * nhx
         gr = pin_y * nhx - pin_x * nhy
-        if rate_weight == 0.0:
+        # The normal turns with the disc, and along the flank by its curvature.
+        reach, swing = px * nhx + py * nhy, pin_x * nhx + pin_y * nhy
+        per_reach = 1.0 / (1.0 + bend * distance)
+        bend *= per_reach
+        turn = 1.0 - bend * reach
+        if still:
+            shift_cos, shift_sin = turn_of(shift)
+            curvature, slope, curl = curvature_and_slopes(
+                ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
+            )
+            # Along the parallel curve through the pin's centre.
+            per_reach = 1.0 / (1.0 + curvature * distance)
+            slope, square = slope * per_reach, per_reach * per_reach
+            curl = square * (square * curl - 3.0 * distance * slope * slope * per_reach)
+            keep_contact(r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope)
+            if gap >= 0.0:
+                continue
             force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
+            keep_force(r, d, force)
         else:
             rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
             r.mesh_rate[d, j] = rate
@@ -197,17 +219,12 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         ktt += stiffness * gt * gt
         ktr += stiffness * gt * gr
         krr += stiffness * gr * gr
-        # The normal turns with the disc, and along the flank by its curvature.
-        reach = px * nhx + py * nhy
-        bend /= 1.0 + bend * distance
-        turn = 1.0 - bend * reach
         kxx -= force * bend * gy * gy
         kxy += force * bend * gx * gy
         kyy -= force * bend * gx * gx
         kxt -= force * turn * gy
         kyt += force * turn * gx
         ktt += force * turn * reach
-        swing = pin_x * nhx + pin_y * nhy
         kxr -= force * bend * swing * gy
         kyr += force * bend * swing * gx
         ktr -= force * turn * swing

@@ -45,7 +45,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("ramp_left", "s", "time until that is input_speed"),
         state("ramp_end", "rad/s", "input speed that the ramp leads to"),
         state("internal_step", "s", "next step of the integrator"),
-        state("rejected", "1", "internal steps repeated shorter", integer=True),
+        state("rejected", "1", "internal steps repeated shorter", integer=True, minimum=0),
         state("input_energy", "J", "work of the input"), state("output_energy", "J", "work done on the load"),
         state("lost_energy", "J", "energy lost in damping"), state("cage_energy", "J", "work of the cages"),
         state("stored_energy", "J", "energy of motion and deformation at the start"),

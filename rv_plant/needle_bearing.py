@@ -13,7 +13,7 @@ import math
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, output, scratch, state
-from rv_plant.contact import contact_force, damped_force, impact_speed
+from rv_plant.contact import contact_force, damped_force, force_beside, impact_speed
 from rv_plant.dimension import FILE, length
 
 
@@ -49,6 +49,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("roller_force_now", "N", "force of the last equilibrium", **roller),
         state("roller_impact_speed", "m/s", "speed of approach at first touch", **roller),
         scratch("roller_rate", roller["shape"]),
+        # Approach and force of the equilibrium's first assembly.
+        scratch("roller_known", roller["shape"]), scratch("roller_known_force", roller["shape"]),
         # Sum and tangent of one bearing, see roller_contacts.
         scratch("bearing_total", (3,)), scratch("bearing_tangent", (3, 3)),
     ]
@@ -81,7 +83,7 @@ def cage_rate(crank_speed, disc_speed, inner_radius, outer_radius):
 
 
 @kernel
-def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight):
+def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight, near):
     """Forces of all rollers of the bearing of disc d on crank c.
 
     (ux, uy) is the shift of lobe against hole [m], (vx, vy) its rate [m/s],
@@ -90,6 +92,7 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
     r.bearing_total (3) with the pull on the disc and its moment about the hole's turning
     (N, N, N m); r.bearing_tangent (3, 3), the stiffness with respect to (ux, uy, turning
     of the disc) plus ``rate_weight`` [1/s] times the damping; with 0 nothing moves.
+    ``near``: beside the last call without it, whose forces are known.
     """
     total, tangent, force = r.bearing_total, r.bearing_tangent, r.roller_force_now[d, c]
     for i in range(3):
@@ -106,7 +109,9 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
         f = 0.0
         if approach > 0.0:
             twist = uy * ex - ux * ey
-            if rate_weight == 0.0:
+            if near:
+                f, k = force_beside(approach, r.roller_known[d, c, i], r.roller_known_force[d, c, i], r.roller_constant, r.roller_exponent)
+            elif rate_weight == 0.0:
                 f, k = contact_force(approach, r.roller_constant, r.roller_exponent)
             else:
                 rate = vx * ex + vy * ey + twist * turn_rate
@@ -131,6 +136,8 @@ def roller_contacts(r, d, c, ux, uy, first_angle, vx, vy, turn_rate, rate_weight
             tangent[1, 2] += k * ey * twist + f * ex
             tangent[2, 2] += k * twist * twist - f * (ux * ex + uy * ey)
         force[i] = f
+        if rate_weight == 0.0 and not near:
+            r.roller_known[d, c, i], r.roller_known_force[d, c, i] = max(0.0, approach), f
         ex, ey = ex * step_c - ey * step_s, ex * step_s + ey * step_c
     tangent[1, 0] = tangent[0, 1]
     tangent[2, 0] = tangent[0, 2]

@@ -11,25 +11,25 @@ from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from rv_plant.assembly import assemble
-from rv_plant.contact import HYSTERETIC, LINE, MODAL, law_constants
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
 from rv_plant.dimension import FILE
+from rv_plant.dynamics import assemble_motion
 from rv_plant.effects import HOOKS
-from rv_plant.equilibrium import equilibrium, list_free_coordinates
+from rv_plant.equilibrium import equilibrium, refine
 from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
 from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
-from rv_plant.mesh import clear_flanks
 from rv_plant.motion import advance, publish_motion, start_motion, start_ramp
-from rv_plant.needle_bearing import cage_rate, clear_clearances
+from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
-from rv_plant.poses import clear_places, crank_position
+from rv_plant.poses import crank_position
+from rv_plant.prepared import prepare, retune
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 
 effects = compose("rv_plant.effects", HOOKS)
-prepare_effects, advance_states, heat_effects = effects.prepare, effects.advance, effects.heat
+start_effects, advance_states, heat_effects = effects.start, effects.advance, effects.heat
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -64,51 +64,6 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
         state("advance_before", "rad", "turning of the ideal output between z_before and z"),
     ]
-
-
-@kernel
-def prepare(r):
-    """Everything that follows from the parameters alone."""
-    for j in range(r.pin_x.shape[0]):
-        angle = 2.0 * math.pi * j / r.pin_x.shape[0]
-        radial = r.pin_circle_radius + r.pin_position_error_radial[j]
-        tangential = r.pin_position_error_tangential[j]
-        r.pin_angle[j], r.pin_cos[j], r.pin_sin[j] = angle, math.cos(angle), math.sin(angle)
-        r.pin_x[j] = radial * math.cos(angle) - tangential * math.sin(angle)
-        r.pin_y[j] = radial * math.sin(angle) + tangential * math.cos(angle)
-    r.mesh_constant, r.mesh_exponent = law_constants(
-        r.contact_law, r.stiffness_reading, r.mesh_stiffness, r.mesh_stiffness_lankarani,
-        r.exponent_lankarani, r.mesh_width,
-    )
-    r.mesh_damping_now, r.roller_damping_now = r.mesh_damping, r.roller_damping
-    if r.damping_law == HYSTERETIC:
-        r.mesh_damping_now = r.roller_damping_now = r.restitution
-    elif r.damping_law == MODAL:
-        r.mesh_damping_now = r.roller_damping_now = r.modal_damping_time
-    r.roller_constant, r.roller_exponent = law_constants(
-        r.contact_law, r.stiffness_reading, r.roller_stiffness, r.roller_stiffness_lankarani,
-        r.exponent_lankarani, r.roller_length,
-    )
-    r.output_constant, r.output_exponent = law_constants(
-        LINE, r.stiffness_reading, r.output_stiffness, r.output_stiffness, r.exponent_lankarani, r.mesh_width
-    )
-    r.pressure_cosine = math.cos(r.pressure_angle)
-    clear_added(r)
-    prepare_effects(r)
-    list_free_coordinates(r)
-
-
-@kernel
-def clear_added(r):
-    """No effect adds anything to the ideal parts, whose supports are rigid, nor to what it is asked for later."""
-    clear_flanks(r)
-    clear_places(r)
-    clear_clearances(r)
-    for i in range(r.compliance.shape[0]):
-        r.compliance[i] = 0.0
-    r.output_gap_added = r.friction_power = 0.0
-    r.cage_share = 1.0
-    r.reducer_temperature = r.temperature
 
 
 @kernel
@@ -231,6 +186,8 @@ def initialise(records):
         return fault
     if r.drive == 1 and r.fidelity == QUASI_STATIC:
         return TORQUE_AT_REST
+    r.friction_power, r.cage_share, r.reducer_temperature = 0.0, 1.0, r.temperature
+    start_effects(r)
     prepare(r)
     if not solve(r):
         return NO_EQUILIBRIUM
@@ -245,9 +202,43 @@ def initialise(records):
     return 0
 
 
+@kernel
+def look(records):
+    """A step of no length: the outputs for inputs and amplitudes as they are now, the parts where they stand.
+
+    At rest one more Newton step leaves nothing but rounding, so that differences of two such looks are those
+    of the equilibrium's own tangent.  Nothing is added up.
+    """
+    r = records[0]
+    fault = retune(r)
+    if fault != 0:
+        return fault
+    start_profiles(r, 0.0)
+    take_profiles(r, 1.0)
+    found = True
+    if r.fidelity == DYNAMIC:
+        prepare_position(r)
+        assemble_motion(r, 1.0)
+    else:
+        found = solve(r)
+        if found:
+            output, cage = angles_within_turn(r)
+            refine(r, output, cage, r.load_torque)
+    end_profiles(r)
+    if not found:
+        return NO_EQUILIBRIUM
+    if r.fidelity == DYNAMIC:
+        publish_motion(r)
+    else:
+        publish(r, speeds(r)[0])
+    return 0
+
+
 @entry_point
 def step(records, time, duration):
     """One communication step: through equilibria or, if fidelity is dynamic, in motion."""
+    if duration == 0.0:
+        return look(records)
     start_ramp(records[0], duration)
     return go_on(records, time, duration)
 
@@ -256,6 +247,9 @@ def step(records, time, duration):
 def go_on(records, time, duration):
     """A communication step, or one of the parts that it is divided into."""
     r = records[0]
+    fault = retune(r)
+    if fault != 0:
+        return fault
     if r.fidelity == DYNAMIC:
         moved = advance(r, duration)
         publish_motion(r)

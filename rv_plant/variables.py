@@ -1,5 +1,6 @@
 """Every variable of the plant; each piece of physics declares its own."""
 
+from fmu_src.effect import amplitude_memory
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Table, Variable
 from rv_plant import (
@@ -13,6 +14,7 @@ from rv_plant import (
     integrator,
     mesh,
     motion,
+    near_mesh,
     needle_bearing,
     output_pins,
     outputs,
@@ -25,8 +27,8 @@ from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium, outputs,
-    dynamics, constraints, integrator, motion,
+    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium,
+    outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
 
 
@@ -41,4 +43,4 @@ def plant_table(topology: Topology) -> Table:
     require_sound_effects("rv_plant")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",
-                 own_variables(topology) + effects)
+                 [*own_variables(topology), *effects, amplitude_memory(EFFECTS.values())])

@@ -18,6 +18,8 @@ LOST_MOTION_SHARE = 0.03
 LONGEST_LIFE = 1e12
 
 NONE, FLANK, RACE, LOST_MOTION = range(4)
+# Where a step may end before its time (``pausing``).
+NOWHERE, WHERE_JUDGED_OTHERWISE, EVERYWHERE = range(3)
 
 
 @kernel
@@ -100,12 +102,21 @@ def extrapolate_life(r, flank_rate, race_rate):
 
 
 @kernel
+def pauses(r, limited_by, was_over, left):
+    """Whether a step ends here, ``left`` [s] before its time: judged is otherwise than at its beginning."""
+    if left <= 0.0 or r.pausing == NOWHERE:
+        return False
+    return r.pausing == EVERYWHERE or r.limited_by != limited_by or (r.remaining_life == 0.0) != was_over
+
+
+@kernel
 def start_judgement(records):
-    """Of new surfaces."""
+    """Of new surfaces, or of worn ones that say what lost motion was when they were new."""
     r = records[0]
     find_worst_depths(r)
     measure_lost_motion(records)
-    r.new_lost_motion = r.lost_motion
+    if r.new_lost_motion == 0.0:
+        r.new_lost_motion = r.lost_motion
     extrapolate_life(r, 0.0, 0.0)
 
 

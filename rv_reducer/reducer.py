@@ -13,7 +13,8 @@ from rv_plant.integrator import MOST_SUBSTEPS
 from rv_plant.motion import start_ramp
 from rv_plant.plant import go_on as plant_goes_on
 from rv_plant.plant import initialise as initialise_plant
-from rv_reducer.judgement import judge, start_judgement
+from rv_plant.plant import look
+from rv_reducer.judgement import judge, pauses, start_judgement
 from wear_fmu.accumulator import FAULTS as WEAR_FAULTS
 from wear_fmu.accumulator import ON_TIME, take_off
 from wear_fmu.accumulator import initialise as initialise_wear
@@ -121,9 +122,11 @@ def part_of(records, left, speed):
 
 @kernel
 def go_on(records, time, duration):
-    """The parts of a communication step."""
+    """The parts of a communication step; it may end after one of them (``pausing``)."""
     r, p = records[0], records.plant[0]
     substeps, lost, left = 0, 0.0, duration
+    limited_by, was_over = r.limited_by, r.remaining_life == 0.0
+    r.paused_after = 0.0
     while left > 0.0:
         speed = driven_speed(p)
         if not abs(speed) * left < MOST_SUBSTEPS * r.largest_crank_step:
@@ -153,15 +156,20 @@ def go_on(records, time, duration):
             fault = wear(records, speed)
             if fault != 0:
                 return fault
+            if pauses(r, limited_by, was_over, left):
+                r.paused_after = duration - left
+                break
     p.substeps = substeps
     if p.fidelity == DYNAMIC:
-        p.power_loss = lost / duration
+        p.power_loss = lost / (duration - left)
     return 0
 
 
 @entry_point
 def step(records, time, duration):
     """One communication step of both."""
+    if duration == 0.0:
+        return look(records.plant)
     r, p = records[0], records.plant[0]
     start_ramp(p, duration)
     speed = driven_speed(p)

@@ -1,6 +1,6 @@
 """Plant and wear as one unit."""
 
-from fmu_src.unit import Specification, Unit
+from fmu_src.unit import Specification, Unit, started
 from rv_plant.topology import Topology
 from rv_reducer.reducer import FAULTS, initialise, step
 from rv_reducer.variables import reducer_table
@@ -11,7 +11,6 @@ from wear_fmu.variables import Resolution
 def make_unit(specification: Specification) -> Unit:
     """The unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
-    table = reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"]))
-    table = table.with_starts(specification["starts"], specification["sources"])
+    table = started(reducer_table(Topology(**sizes["topology"]), Resolution(**sizes["resolution"])), specification)
     # The wear refuses before it changes anything; what the plant changes is what a look at lost motion puts back.
-    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size, cautions=CAUTIONS)
+    return Unit(table, initialise, step, FAULTS, fault_reach=table.by_name["kept"].size, cautions=CAUTIONS, pause=("pausing", "paused_after"))

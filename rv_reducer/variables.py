@@ -100,6 +100,9 @@ def judgement(z: Variable) -> list[Variable]:
         Variable("remaining_life", "output", "s", "operating time until the first limit if wear goes on as in the last"
                  " judgement_interval", nominal=1e6),
         Variable("limited_by", "output", "1", "the limit that remaining_life refers to", choices=LIMITS),
+        Variable("pausing", "state", "1", "where a step may end before its time: nowhere, where the judgement changes, wherever surfaces wore",
+                 integer=True),
+        state("paused_after", "s", "how much of the last step was done; 0: all of it"),
         state("turned", "rad", "turning of the cranks since the last judgement"),
         state("judged_time", "s", "operating time at the last judgement"),
         state("judged_flank_volume", "m^3", "flank_volume at the last judgement"),

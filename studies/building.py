@@ -10,31 +10,47 @@ import fmpy
 
 from fmu_src.description import guid
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
 from fmu_src.link import compiler, host_platform
 from fmu_src.native import NativeFault, host_triple, object_codes
 from fmu_src.package import VERSIONS, build_fmu, build_native, triples_for, validate
 from fmu_src.progress import task
 from fmu_src.project import NAME, project
+from fmu_src.reading import reading
+from fmu_src.references import MANIFEST
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from reducers.reducer import Reducer
 from studies.pair import CONNECTIONS, POSITIONS_PER_TURN, crank_turn_time
+from studies.reference_material import add_references
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu", "RvReducer": "rv_reducer"}
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one."""
+    """Which FMUs: ``flavour`` python, native or both; ``fmi`` 2, 3 or both; for all platforms or this one.
+
+    ``inline`` packages have their values in the system's description instead of files beside the FMUs.
+    """
 
     flavour: str = "both"
     fmi: str = "both"
     all_platforms: bool = False
+    inline: bool = False
 
 
 def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tuple[list[dict[str, Any]], list[Path]]:
-    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay."""
+    """(one entry per FMU, SSP packages): FMUs of both units and of the unit of both, validated; those that are up to date stay.
+
+    InputFault if another process builds there: a package must not hold units of two reducers.
+    """
+    with held(folder / "FMUs"):
+        return built_units(reducer, folder, wanted)
+
+
+def built_units(reducer: Reducer, folder: Path, wanted: Wanted) -> tuple[list[dict[str, Any]], list[Path]]:
     plant = InProcess("plant", reducer.specification("rv_plant"))
     step = crank_turn_time(reducer, plant) / POSITIONS_PER_TURN
     tool = f"{NAME} {project().version}"
@@ -56,12 +72,14 @@ def build_units(reducer: Reducer, folder: Path, wanted: Wanted = Wanted()) -> tu
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])
                 if versions := tuple(v for v, path in zip(native, ours) if path in stale):
                     build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes)
+                for path in stale:
+                    add_references(path, reducer, unit, step)
         for path in paths:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
             built.append(entry | {"flavour": "python" if path == editable else "native"})
     places = dict.fromkeys(Path(entry["fmu"]).parent for entry in built)
-    return built, [export_pair(reducer, place, step, tool) for place in places]
+    return built, [export_pair(reducer, place, step, tool, wanted.inline) for place in places]
 
 
 def native_versions(wanted: Wanted) -> tuple[str, ...]:
@@ -82,20 +100,26 @@ def is_current(path: Path, identity: str, all_platforms: bool = False) -> bool:
     """Whether an FMU of this identity, version and licence, for all platforms if need be, is there already."""
     if not path.exists():
         return False
-    description = fmpy.read_model_description(str(path))
+    try:
+        with reading(path, "an FMU"):
+            description = fmpy.read_model_description(str(path))
+    except InputFault:
+        # Damaged, or something else: it is built anew.
+        return False
     known = description.guid if description.fmiVersion == "2.0" else description.instantiationToken
     makers = project().attributes(source_hash())
     if known != identity or any(getattr(description, name) != value for name, value in makers.items()):
         return False
     with zipfile.ZipFile(path) as archive:
-        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+        names = archive.namelist()
+    libraries = [name for name in names if name.startswith("binaries/")]
     # Four folders in FMI 2.0, where Darwin has one library for both processors.
-    return not all_platforms or len(libraries) >= 4
+    return MANIFEST in names and (not all_platforms or len(libraries) >= 4)
 
 
-def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear") -> Path:
-    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs."""
+def export_pair(reducer: Reducer, folder: Path, step: float, tool: str = "rvwear", inline: bool = False) -> Path:
+    """Write RvReducer.ssp, the pair through one crank turn, beside its FMUs; SSP 1.0 of FMI 2 units, 2.0 of FMI 3 units."""
     return export_ssp(
         folder / "RvReducer.ssp", "RvReducer", {"plant": folder / "RvPlant.fmu", "wear": folder / "RvWear.fmu"},
-        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool,
+        CONNECTIONS, Experiment(step, POSITIONS_PER_TURN * step), {}, f"RV reducer {reducer.name} and its wear", tool, inline,
     )  # fmt: skip

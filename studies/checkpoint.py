@@ -1,17 +1,23 @@
 """Checkpoints of a life run: everything needed to go on to the same result."""
 
+import io
 import json
-import zipfile
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fmu_src.checked_file import Damaged, checked, replacing, unchecked
 from fmu_src.faults import InputFault
+from fmu_src.reading import reading, require_size
 from studies.life import Life, LifeSettings
 from studies.solve import Turn
 
+MARK = b"rvwear checkpoint 1\n"
+REMEDY = "start anew with --restart"
+# Bytes that are read of a checkpoint (assumed: far beyond those of the longest life).
+MOST = 2_000_000_000
 # Fields of Life that are plain numbers or lists of them.
 PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "coarse", "error_before")
 
@@ -29,24 +35,29 @@ def save_checkpoint(path: Path, life: Life, saved: dict[str, Any], inputs: dict[
         "inputs": inputs, "clock": saved["clock"], "start_clock": life.start["clock"], "settings": asdict(life.settings),
         "life": {name: getattr(life, name) for name in PLAIN},
     }
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".part")
-    with partial.open("wb") as file:
-        np.savez_compressed(file, head=np.frombuffer(json.dumps(head).encode(), "u1"), **arrays)
-    partial.replace(path)
+    content = io.BytesIO()
+    np.savez_compressed(content, head=np.frombuffer(json.dumps(head).encode(), "u1"), **arrays)
+    with replacing(path) as partial:
+        partial.write_bytes(checked(content.getvalue(), MARK))
 
 
 def load_checkpoint(path: Path, inputs: dict[str, Any]) -> tuple[Life, dict[str, Any]]:
-    """(life, saved master) of a checkpoint; InputFault if it belongs to other inputs."""
+    """(life, saved master) of a checkpoint; Damaged if it is not what was written, InputFault if it belongs to other inputs."""
     if not path.is_file():
         raise InputFault(f"no checkpoint at {path}: start the run without --resume")
-    try:
-        # np.load leaves a path open that it refuses.
-        with path.open("rb") as file, np.load(file) as arrays:
-            head = json.loads(arrays["head"].tobytes())
-            data = {name: arrays[name] for name in arrays.files if name != "head"}
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as problem:
-        raise InputFault(f"{path} is not a checkpoint ({problem}); start anew with --restart") from None
+    with reading(path, "a checkpoint", REMEDY):
+        require_size(path, MOST)
+        try:
+            content = unchecked(path.read_bytes(), MARK, path)
+        except Damaged as fault:
+            raise Damaged(f"{fault}; {REMEDY}") from None
+        return life_of(content, path, inputs)
+
+
+def life_of(content: bytes, path: Path, inputs: dict[str, Any]) -> tuple[Life, dict[str, Any]]:
+    with np.load(io.BytesIO(content)) as arrays:
+        head = json.loads(arrays["head"].tobytes())
+        data = {name: arrays[name] for name in arrays.files if name != "head"}
     different = [k for k in inputs.keys() | head["inputs"].keys() if inputs.get(k) != head["inputs"].get(k)]
     if different:
         changes = "; ".join(f"{k} was {head['inputs'].get(k)}, is {inputs.get(k)}" for k in sorted(different))

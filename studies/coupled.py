@@ -65,6 +65,22 @@ def start_beside(p, similar, i):
 
 
 @kernel
+def run_pair_beside(plants, wears, duration, accelerations, places, similar, guessed):
+    """As many steps of ``duration`` [s] as there are ``accelerations``; ``places``, ``similar`` and ``guessed`` as in ``sweep``."""
+    p = plants[0]
+    for i in range(accelerations.shape[0]):
+        wears[0].acceleration = accelerations[i]
+        if guessed:
+            start_beside(p, similar, i)
+        plant_status, wear_status = step_pair(plants, wears, i * duration, duration)
+        if plant_status != 0 or wear_status != 0:
+            return plant_status, wear_status
+        for k in range(places.shape[1]):
+            places[i, k] = p.z[k]
+    return 0, 0
+
+
+@kernel
 def sweep(plants, wears, durations, series, worn, places, similar, guessed):
     """Steps of the given ``durations`` [s]; row i of ``series`` gets what a bench sees after step i.
 

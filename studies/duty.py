@@ -11,15 +11,17 @@
     share = 0.5
 """
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from fmu_src.faults import InputFault
+from fmu_src.reading import read_toml, reading
+from fmu_src.strict_file import Strict, validated
 from fmu_src.units import UnitError, conversion
-from reducers.reducer import Strict
+
+REMEDY = "each [[segment]] takes speed and torque as { value, unit } and a share"
 
 
 class QuantityEntry(Strict):
@@ -49,19 +51,11 @@ class Segment:
 def load_duty(path: str | Path) -> tuple[Segment, ...]:
     """Read a duty file; the shares must add up to 1."""
     path = Path(path)
-    if not path.is_file():
-        raise InputFault(f"no duty file at {path}")
-    try:
-        content = DutyFile(**tomllib.loads(path.read_text(encoding="utf-8-sig")))
-    except tomllib.TOMLDecodeError as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        raise InputFault(
-            f"{path}: {key} = {first['input']!r}: {first['msg']}; each [[segment]] takes speed and torque as"
-            " { value, unit } and a share"
-        ) from None
+    with reading(path, "a duty file", REMEDY):
+        return segments_of(validated(DutyFile, read_toml(path, "duty file", REMEDY), path, REMEDY), path)
+
+
+def segments_of(content: DutyFile, path: Path) -> tuple[Segment, ...]:
     segments = []
     for number, entry in enumerate(content.segment, 1):
         place = f"{path}: segment {number}"

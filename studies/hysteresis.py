@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fmu_src.arrays import Floats
+from fmu_src.faults import InputFault
 from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
@@ -45,6 +46,8 @@ def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = 40, angle
     for setting in settings:
         if setting.name == "load_torque":
             rated = abs(setting.value)
+    if rated == 0.0:
+        raise InputFault("load_torque = 0: the test turns the torque up and down to this value; give --torque")
     torque = torque_way(rated, steps)
     turning = np.mean([one_angle(reducer, settings, torque, k / angles) for k in range(angles)], axis=0)
     quarter = len(torque) // 4 + 1

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 
 from fmu_src.faults import InputFault, RunFault
+from rv_plant.faults import DYNAMIC
 from studies.pair import Pair
 from studies.solve import Turn, measure
+from studies.swing import swing_damping
 
 HOUR = 3600.0
 # Surfaces of the wear unit that a result keeps, by the names of its table.
@@ -35,6 +37,8 @@ HIGHEST_ORDER = 1.5
 LEAST_DEPTH = 1e-6
 # No more jumps than this: the life shall end.
 MOST_JUMPS = 256
+# Unless so many points of the curve are asked for.
+MOST_ASKED = 10_000
 # From this many jumps on, an error that hardly falls is that of the positions per turn.
 MANY_JUMPS = 32
 
@@ -62,9 +66,19 @@ class LifeSettings:
                 raise InputFault(f"{name} = {value}: a positive finite number is needed")
         if self.tolerance > 0.5:
             raise InputFault(f"tolerance = {self.tolerance}: it is relative; 0.01 is usual, 0.5 the largest")
+        least = (2.0 * FIRST_JUMPS / MOST_JUMPS) ** 2
+        if self.tolerance < least:
+            raise InputFault(f"tolerance = {self.tolerance:g}: it would need more than {MOST_JUMPS} jumps; {least:.1g} is the smallest")
+        if not self.wanted_jumps() <= MOST_ASKED:
+            raise InputFault(
+                f"first_jump = {self.first_jump}, largest_jump = {self.largest_jump}: more than {MOST_ASKED} jumps in {self.hours:g} h; give longer ones"
+            )
 
     def first_jumps(self) -> int:
         """Jumps of the first run."""
+        return math.ceil(self.wanted_jumps() * (1.0 - 1e-9))
+
+    def wanted_jumps(self) -> float:
         number = FIRST_JUMPS / math.sqrt(self.tolerance)
         # Of n jumps the first takes 1/n^2 of the hours, the last (2 n - 1)/n^2.
         if self.first_jump is not None:
@@ -72,7 +86,7 @@ class LifeSettings:
         if self.largest_jump is not None:
             share = max(1.0, self.hours / self.largest_jump)
             number = max(number, share + math.sqrt(share * (share - 1.0)))
-        return math.ceil(number * (1.0 - 1e-9))
+        return number
 
 
 @dataclass
@@ -219,6 +233,9 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
     through the life and after each jump.
     """
     if life.start is None:
+        # One that is set is kept.
+        if pair.plant.get("fidelity") == DYNAMIC and pair.plant.number("swing_damping") == 0.0:
+            pair.plant.set("swing_damping", swing_damping(pair.plant.record()))
         life.start = pair.master.save()
         begin(pair, life, life.settings.first_jumps(), keep)
     while True:

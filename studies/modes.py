@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, Records
 from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
@@ -40,9 +40,8 @@ def body_names(reducer: Reducer) -> list[str]:
     return [*names, "ring turning", "sun turning", "load turning"]
 
 
-def matrices(plant: InProcess) -> tuple[Floats, Floats, Floats]:
-    """(mass diagonal, stiffness, damping) of an initialised plant with fidelity dynamic."""
-    record = plant.records
+def matrices(record: Records) -> tuple[Floats, Floats, Floats]:
+    """(mass diagonal, stiffness, damping) from the record of an initialised plant with fidelity dynamic."""
 
     def tangent(rate_weight: float) -> Floats:
         linearise(record, rate_weight)
@@ -60,7 +59,7 @@ def modes(reducer: Reducer, settings: list[Setting]) -> list[Mode]:
     apply(settings, {"plant": plant})
     plant.set("fidelity", 1)
     plant.exit_initialisation()
-    mass, stiffness, damping = matrices(plant)
+    mass, stiffness, damping = matrices(plant.records)
     names = body_names(reducer)
     free = [i for i, name in enumerate(names) if name != "sun turning"]
     square, shapes = eigh(stiffness[np.ix_(free, free)], np.diag(mass[free]))

@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import zipfile
+from pathlib import Path
 
 SPRING = '''
 import math
@@ -50,3 +52,32 @@ def build_spring(folder):
                "--no-external-tool", "--handle-state", "--serialize-state"]  # fmt: skip
     subprocess.run(command, check=True, capture_output=True)
     return folder / "Spring.fmu"
+
+
+SLEEPER = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Sleeper" guid="{sleeper}">
+<CoSimulation modelIdentifier="Sleeper" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true"/>
+<ModelVariables>
+<ScalarVariable name="x" valueReference="0" causality="output" variability="continuous"><Real/></ScalarVariable>
+<ScalarVariable name="u" valueReference="1" causality="input" variability="continuous"><Real start="0"/></ScalarVariable>
+</ModelVariables>
+<ModelStructure><Outputs><Unknown index="1" dependencies=""/></Outputs></ModelStructure>
+</fmiModelDescription>
+"""
+
+
+def build_sleeper(folder):
+    """``folder``/Sleeper.fmu: an FMI 2.0 unit in C that hangs in the function that HANG_IN names."""
+    library = folder / "Sleeper.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-w", "-o", library, Path(__file__).with_name("sleeper.c")], check=True, capture_output=True)
+    with zipfile.ZipFile(folder / "Sleeper.fmu", "w") as archive:
+        archive.writestr("modelDescription.xml", SLEEPER)
+        archive.write(library, f"binaries/{platform_of()}/Sleeper.so")
+    return folder / "Sleeper.fmu"
+
+
+def platform_of():
+    """Of FMI 2.0, as fmpy names it."""
+    import fmpy
+
+    return fmpy.platform

@@ -72,7 +72,11 @@ def test_stiffness_reading_and_contact_law(capsys):
     (("life", "--set", "crank_angle=3"), "exchanged by the two units"),
     (("run", "--turns", "nan"), "turns = nan"),
     (("run", "examples/pair.toml", "--torque", "5"), "--torque with a system's file"),
-    (("report", "README.md"), "is not a result"),
+    (("hysteresis", "--torque", "0"), "load_torque = 0"),
+    (("run", "examples/pair.toml", "--step", "0"), "step = 0 s: a positive number of seconds"),
+    (("run", "--step", "0"), "--step without a system's file"),
+    (("life", "--tolerance", "1e-300"), "5e-06 is the smallest"),
+    (("report", "README.md"), "not readable as a NetCDF file"),
 ])  # fmt: skip
 def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
     assert main(list(arguments)) == 2

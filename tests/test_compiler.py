@@ -4,15 +4,18 @@ import math
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from fmu_src import cache_folder as cache
+from fmu_src import checked_file
 from fmu_src.compiler import loading, store
 from fmu_src.compiler.types import KernelFault
 from fmu_src.kernel import kernel
+from fmu_src.units import MARK
 
 POINT = np.dtype([("x", "f8"), ("count", "i8"), ("row", "f8", (3,)), ("table", "f8", (2, 3))])
 LIMIT, WEIGHTS = 3, (1.0, 0.5, 0.25)
@@ -234,7 +237,7 @@ def test_what_nobody_used_for_a_month_goes(kept):
     assert recent.exists() and not old.exists()
 
 
-SHOWN = "from fmu_src.cache_folder import cache_folder; print(cache_folder('code'))"
+SHOWN = "from fmu_src.cache_folder import cache_folder; print(cache_folder('code')); assert cache_folder('code').is_dir()"
 
 
 def folder_used(**environment: str | None) -> tuple[Path, str]:
@@ -259,9 +262,29 @@ def test_a_cache_that_others_can_write_is_not_used(tmp_path):
     assert said.count("\n") == 1 and "others can write to" in said and "XDG_CACHE_HOME" in said
 
 
-def test_no_home_means_a_temporary_folder_and_one_line(tmp_path):
-    in_the_way = tmp_path / "file"
-    in_the_way.write_text("")
-    folder, said = folder_used(XDG_CACHE_HOME=None, HOME=str(in_the_way))
-    assert folder.is_dir() and tmp_path not in folder.parents
+@pytest.mark.parametrize("missing", ["file", "nobody/here"])
+def test_no_home_means_a_temporary_folder_and_one_line(tmp_path, missing):
+    """No home is made for who has none, and nothing is left behind."""
+    (tmp_path / "file").write_text("")
+    folder, said = folder_used(XDG_CACHE_HOME=None, HOME=str(tmp_path / missing))
+    assert not folder.exists() and tmp_path not in folder.parents and folder.parent.parent == Path(tempfile.gettempdir())
     assert said.count("\n") == 1 and "no cache between runs" in said
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+PARSED = "from fmu_src.units import parse; print(parse('um'))"
+
+
+@pytest.mark.parametrize("damage", [lambda content: b"", lambda content: content[:1000], lambda content: content[:-9] + b"x" + content[-8:]])
+def test_kept_units_that_are_not_whole_are_made_again(tmp_path, damage):
+    def read():
+        done = subprocess.run([sys.executable, "-c", PARSED], capture_output=True, text=True, env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)})
+        assert done.stdout.strip() == "micrometer", done.stderr
+        (file,) = (tmp_path / "rvwear" / "units").iterdir()
+        return file
+
+    file = read()
+    file.write_bytes(damage(file.read_bytes()))
+    assert checked_file.read(file, MARK) is None
+    read()
+    assert checked_file.read(file, MARK)

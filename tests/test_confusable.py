@@ -61,7 +61,7 @@ def test_membership_follows_the_likelihood():
 
 def test_a_gain_of_500_percent_stands_beside_nothing():
     """Fits as well, but its size is 500 times what is usual."""
-    assert implausible(rival("gain", 100.0, 5.0, 0.01)) == pytest.approx((np.log10(500.0 / PLAUSIBLE) / DECADE) ** 2)
+    assert implausible(np.array([500.0])) == pytest.approx((np.log10(500.0 / PLAUSIBLE) / DECADE) ** 2)
     assert names([rival("gain", 80.0, 5.0, 0.01), rival("stiffness", 100.0)]) == ["stiffness"]
 
 

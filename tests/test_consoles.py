@@ -48,8 +48,9 @@ def printed(monkeypatch):
     return run
 
 
-SHORT = ("solve --positions 8", "effects", "ladder model.toml", "compare model.toml Prüfstand")
+SHORT = ("solve --positions 8", "effects", "ladder model.toml")
 LONGER = (
+    "compare model.toml Prüfstand",
     "hysteresis", "modes", "effects needle_clearance", "example", "campaign check Prüfstand", "campaign template 試",
     "run --positions 8 --output μ.nc", "life --hours 60 --positions 8 --output μ_life.nc", "report μ_life.nc",
     "reproduce N14 --output μ_claims.html",

@@ -35,7 +35,7 @@ def test_file_is_read_in_si_units(tmp_path):
 
 @pytest.mark.parametrize("before, after, said", [
     ("share = 0.25", "share = 0.5", "add up to 1.25"),
-    ("share = 0.25", "", "segment.1.share"),
+    ("share = 0.25", "", "segment\\[2\\].share"),
     ('"rpm"', '"mm"', "'mm' does not fit"),
     ("value = -1000", "value = 0", "standing still"),
     ("value = -100,", "value = nan,", "finite"),

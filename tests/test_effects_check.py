@@ -126,7 +126,7 @@ def test_kernels_that_are_imported_are_followed(tmp_path):
 
 @pytest.mark.parametrize(("name", "line", "message"), [
     ("befor(r)", FIRST + 1, "befor is no hook and no hook calls it; did you mean before?"),
-    ("quux(r)", FIRST + 1, "no hook calls it; hooks are prepare, warm, before"),
+    ("quux(r)", FIRST + 1, "no hook calls it; hooks are start, prepare, warm, before"),
     ("before(r, time)", FIRST + 1, "the unit calls before(r), here it is before(r, time)"),
 ])  # fmt: skip
 def test_a_wrong_hook_is_told(tmp_path, name, line, message):
@@ -174,6 +174,45 @@ def test_the_example_of_the_documentation_passes(tmp_path):
 ])  # fmt: skip
 def test_a_wrong_declaration_is_told(tmp_path, old, new, line, message):
     assert any(found[0] == line and message in found[1] for found in told(tmp_path, HEAD.replace(old, new, 1) + hook("return")[len(HEAD) :]))
+
+
+def test_what_editors_leave_beside_a_file_is_no_effect(tmp_path):
+    file = written(tmp_path, hook("r.roller_gap_now[0, 0, 0] += r.my_size"))
+    (file.parent / ".#mine.py").symlink_to("somebody@somewhere:1")
+    (file.parent / "._mine.py").write_bytes(b"\0\5\x16\7")
+    assert folder_findings(tmp_path) == [] == check_any_file(file)
+    assert started(tmp_path).returncode == 0
+
+
+def test_a_file_that_cannot_be_read_is_told(tmp_path):
+    (written(tmp_path, GOOD).parent / "gone.py").symlink_to("nowhere.py")
+    (found,) = folder_findings(tmp_path)
+    assert found.file.name == "gone.py" and "cannot be read" in found.text
+    assert check_any_file(found.file)[0].text == "there is no such file, or it cannot be read"
+
+
+@pytest.mark.parametrize("name, text, said", [
+    ("class", hook("pass"), "class.py:1: the file's name must be a Python name"),
+    ("mine", f"import sys\nsys.exit()\n{hook('pass')}", "mine.py:2: SystemExit"),
+])  # fmt: skip
+def test_a_file_that_would_end_the_start_is_told(tmp_path, name, text, said):
+    written(tmp_path, text, name=name)
+    done = started(tmp_path)
+    assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_link_lies_where_it_lies(tmp_path):
+    (tmp_path / "rv_plant").mkdir()
+    elsewhere = tmp_path / "elsewhere.txt"
+    elsewhere.write_text(hook("r.roller_gap_now[0, 0, 0] += r.my_size"), encoding="utf-8")
+    (tmp_path / "rv_plant" / "mine.py").symlink_to(elsewhere)
+    assert check_any_file(tmp_path / "rv_plant" / "mine.py") == []
+
+
+def started(folder: Path) -> subprocess.CompletedProcess[str]:
+    """The list of ``rvwear effects`` with those of a folder, without the compiler: what is wrong with them is told before."""
+    environment = os.environ | {"RVWEAR_EFFECTS": str(folder), "RVWEAR_PLAIN_PYTHON": "1"}
+    return subprocess.run([sys.executable, "-m", "cli", "effects"], capture_output=True, text=True, env=environment)
 
 
 def test_names_of_a_neighbour_are_told(tmp_path):

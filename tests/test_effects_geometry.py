@@ -12,7 +12,7 @@ import pytest
 from stand import in_equilibrium
 
 from discrepancy.catalogue.signature import ARCSEC, amplitudes, conditions, new_bench, observed, rated, turn, worn
-from discrepancy.prediction.bench import Condition
+from discrepancy.prediction.units import Condition
 
 UM = 1e-6
 PINS, LOBES = 40, 39

@@ -15,7 +15,7 @@ from stand import SHARED, crank_period, exchange, records_of
 
 from fmu_src.effect import effect_modules
 from reducers.reducer import load_reducer
-from rv_plant import assembly, outputs, plant
+from rv_plant import assembly, outputs, plant, prepared
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
 from rv_plant.effects import EFFECTS as PLANT
 from rv_plant.effects import HOOKS as PLANT_HOOKS
@@ -75,7 +75,8 @@ def composed(package, hooks, allowed, reverse):
 def take(reverse) -> None:
     """Put hooks of another order in the place of those that the units have: any order, or the reverse of it."""
     of_plant, of_wear = composed("rv_plant.effects", PLANT_HOOKS, PLANT_ALLOWED, reverse), composed("wear_fmu.effects", WEAR_HOOKS, WEAR_ALLOWED, reverse)
-    plant.prepare_effects, plant.advance_states, plant.heat_effects = of_plant.prepare, of_plant.advance, of_plant.heat
+    plant.start_effects, plant.advance_states, plant.heat_effects = of_plant.start, of_plant.advance, of_plant.heat
+    prepared.prepare_effects = of_plant.prepare
     outputs.warm_effects, outputs.before_effects, outputs.after_effects = of_plant.warm, of_plant.before, of_plant.after
     assembly.hold_effects = of_plant.hold
     accumulator.prepare_effects, accumulator.advance_effects = of_wear.prepare, of_wear.advance

@@ -105,11 +105,12 @@ def test_an_impossible_reducer_is_a_failed_life_not_a_failed_run(rv20e, file):
 def test_a_life_is_kept_once_and_a_torn_line_is_done_again(tmp_path):
     path = tmp_path / "x.lives"
     store = Store(path, {"a": (1, 2)})
-    assert store.add({"number": 0, "v": 1}) and not store.add({"number": 0, "v": 2})
+    one, other = ({"number": 0, "fault": text} for text in ("a", "b"))
+    assert store.add(one) and not store.add(other)
     with path.open("a") as file:
         file.write('{"number": 1, "v')
     again = Store(path, {"a": [1, 2]})
-    assert again.lives == {0: {"number": 0, "v": 1}} and again.add({"number": 1})
+    assert again.lives == {0: one} and again.add({"number": 1, "fault": "c"})
     assert sorted(Store(path, {"a": [1, 2]}).lives) == [0, 1]
     with pytest.raises(InputFault, match="another ensemble"):
         Store(path, {"a": [1, 3]})

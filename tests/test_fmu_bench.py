@@ -5,14 +5,16 @@ import pytest
 from test_loop import CLEARANCE, campaign_of
 
 from discrepancy.model_file import ModelFile, load_model
-from discrepancy.prediction.bench import HOUR, KEPT_RUNS, Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.units import KEPT_RUNS, Condition
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.threads import Once
 from orchestrator.fmu import Fmu
 from studies.coupled import COLUMNS
+from studies.life import HOUR
 
 ARCSEC = np.pi / 180.0 / 3600.0
 SHORT = Condition(209.0, 167.0)

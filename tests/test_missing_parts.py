@@ -15,6 +15,7 @@ SCRIPT = """
 import contextlib, io, json, os, sys
 for name in {parts}:
     sys.modules[name] = None
+sys.path.insert(0, sys.argv[2])
 os.environ["PATH"] = os.devnull
 from cli.main import main
 
@@ -42,7 +43,12 @@ print(json.dumps(found))
 def without_parts(folder, *commands):
     """(exit code, what went to stderr) of commands, run in a folder by a Python that lacks all optional parts."""
     script = SCRIPT.format(parts=PARTS)
-    done = subprocess.run([sys.executable, "-c", script, json.dumps(commands)], cwd=folder, capture_output=True, text=True,
+    # Processes that it starts have its path: there, too, they are missing.
+    missing = folder / "missing"
+    missing.mkdir(exist_ok=True)
+    for name in PARTS:
+        (missing / f"{name}.py").write_text(f"raise ModuleNotFoundError(name={name!r})", encoding="utf-8")
+    done = subprocess.run([sys.executable, "-c", script, json.dumps(commands), str(missing)], cwd=folder, capture_output=True, text=True,
                           check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))})  # fmt: skip
     return json.loads(done.stdout)
 

@@ -269,3 +269,20 @@ def test_profile_errors_ramp_through_a_step_and_cost_no_internal_steps(rv20e):
             assemblies += int(record.assemblies)
         counts.append(assemblies)
     assert counts[1] < 3.0 * counts[0]
+
+
+def test_the_swing_damper_takes_the_swing_alone(rv20e):
+    """Amplitudes go with exp(-zeta omega t), zeta = D/(2 omega J); where it has died out the carrier stands as without it."""
+    pulled = {"input_speed": 0.0, **UNDAMPED}
+    omega = 2.0 * np.pi * 86.3
+    records = in_motion(rv20e.plant, **pulled)
+    inertia = float(records["load_inertia"][0])
+    records["swing_damping"] = 2.0 * 0.05 * omega * inertia
+    records["load_torque"] += 1.0
+    angle = np.array([r.output_angle for r in run_motion(records, 0.35, 1750)])
+    settled = in_motion(rv20e.plant, **{**pulled, "load_torque": float(records["load_torque"][0])})
+    rest = only(settled).output_angle
+    assert angle[-20:] == pytest.approx(rest, rel=1e-4)
+    size = [np.abs(angle[first : first + 100] - rest).max() for first in (50, 350)]
+    assert np.log(size[0] / size[1]) == pytest.approx(0.05 * omega * 0.06, rel=0.1)
+    assert abs(only(records).energy_error) < 1e-3

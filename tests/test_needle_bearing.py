@@ -17,7 +17,7 @@ def bearing(shift, first_angle, clearance, profile_error, rollers=ROLLERS):
         table, bearing_clearance=clearance, roller_constant=STIFFNESS, roller_exponent=EXPONENT
     ))
     record.roller_profile_error[0, 1] = profile_error
-    roller_contacts(record, 0, 1, *shift, first_angle, 0.0, 0.0, 0.0, 0.0)
+    roller_contacts(record, 0, 1, *shift, first_angle, 0.0, 0.0, 0.0, 0.0, False)
     return record.roller_force_now[0, 1].copy(), record.bearing_total.copy(), record.bearing_tangent.copy()
 
 

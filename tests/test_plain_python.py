@@ -82,5 +82,17 @@ def test_plain_python_gives_the_compiled_trajectory(plain, case):
         assert np.abs(found[name] - expected[name]).max() <= 1e-12 * scale, name
 
 
+def test_a_unit_in_process_runs_as_plain_python():
+    """As commands have it: the records that it makes have fields as attributes."""
+    program = (
+        "from orchestrator.component import InProcess\nfrom reducers.reducer import load_reducer\n"
+        "plant = InProcess('plant', load_reducer('RV20E-121').specification('rv_plant'))\n"
+        "plant.enter_initialisation(0.0); plant.exit_initialisation(); print(repr(plant.get('lag')))\n"
+    )
+    said = [float(subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True,
+                                 env=os.environ | {"RVWEAR_PLAIN_PYTHON": flag}).stdout) for flag in ("1", "")]
+    assert said[0] == pytest.approx(said[1], rel=1e-12)
+
+
 def assert_plain():
     assert not isinstance(plant.step, Kernel), "the compiler is not switched off"

@@ -146,11 +146,19 @@ def through(reducer, segments, step, **values):
 JUDGED = ("worst_flank_depth", "worst_pin_depth", "worst_race_depth", "remaining_life", "lost_motion", "operating_time")
 
 
-@pytest.mark.parametrize("fidelity", [0, 1], ids=["quasi-static", "dynamic"])
-@pytest.mark.parametrize("segments", [
-    [(1, 0.2)], [(-1, 0.2)], [(1, 0.2), (0, 0.1), (-1, 0.2)],
-], ids=["forward", "backward", "forward, at rest, backward"])  # fmt: skip
-@pytest.mark.parametrize("acceleration", [1.0, 1e5])
+STEADY = {"forward": [(1, 0.2)], "backward": [(-1, 0.2)]}
+REVERSAL = [(1, 0.2), (0, 0.1), (-1, 0.2)]
+DIVIDED = [
+    pytest.param(acceleration, segments, fidelity, id=f"{name}, {'dynamic' if fidelity else 'quasi-static'}, {acceleration:g}")
+    for name, segments in STEADY.items() for fidelity in (0, 1) for acceleration in (1.0, 1e5)
+]  # fmt: skip
+DIVIDED += [pytest.param(acceleration, REVERSAL, 0, id=f"reversal, quasi-static, {acceleration:g}") for acceleration in (1.0, 1e5)]
+# The blow of a reversal takes most of the time; what it wears does not know how often it counts.
+DIVIDED += [pytest.param(1e5, REVERSAL, 1, id="reversal, dynamic, 1e5"),
+            pytest.param(1.0, REVERSAL, 1, id="reversal, dynamic, 1", marks=pytest.mark.campaign)]  # fmt: skip
+
+
+@pytest.mark.parametrize("acceleration, segments, fidelity", DIVIDED)
 def test_it_divides_its_steps_itself(rv20e, fidelity, segments, acceleration):
     """Figures do not depend on the communication step; those that hold over a turn need one."""
     values = {"fidelity": fidelity, "acceleration": acceleration}

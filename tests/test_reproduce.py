@@ -18,6 +18,8 @@ QUICK = ["T01", "T02", "T03", "T04", "T05", "T06", "T07", "T08", "T09", "T10", "
          "T22", "T23", "T24", "T35", "T36", "T37", "N01", "N02", "N03", "N04", "N05", "N06", "N07", "N08", "N09",
          "N14",
          "L07", "L09", "L10", "L11", "L12", "C01", "C02", "C03"]  # fmt: skip
+# Most of their time.
+LONGEST = {"C01", "C02", "C03", "L09", "L11"}
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +117,8 @@ def test_progress_is_told():
 
 
 def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):
-    assert page == page_of(run(QUICK))
+    again = [c for c in QUICK if c not in LONGEST]
+    assert page_of([c for c in claims if c.id in again]) == page_of(run(again))
     shown = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"(src|href)=[\"'](?!#)", shown) and "@import" not in shown and "url(" not in shown
     for claim in claims:
@@ -146,7 +149,7 @@ def test_the_whole_run_stands():
     claims = run()
     check_complete(claims)
     assert [c.id for c in claims] == available_claims()
-    assert page_of(claims)
+    assert page_of([c for c in claims if c.id in QUICK]) == page_of(run(QUICK))
     inner = number_of(claims, "N10", "inner raceway, 10,000 h (printed: 2,000 h segments)")
     assert inner.value == pytest.approx(3.01, rel=0.02, abs=0)
     assert number_of(claims, "T28", "RV20E-121, ideal: after 10,000 h").value == pytest.approx(56.0, abs=3.0)

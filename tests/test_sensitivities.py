@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from discrepancy.model_file import load_model
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
 
 RATED = Condition(209.44, 167.0)
 ANGLES = np.linspace(0.3, 0.8, 40)

@@ -2,14 +2,20 @@
 
 import shutil
 import zipfile
+from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
+from lxml import etree
 
 from fmu_src.faults import InputFault
+from orchestrator.model_description import Described
 from orchestrator.ssp.exporter import Experiment, export_ssp
 from orchestrator.ssp.importer import read_ssp
+from orchestrator.ssp.notes import NAMESPACES
 from orchestrator.system import connect, load
+from studies.building import export_pair
 
 NAMES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
  xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
@@ -202,6 +208,107 @@ def test_undeclared_dependencies_are_a_loop_that_costs_two_looks(tmp_path, sprin
     system.run(1.0)
     assert system.master.loops[0].evaluations <= 2
     system.close()
+
+
+def description(path):
+    with zipfile.ZipFile(path) as archive:
+        return etree.fromstring(archive.read("SystemStructure.ssd")), archive.namelist()
+
+
+SPACE = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription", "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
+         "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues", "oms": NAMESPACES["oms"], "mc": NAMESPACES["mc"]}  # fmt: skip
+
+
+def test_values_may_stand_in_the_description(tmp_path, spring):
+    links = [("a.x", "b.u"), ("b.x", "a.u")]
+    path = export_ssp(tmp_path / "ring.ssp", "ring", {"a": spring, "b": spring}, links, Experiment(0.1, 2.0), {"a": {"k": 2.0}}, inline=True)
+    root, names = description(path)
+    assert not any(name.endswith(".ssv") for name in names)
+    known = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureDescription.xsd")))
+    known.assertValid(root)
+    assert root.xpath("//ssd:Component[@name='a']//ssv:Parameter[@name='k']/ssv:Real/@value", namespaces=SPACE) == ["2.0"]
+    system = load(path)
+    assert (system["a.k"], system["b.k"]) == (2.0, 1.0)
+    system.close()
+
+
+@pytest.mark.parametrize("scheme, order", [("jacobi", "parallel_single_thread"), ("gauss-seidel", "sequential")])
+def test_step_is_where_each_tool_looks_for_it(tmp_path, spring, scheme, order):
+    root, _ = description(export_ssp(tmp_path / "x.ssp", "x", {"a": spring}, [], Experiment(0.125, 1.0, scheme=scheme), {}))
+    # OMSimulator takes the first annotation of the system.
+    first = root.find("ssd:System/ssd:Annotations/ssc:Annotation", SPACE)
+    assert first.get("type") == "org.openmodelica"
+    master = first.find("oms:Annotations/oms:SimulationInformation/oms:FixedStepMaster", SPACE)
+    assert (master.prefix, master.get("description"), master.get("stepSize")) == ("oms", "oms-ma", "0.125")
+    task = root.find("ssd:DefaultExperiment/ssd:Annotations/ssc:Annotation[@type='com.avl.model.connect.ssp.task']/mc:Task", SPACE)
+    assert (task.get("stepType"), task.get("deltaTime"), task.get("endType")) == (order, "0.125", "end_time")
+
+
+def test_connectors_have_their_place_on_the_picture(tmp_path, spring):
+    links = [("a.x", "b.u"), ("b.x", "a.u")]
+    root, _ = description(export_ssp(tmp_path / "ring.ssp", "ring", {"a": spring, "b": spring}, links, Experiment(0.1, 2.0), {}))
+    places = {}
+    for component in root.iterfind(".//ssd:Component", SPACE):
+        for connector in component.iterfind("ssd:Connectors/ssd:Connector", SPACE):
+            geometry = connector.find("ssd:ConnectorGeometry", SPACE)
+            x, y = float(geometry.get("x")), float(geometry.get("y"))
+            edge = {"input": x == 0.0, "output": x == 1.0, "parameter": y == 0.0}
+            assert edge[connector.get("kind")] and 0.0 <= x <= 1.0 and 0.0 <= y <= 1.0
+            places[component.get("name"), connector.get("name")] = x, y
+    assert len(set(places.values())) == len(places) / 2
+    forward, back = root.iterfind("ssd:System/ssd:Connections/ssd:Connection", SPACE)
+    assert forward.find("ssd:ConnectionGeometry", SPACE) is None
+    way = back.find("ssd:ConnectionGeometry", SPACE)
+    x, y = ([float(t) for t in way.get(f"points{axis}").split()] for axis in "XY")
+    # Out to the right of both, below them, in from the left.
+    assert x[0] == x[1] > 160.0 and x[2] == x[3] < 0.0 and y[1] == y[2] < 0.0
+    # OMSimulator refuses it.
+    assert root.find("ssd:System/ssd:SystemGeometry", SPACE) is None
+
+
+def test_values_for_a_unit_that_is_not_there_are_refused(tmp_path, spring):
+    with pytest.raises(InputFault, match="values for c, which is no unit of the system: it has a"):
+        export_ssp(tmp_path / "x.ssp", "x", {"a": spring}, [], Experiment(0.1, 1.0), {"c": {"k": 1.0}})
+
+
+# SSP 2.0
+
+
+@pytest.fixture
+def pair3(rv20e, native_fmus, tmp_path):
+    """The package of the FMI 3 units, unpacked, and its description's text."""
+    with zipfile.ZipFile(export_pair(rv20e, native_fmus / "fmi3", 1e-3)) as archive:
+        archive.extractall(tmp_path)
+    return tmp_path, (tmp_path / "SystemStructure.ssd").read_text(encoding="utf-8")
+
+
+def test_units_with_arrays_make_a_package_of_ssp_2(pair3, native_fmus):
+    folder, text = pair3
+    root = etree.fromstring(text.encode())
+    assert root.get("version") == "2.0" and 'version="2.0"' in (folder / "resources" / "plant.ssv").read_text(encoding="utf-8")
+    units = {name: Described(fmpy.read_model_description(str(native_fmus / "fmi3" / f"Rv{name.title()}.fmu"))).signals() for name in ("plant", "wear")}
+    arrays = 0
+    for component in root.iterfind(".//ssd:Component", SPACE):
+        for connector in component.iterfind("ssd:Connectors/ssd:Connector", SPACE):
+            shape = tuple(int(d.get("size")) for d in connector.iterfind("ssc:Dimension", SPACE))
+            signal = units[component.get("name")][connector.get("name")]
+            assert shape == signal.shape and etree.QName(connector[0]).localname == ("Int64" if signal.is_integer else "Float64")
+            arrays += bool(shape)
+    assert arrays > 10
+
+
+@pytest.mark.parametrize("before, after, said", [
+    ('<ssc:Dimension size="40" />', '<ssc:Dimension size="41" />', "has the dimensions 2 x 41, its FMU's variable 2 x 40; write the FMU's"),
+    ('<ssc:Dimension size="40" />', '<ssc:Dimension size="forty" />', "Dimension size = '2', 'forty': a whole number is needed"),
+    ('version="2.0"', 'version="3.0"', "SSP version '3.0' is not known; versions 1 and 2 are"),
+    ('startConnector="crank_angle"', 'startConnector="crank_angle" startIndices="1"', "startIndices = '1' is not supported; connect whole arrays"),
+])
+def test_wrong_package_of_ssp_2_is_told(pair3, before, after, said):
+    folder, text = pair3
+    assert before in text
+    (folder / "SystemStructure.ssd").write_text(text.replace(before, after, 1), encoding="utf-8")
+    with pytest.raises(InputFault, match=said):
+        load(folder)
 
 
 @pytest.mark.parametrize("settings, said", [({"a": {"z": 1.0}}, "no scalar parameter or open input z")])

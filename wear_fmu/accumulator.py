@@ -11,7 +11,7 @@ from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, output, state
 from wear_fmu.chosen_surfaces import GUARDS
-from wear_fmu.contacts import publish_profiles, shortening
+from wear_fmu.contacts import look_ahead, publish_profiles, shortening
 from wear_fmu.dimension import parameter
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import (
@@ -27,9 +27,9 @@ from wear_fmu.wear_laws import mean_run_in_factor
 
 effects = compose("wear_fmu.effects", HOOKS, GUARDS)
 prepare_effects, advance_effects = effects.prepare, effects.advance
+amplitudes_changed, keep_amplitudes = effects.amplitudes_changed, effects.keep_amplitudes
 
-# A step in which the cranks turn further is divided [rad], into at most so many parts.
-LONGEST_SWEEP = math.radians(5.0)
+# A step is divided into at most so many parts.
 MOST_SWEEPS = 100_000
 # Whether the inputs are those of a step's end or of its beginning.
 UNDECIDED, ON_TIME, LATE = 0, 1, 2
@@ -68,6 +68,8 @@ def variables(sizes: Sizes) -> list[Variable]:
                   source="assumed: as hard as the discs, either loses the same area"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
+        parameter("largest_sweep", "rad", "a communication step is divided so that no crank turns further in a part", math.radians(5.0), 1e-6,
+                  1.0, source="assumed: 72 positions a turn"),
         output("profile_angle", "rad", "crank angle that the profile errors hold for"),
         output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
         output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
@@ -75,13 +77,15 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("roller_profile_slope", "m/rad", "change of roller_profile_error as the cranks turn on", **roller, nominal=1e-4),
         output("operating_time", "s", "time that the wear stands for", nominal=1e6),
         output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
-        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True),
+        state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True, minimum=0, maximum=1),
         state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),
         state("output_angle_before", "rad", "carrier angle at the last step"),
         state("cage_angle_before", "rad", "cage angle at the last step"),
         state("temperature_before", "K", "temperature at the last step"),
-        state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True),
+        state("profile_lead", "rad", "how far ahead of crank_angle the profile errors hold"),
+        state("profile_reach", "rad", "turning through which their slopes are taken"),
+        state("lateness", "1", "whether the inputs are those of a step's end (1) or beginning (2)", integer=True, minimum=0, maximum=2),
     ]
 
 
@@ -119,6 +123,16 @@ def geometry_fault(r):
     return 0
 
 
+@kernel
+def tune(r):
+    """Effects by the amplitudes that are set now."""
+    r.effects_on = 0
+    r.standing = 1.0 if r.pins == 1 else 0.0
+    prepare_effects(r)
+    r.standing = min(1.0, r.standing)
+    keep_amplitudes(r)
+
+
 @entry_point
 def initialise(records):
     """Check the parameters; new surfaces."""
@@ -127,10 +141,7 @@ def initialise(records):
     if fault != 0:
         return fault
     prepare(r)
-    r.effects_on = 0
-    r.standing = 1.0 if r.pins == 1 else 0.0
-    prepare_effects(r)
-    r.standing = min(1.0, r.standing)
+    tune(r)
     keep_received(r)
     return 0
 
@@ -160,15 +171,17 @@ def take_off(records, duration):
     """What the contacts take off on their way to the present input angles."""
     r = records[0]
     turned = abs(r.crank_angle - r.crank_angle_before)
-    if not turned <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not turned <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
     carried, rolled = abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before)
     if not (carried <= math.pi + turned and rolled <= math.pi + turned):
         return CAGE_ASTRAY
     receive(r)
-    if not r.path <= MOST_SWEEPS * LONGEST_SWEEP:
+    if not r.path <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP
-    count = max(1, math.ceil(turned / LONGEST_SWEEP - 1e-3))
+    if amplitudes_changed(r):
+        tune(r)
+    count = max(1, math.ceil(turned / r.largest_sweep - 1e-3))
     for i in range(count):
         wear_part(r, count, i, duration)
     keep_received(r)
@@ -177,8 +190,14 @@ def take_off(records, duration):
 
 @entry_point
 def step(records, time, duration):
-    """Wear of one communication step: contacts moved to the present input angles."""
+    """Wear of one communication step: contacts moved to the present input angles.
+
+    One of no length wears nothing and reads the profiles where the present input angles have their contacts.
+    """
     r = records[0]
+    if duration == 0.0:
+        look_ahead(r, r.profile_lead, r.profile_reach)
+        return 0
     if r.lateness == UNDECIDED and r.crank_speed * duration != 0.0:
         # Who exchanges at the steps' beginning hands over in the first one what was there before it.
         moved = abs(r.crank_angle - r.crank_angle_before)

@@ -95,10 +95,17 @@ def publish_profiles(r, late, speed, turning):
         ahead, reach = -ahead, -reach
     if speed == 0.0:
         ahead = reach = 0.0
-    read_profiles(r, late + ahead, r.mesh_profile_error, r.roller_profile_error)
-    r.profile_angle = r.crank_angle + late + ahead
+    look_ahead(r, late + ahead, reach)
+
+
+@kernel
+def look_ahead(r, lead, reach):
+    """Profile errors where the cranks have turned by ``lead`` [rad] beyond the input angle, and their slopes through ``reach`` more."""
+    r.profile_lead, r.profile_reach = lead, reach
+    read_profiles(r, lead, r.mesh_profile_error, r.roller_profile_error)
+    r.profile_angle = r.crank_angle + lead
     if reach != 0.0:
-        read_profiles(r, late + ahead + reach, r.mesh_profile_slope, r.roller_profile_slope)
+        read_profiles(r, lead + reach, r.mesh_profile_slope, r.roller_profile_slope)
     to_slopes(r, reach)
 
 

@@ -33,7 +33,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         state("roller_path_before", "N.rad", "roller_force_path at the last step", **roller),
         state("mesh_before", "N", "mesh_force at the last step", **contact),
         state("roller_before", "N", "roller_force at the last step", **roller),
-        state("forces_given", "1", "whether there has been any force", integer=True),
+        state("forces_given", "1", "whether there has been any force", integer=True, minimum=0, maximum=1),
         state("mesh_mean", "N", "mean of the force through the last step in which the cranks turned", **contact),
         state("roller_mean", "N", "mean of the force through the last step in which the cranks turned", **roller),
         scratch("mesh_trend", contact["shape"]), scratch("roller_trend", roller["shape"]), scratch("path"),

@@ -52,7 +52,8 @@ def interpolate_closed(depth, position):
     x = position - 0.5
     i = math.floor(x)
     part = x - i
-    return (1.0 - part) * depth[i % n] + part * depth[(i + 1) % n]
+    cell = i % n
+    return (1.0 - part) * depth[cell] + part * depth[cell + 1 if cell + 1 < n else 0]
 
 
 @kernel
@@ -122,11 +123,13 @@ def add_pass(depth, start, end, amount):
     n = depth.shape[0]
     low, high = min(start, end), max(start, end)
     deepest, place = 0.0, 0
-    for i in range(math.floor(low), math.floor(high) + 1):
+    first = math.floor(low)
+    following = first % n
+    for i in range(first, math.floor(high) + 1):
+        cell, following = following, following + 1 if following + 1 < n else 0
         swept = min(high, i + 1.0) - max(low, float(i))
         if swept <= 0.0:
             continue
-        cell = i % n
         depth[cell] += amount * swept
         if depth[cell] > deepest:
             deepest, place = depth[cell], cell
@@ -145,12 +148,15 @@ def add_flank_pass(depth, start, end, amount, slide, slide_before, arc):
     n, bins = depth.shape[0], arc.shape[0]
     low, high = min(start, end), max(start, end)
     deepest, place = 0.0, 0
-    for i in range(math.floor(low), math.floor(high) + 1):
+    first = math.floor(low)
+    following = first % n
+    for i in range(first, math.floor(high) + 1):
+        cell, following = following, following + 1 if following + 1 < n else 0
         swept = min(high, i + 1.0) - max(low, float(i))
         if swept <= 0.0:
             continue
-        cell = i % n
-        depth[cell] += amount * swept * slide[cell % bins] / arc[cell % bins]
+        phase = cell % bins
+        depth[cell] += amount * swept * slide[phase] / arc[phase]
         if depth[cell] > deepest:
             deepest, place = depth[cell], cell
     return deepest, place, slide_to(high, slide, slide_before) - slide_to(low, slide, slide_before)

@@ -14,7 +14,7 @@ from wear_fmu.contacts import first_roller, flank_position, pin_position, shorte
 from wear_fmu.effects import HOOKS
 from wear_fmu.kinematics import equivalent_curvature, sliding_per_crank_angle
 from wear_fmu.surfaces import add_flank_pass, add_footprint, add_pass, interpolate_closed
-from wear_fmu.wear_laws import wear_coefficient
+from wear_fmu.wear_laws import exponents, wear_coefficient
 
 effect_factor = compose("wear_fmu.effects", HOOKS, GUARDS).factor
 
@@ -59,6 +59,12 @@ def wear_meshes(r, modulus, viscosity, run_in, after):
     bins = r.arc.shape[0]
     k1 = shortening(r)
     contact_modulus = 0.5 * modulus
+    of_load, of_radius = exponents(r.mesh_wear_law, r.load_exponent)
+    needs_curvature = of_radius != 0.0 or r.effects_on != 0 or r.standing > 0.0
+    unit = wear_coefficient(
+        r.mesh_wear_law, r.mesh_wear_coefficient, r.hardness, run_in, r.load_exponent,
+        r.reference_line_load, r.roughness, viscosity, modulus, 1.0, 1.0,
+    )
     for d in range(discs):
         for j in range(pins):
             force = r.mesh_mean[d, j] + after * r.mesh_trend[d, j]
@@ -66,13 +72,12 @@ def wear_meshes(r, modulus, viscosity, run_in, after):
                 continue
             start, end = flank_position(r, d, j, r.crank_from), flank_position(r, d, j, r.crank_to)
             line_load = force / r.mesh_width
-            curvature = equivalent_curvature(
-                math.pi * (start + end) / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
-            )
-            k = wear_coefficient(
-                r.mesh_wear_law, r.mesh_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                r.reference_line_load, r.roughness, viscosity, modulus, line_load, 1.0 / curvature,
-            )
+            curvature, k = 0.0, unit * line_load**of_load
+            if needs_curvature:
+                curvature = equivalent_curvature(
+                    math.pi * (start + end) / bins, lobes, r.pin_circle_radius, r.pin_radius, k1
+                )
+                k *= curvature**-of_radius
             of_flank = of_pin = r.acceleration * r.passes * k * line_load
             if r.effects_on:
                 middle = 0.5 * (start + end)
@@ -138,6 +143,12 @@ def wear_raceways(r, modulus, viscosity, run_in, after):
     bin_angle = 2.0 * math.pi / bins
     inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
     outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)
+    of_load, of_radius = exponents(r.raceway_wear_law, r.load_exponent)
+    unit = wear_coefficient(
+        r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
+        r.reference_line_load, r.roughness, viscosity, modulus, 1.0, 1.0,
+    )
+    unit_inner, unit_outer = unit * inner_radius**of_radius, unit * outer_radius**of_radius
     race_speed = abs(r.crank_speed) * 0.5
     for d in range(discs):
         for c in range(cranks):
@@ -149,15 +160,8 @@ def wear_raceways(r, modulus, viscosity, run_in, after):
                     continue
                 line_load = force / r.roller_length
                 ahead = 2.0 * math.pi * i / rollers
-                k_inner = wear_coefficient(
-                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, inner_radius,
-                )
-                k_outer = wear_coefficient(
-                    r.raceway_wear_law, r.raceway_wear_coefficient, r.hardness, run_in, r.load_exponent,
-                    r.reference_line_load, r.roughness, viscosity, modulus, line_load, outer_radius,
-                )
-                amount = r.acceleration * r.passes * k_inner * line_load * r.slip_ratio_inner
+                power = line_load**of_load
+                amount = r.acceleration * r.passes * unit_inner * power * line_load * r.slip_ratio_inner
                 if r.effects_on:
                     speed = race_speed * r.slip_ratio_inner * r.inner_race_radius
                     depth = interpolate_closed(r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle)
@@ -170,7 +174,7 @@ def wear_raceways(r, modulus, viscosity, run_in, after):
                     r.inner_race_angle[d, c] = (place + 0.5) * bin_angle
                 swept = abs(inner_end - inner_start) * r.inner_race_radius
                 r.inner_race_volume += amount * swept * r.roller_length
-                amount = r.acceleration * r.passes * k_outer * line_load * r.slip_ratio_outer
+                amount = r.acceleration * r.passes * unit_outer * power * line_load * r.slip_ratio_outer
                 if r.effects_on:
                     speed = race_speed * r.slip_ratio_outer * r.outer_race_radius
                     depth = interpolate_closed(r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle)

@@ -2,7 +2,7 @@
 
 from types import SimpleNamespace
 
-from fmu_src.unit import Specification, Unit
+from fmu_src.unit import Specification, Unit, started
 from wear_fmu.accumulator import CAUTIONS, FAULTS, initialise, step
 from wear_fmu.variables import Resolution, wear_table
 
@@ -11,5 +11,4 @@ def make_unit(specification: Specification) -> Unit:
     """The wear unit of a specification, see fmu_src.unit."""
     sizes = specification["sizes"]
     table = wear_table(SimpleNamespace(**sizes["topology"]), Resolution(**sizes["resolution"]))
-    table = table.with_starts(specification["starts"], specification["sources"])
-    return Unit(table, initialise, step, FAULTS, fault_reach=0, cautions=CAUTIONS)
+    return Unit(started(table, specification), initialise, step, FAULTS, fault_reach=0, cautions=CAUTIONS)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
+from fmu_src.effect import amplitude_memory
 from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Sizes, Table, Variable
 from wear_fmu import accumulator, kinematics, received, surfaces, sweeps, wear_laws
@@ -40,4 +41,4 @@ def wear_table(topology: Any, resolution: Resolution = Resolution()) -> Table:
     require_sound_effects("wear_fmu")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways",
-                 own_variables(topology, resolution) + effects, starts_from_nothing=True)
+                 [*own_variables(topology, resolution), *effects, amplitude_memory(EFFECTS.values())], starts_from_nothing=True)

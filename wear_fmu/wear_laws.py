@@ -107,3 +107,13 @@ def wear_coefficient(law, coefficient, hardness, run_in, load_exponent, referenc
     if law == RUN_IN_LOAD:
         k *= run_in * load_factor(line_load, reference_line_load, load_exponent)
     return k
+
+
+@kernel
+def exponents(law, load_exponent):
+    """Powers with which ``wear_coefficient`` goes with the line load and with the radius."""
+    if law == JANAKIRAMAN:
+        return 1.219, -2.808
+    if law == JANAKIRAMAN_PRINTED:
+        return 1.0, 0.589
+    return load_exponent if law == RUN_IN_LOAD else 0.0, 0.0

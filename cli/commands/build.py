@@ -15,6 +15,9 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     fmus.add_argument("--fmi", choices=("2", "3", "both"), default="both", help="FMI version of the native FMUs")
     fmus.add_argument("--all-platforms", action="store_true", help="native FMUs for Linux, Windows and Darwin, not"
                       " for this machine alone; needs zig: pip install \"rvwear[build]\"")
+    fmus.add_argument("--worn", metavar="TIME", help="units of a reducer that is delivered worn: --worn 5000h at rated speed and torque")
+    fmus.add_argument("--inline", action="store_true", help="RvReducer.ssp with its values in the system's description, for"
+                      " tools that read no parameter files (OpenMCx)")
     add_json(fmus)
     fmus.set_defaults(run=build)
 
@@ -26,7 +29,14 @@ def build(options: argparse.Namespace) -> int:
     from studies.building import Wanted, build_units
 
     reducer = load_reducer(options.reducer)
-    wanted = Wanted(options.flavour, options.fmi, options.all_platforms)
+    if options.worn is not None:
+        from fmu_src.progress import task
+        from studies.worn import hours_of, worn_reducer
+
+        hours = hours_of(options.worn)
+        with task(f"life of {hours:g} h"):
+            reducer = worn_reducer(reducer, hours)
+    wanted = Wanted(options.flavour, options.fmi, options.all_platforms, options.inline)
     built, packages = build_units(reducer, Path(options.output), wanted)
     if options.json:
         screen.json_text({"reducer": reducer.name, "fmus": built, "packages": [str(path) for path in packages]})

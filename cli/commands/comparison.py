@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
+from cli.ending import exit_code
 from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -116,7 +118,7 @@ def run_localise(options: argparse.Namespace) -> int:
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
-    """Exit code 130 if it was interrupted: then it shows what was known by then."""
+    """Exit code 130 if it was interrupted, 143 if terminated: then it shows what was known by then."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
@@ -126,12 +128,12 @@ def run_diagnose(options: argparse.Namespace) -> int:
     with task("diagnosing"):
         file, campaign = inputs(options)
         fmus = folder(options.fmus)
-        stopped = False
+        stopped = 0
         try:
             answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
         except AnswerSoFar as stop:
             # What is known so far is an answer, too.
-            answer, stopped = stop.answer, True
+            answer, stopped = stop.answer, exit_code(stop)
     write_html(options, answer)
     draft = None
     if options.draft:
@@ -144,11 +146,21 @@ def run_diagnose(options: argparse.Namespace) -> int:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
     if stopped:
         print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
-    return 130 if stopped else 0
+    return stopped
 
 
 def run_extend(options: argparse.Namespace) -> int:
     """Exit code 3 where the effect did not help on unused runs."""
+    file, campaign = inputs(options)
+    if options.draft:
+        return run_draft(options, file, campaign)
+    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+    # Read here and written at the end: nobody else's step is to be lost in between.
+    with held(target):
+        return add_effect(options, file, campaign, target)
+
+
+def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
@@ -156,9 +168,6 @@ def run_extend(options: argparse.Namespace) -> int:
     from discrepancy.model_file import save_model
     from discrepancy.remembered import diagnosed, remembered
 
-    file, campaign = inputs(options)
-    if options.draft:
-        return run_draft(options, file, campaign)
     names = options.effect
     if not names:
         with task("diagnosing"):
@@ -172,7 +181,6 @@ def run_extend(options: argparse.Namespace) -> int:
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
-    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
     save_model(extension.file, target)
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:

@@ -4,10 +4,17 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from cli.ending import exit_code
 from cli.options import add_json
+from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
+from fmu_src.held_file import held
 from fmu_src.progress import task
+
+if TYPE_CHECKING:
+    from studies.ensemble.ensemble_file import Ensemble
 
 # Of the optional part "ensembles".
 NEEDED = ("SALib", "dask", "distributed", "joblib")
@@ -38,15 +45,7 @@ def ensemble(options: argparse.Namespace) -> int:
 
 def compute(options: argparse.Namespace) -> int:
     """Draw the lives, run those that are missing, keep and judge them."""
-    from cli import screen
-    from cli.show.ensemble import show
-    from fmu_src.source_hash import source_hash
-    from studies.ensemble.backends import through_dask, through_joblib
     from studies.ensemble.ensemble_file import load_ensemble
-    from studies.ensemble.member import run
-    from studies.ensemble.sampling import tasks_of
-    from studies.ensemble.store import Store
-    from studies.ensemble.summary import summarise
 
     if (options.backend == "dask") != bool(options.scheduler):
         raise InputFault("--backend dask and --scheduler ADDRESS go together")
@@ -56,27 +55,44 @@ def compute(options: argparse.Namespace) -> int:
     path = Path(options.output or f"results/{Path(options.file).stem}_ensemble.json")
     if path.suffix != ".json":
         raise InputFault(f"--output {path}: the name must end in .json")
+    with held(path):
+        return live_and_judge(options, drawn, path)
+
+
+def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -> int:
+    """The lives that are missing, kept as they come, and what all of them say."""
+    from cli import screen
+    from cli.show.ensemble import show
+    from fmu_src.source_hash import source_hash
+    from studies.ensemble.backends import through_dask, through_joblib
+    from studies.ensemble.member import run
+    from studies.ensemble.sampling import tasks_of
+    from studies.ensemble.store import Store
+    from studies.ensemble.summary import summarise
+
     tasks = tasks_of(drawn)
     store = Store(path.with_suffix(".lives"), drawn.identity() | {"source_hash": source_hash()}, options.restart)
+    if store.damaged:
+        print(f"{store.path}: {store.damaged} lives in it are damaged or cut off and run again", file=sys.stderr)
     missing = [task for task in tasks if task.number not in store.lives]
     if len(missing) < len(tasks):
         print(f"{len(tasks) - len(missing)} lives are there already", file=sys.stderr)
     arriving = through_dask(run, missing, options.scheduler) if options.backend == "dask" else through_joblib(run, missing, options.jobs)
-    interrupted = False
+    interrupted = 0
     try:
         with task("lives", total=len(missing)) as living:
             for life in arriving:
                 if store.add(life):
                     living.advance()
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interruption:
         arriving.close()
-        interrupted = True
+        interrupted = exit_code(interruption)
         print(f"interrupted with {len(store.lives)} of {len(tasks)} lives; the same command goes on", file=sys.stderr)
     found = summarise(drawn, store.lives, len(tasks)) | {"lives": str(store.path)}
-    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(found, indent=1) + "\n")
     if options.json:
         screen.json_text(found)
     else:
         show(found)
         print(f"result  {path}")
-    return 130 if interrupted else 0
+    return interrupted

@@ -3,14 +3,26 @@
 import argparse
 import json
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cli.ending import exit_code
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path, settings_of
+from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault
+from fmu_src.held_file import held
+from fmu_src.reading import reading
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from orchestrator.settings import Setting
+    from reducers.reducer import Reducer
+    from studies.duty import Segment
+    from studies.life import LifeSettings
+
+REMEDY = "rvwear life with --reuse computes it again"
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -51,17 +63,9 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def life(options: argparse.Namespace) -> int:
     """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
-    from cli.show.life import jump_line
-    from fmu_src.progress import say, task
     from fmu_src.source_hash import source_hash
-    from orchestrator import netcdf
-    from orchestrator.master import Master
-    from studies import results
-    from studies.checkpoint import load_checkpoint, save_checkpoint
-    from studies.coupled_master import CoupledMaster
     from studies.duty import load_duty
-    from studies.life import Life, LifeSettings, live
-    from studies.pair import make_pair
+    from studies.life import LifeSettings
 
     reducer, settings, positions = chosen(options)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
@@ -75,6 +79,35 @@ def life(options: argparse.Namespace) -> int:
     path = result_path(options.output, f"{reducer.name}_life")
     if any(setting.name == "acceleration" for setting in settings):
         raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
+    with held(path):
+        return live_and_write(options, Wanted(reducer, settings, positions, life_settings, duty, inputs), path)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a life is to be of."""
+
+    reducer: "Reducer"
+    settings: "list[Setting]"
+    positions: int
+    life: "LifeSettings"
+    duty: "tuple[Segment, ...]"
+    inputs: dict[str, Any]
+
+
+def live_and_write(options: argparse.Namespace, wanted: Wanted, path: Path) -> int:
+    """The life from where it stands, its result, and what is shown of it."""
+    from cli.show.life import jump_line
+    from fmu_src.progress import say, task
+    from orchestrator import netcdf
+    from orchestrator.master import Master
+    from studies import results
+    from studies.checkpoint import load_checkpoint, save_checkpoint
+    from studies.coupled_master import CoupledMaster
+    from studies.life import Life, live
+    from studies.pair import make_pair
+
+    inputs = wanted.inputs
     checkpoint = path.with_suffix(".checkpoint")
     if options.reuse and (known := known_result(path, inputs)) is not None:
         return show_life(options, known, path)
@@ -82,10 +115,10 @@ def life(options: argparse.Namespace) -> int:
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
     with task("loading the units"):
-        pair = make_pair(reducer, settings, folder(options.fmus), options.scheme, positions, duty,
+        pair = make_pair(wanted.reducer, wanted.settings, folder(options.fmus), options.scheme, wanted.positions, wanted.duty,
                          # In this process many steps go into one compiled call.
                          Master if options.fmus else CoupledMaster)
-    lived = Life(life_settings)
+    lived = Life(wanted.life)
     first_orders = results.order_spectrum(pair, 0.0)
     if resume:
         lived, saved = load_checkpoint(checkpoint, inputs)
@@ -95,20 +128,20 @@ def life(options: argparse.Namespace) -> int:
         save_checkpoint(checkpoint, state, pair.master.save(), inputs)
 
     try:
-        with task("hours of life", total=round(life_settings.hours)) as hours:
+        with task("hours of life", total=round(wanted.life.hours)) as hours:
 
             def show(state: Life) -> None:
                 hours.done = round(state.hours[-1])
                 say(jump_line(state))
 
             live(pair, lived, show, keep)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interruption:
         print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
-        return 130
+        return exit_code(interruption)
     orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
     dataset = results.life_dataset(pair, lived, orders, inputs)
     netcdf.write(dataset, path)
-    checkpoint.unlink()
+    checkpoint.unlink(missing_ok=True)
     pair.master.close()
     return show_life(options, dataset, path)
 
@@ -119,6 +152,9 @@ def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
 
     try:
         load_checkpoint(checkpoint, inputs)
+    except Damaged as fault:
+        print(f"{fault}: moved to {set_aside(checkpoint)}, the life starts anew", file=sys.stderr)
+        return False
     except InputFault:
         return False
     return True
@@ -130,8 +166,13 @@ def known_result(path: Path, inputs: dict[str, Any]) -> "xr.Dataset | None":
 
     if not path.exists():
         return None
-    dataset = netcdf.read(path)
-    stored = json.loads(dataset.attrs["inputs"])
+    try:
+        dataset = netcdf.read(path)
+        with reading(path, "a result of rvwear life"):
+            stored = dict(json.loads(dataset.attrs["inputs"]))
+    except InputFault as fault:
+        print(f"{fault}: moved to {set_aside(path)}, the life is computed again", file=sys.stderr)
+        return None
     same = all(stored.get(k) == json.loads(json.dumps(v)) for k, v in inputs.items())
     return dataset if same else None
 
@@ -189,8 +230,9 @@ def report(options: argparse.Namespace) -> int:
     page = Path(options.output) if options.output else path.with_suffix(".html")
     try:
         dataset = netcdf.read(path)
-    except (OSError, ValueError) as problem:
-        raise InputFault(f"{path} is not a result of rvwear life: {problem}") from None
-    write_report(dataset, page)
+        with reading(path, "a result of rvwear life", REMEDY):
+            write_report(dataset, page)
+    except Damaged as fault:
+        raise Damaged(f"{fault}; {REMEDY}") from None
     print(page)
     return 0

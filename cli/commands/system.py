@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from orchestrator.schemes import SCHEMES
 if TYPE_CHECKING:
     import numpy as np
 
+    from orchestrator.regression import Comparison, Tolerance
     from orchestrator.system import System
 
 
@@ -32,7 +34,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
     judge = sub.add_parser("check", help="run a system and hold it against reference results: for CI")
     judge.add_argument("system", help="scenario (.toml), SSP (.ssp, .ssd, folder) or FMU")
-    judge.add_argument("--reference", required=True, metavar="FILE", help="results of rvwear run (.nc, .csv)")
+    judge.add_argument("--reference", metavar="FILE", help="results of rvwear run (.nc, .csv); without it, the experiments that an FMU carries"
+                       " (FMI-LS-REF)")
     judge.add_argument(
         "--tolerance", action="append", default=[], metavar="[NAME=]REL[,ABS]",
         help="of the largest value of a variable, plus an absolute part; the last that matches (default 1e-6)",
@@ -52,6 +55,10 @@ def add_system_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--step-control", type=float, metavar="TOL", help="divide steps by their error, to this tolerance")
     command.add_argument("--loops", choices=("newton", "fixed-point"), help="how algebraic loops are solved")
     command.add_argument("--isolate", action="store_true", help="every FMU in a process of its own")
+    command.add_argument(
+        "--call-limit", action="append", default=[], metavar="[CALL=]S",
+        help="end an isolated unit that takes longer for a call [s]: 30, or start=, initialise=, step=, values=, state=, end= (default 600)",
+    )  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
@@ -117,16 +124,19 @@ def refuse_pair_options(options: argparse.Namespace) -> None:
 
 
 def refuse_system_options(options: argparse.Namespace) -> None:
-    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record")
-    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name)]
+    names = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "record", "call_limit")
+    # 0 is given, too.
+    unset = dict.fromkeys(names) | {"isolate": False, "record": None, "call_limit": []}
+    given = [f"--{name.replace('_', '-')}" for name in names if (value := getattr(options, name)) is not unset[name] and value != unset[name]]
     if given:
         raise InputFault(f"{', '.join(given)} without a system's file: give one (.toml, .ssp, .fmu)")
 
 
 def open_system(options: argparse.Namespace) -> "System":
     """The system with the command line's options and settings applied."""
+    from orchestrator.call_limits import parse_limits
     from orchestrator.master import LoopSettings, StepControl
-    from orchestrator.system import load, whole_steps
+    from orchestrator.system import load
 
     given = {
         "extrapolation": options.extrapolation,
@@ -136,14 +146,12 @@ def open_system(options: argparse.Namespace) -> "System":
     }
     master = {name: value for name, value in given.items() if value is not None}
     with task("loading the units"):
-        system = load(options.system, options.step, options.isolate, **master)
+        system = load(options.system, options.step, options.isolate, parse_limits(options.call_limit), options.duration, **master)
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:
             raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.load_torque=150N.m")
         system[path.strip()] = value.strip()
-    if options.duration is not None:
-        system.steps = whole_steps(options.duration, system.master.step_size)
     return system
 
 
@@ -187,11 +195,13 @@ def check(options: argparse.Namespace) -> int:
     """``rvwear check``: 0 if every variable of the reference is met, 1 if not."""
     import numpy as np
 
-    from cli import screen
     from orchestrator.regression import compare, parse_tolerance, write_junit
     from orchestrator.series import flat, read_series
+    from orchestrator.system import whole_steps
 
     tolerances = [parse_tolerance(text) for text in options.tolerance]
+    if options.reference is None:
+        return check_experiments(options, tolerances)
     reference = read_series(Path(options.reference))
     started = perf_counter()
     system = open_system(options)
@@ -200,12 +210,49 @@ def check(options: argparse.Namespace) -> int:
     if options.duration is None:
         # As far as the reference reaches.
         span = float(reference["time"].max()) - system.master.start_time
-        system.steps = max(1, int(np.ceil(span / system.master.step_size * (1.0 - 1e-12))))
+        size = system.master.step_size
+        system.steps = whole_steps(max(1.0, float(np.ceil(span / size * (1.0 - 1e-12)))) * size, size)
     comparisons = compare(flat(simulate(system, [])), reference, tolerances)
     show_warnings(system)
     if options.junit:
         write_junit(comparisons, system.name, perf_counter() - started, system.master.warnings, Path(options.junit))
     system.close()
+    return show_verdicts(options, comparisons, str(options.reference))
+
+
+def check_experiments(options: argparse.Namespace, tolerances: "list[Tolerance]") -> int:
+    """Those that an FMU carries, each in a new instance."""
+    from orchestrator.experiments import experiments_in, judged
+    from orchestrator.fmu import Fmu
+    from orchestrator.regression import write_junit
+
+    path, started = Path(options.system), perf_counter()
+    if path.suffix != ".fmu":
+        raise InputFault(f"{path}: only an FMU carries experiments; give --reference, results of an earlier run of the system")
+    given = ("step", "duration", "extrapolation", "step_control", "loops", "isolate", "set", "scheme")
+    if ignored := [f"--{name.replace('_', '-')}" for name in given if getattr(options, name)]:
+        raise InputFault(f"{', '.join(ignored)} without --reference: an experiment that the FMU carries says itself how it is done")
+    unit = Fmu(path.stem, path)
+    comparisons, done = [], []
+    try:
+        for experiment in experiments_in(unit.folder):
+            fresh = Fmu(path.stem, path)
+            try:
+                comparisons += [replace(c, variable=f"{experiment.name}: {c.variable}") for c in judged(fresh, experiment, tolerances)]
+            finally:
+                fresh.close()
+            done.append(experiment.name)
+    finally:
+        unit.close()
+    if options.junit:
+        write_junit(comparisons, path.stem, perf_counter() - started, [], Path(options.junit))
+    return show_verdicts(options, comparisons, f"the FMU's experiments {', '.join(done)}")
+
+
+def show_verdicts(options: argparse.Namespace, comparisons: "list[Comparison]", reference: str) -> int:
+    """1 if one failed."""
+    from cli import screen
+
     failed = [c for c in comparisons if not c.passed]
     if options.json:
         screen.json_text({
@@ -214,5 +261,5 @@ def check(options: argparse.Namespace) -> int:
     else:
         for comparison in failed:
             print(comparison)
-        print(f"{len(comparisons) - len(failed)} of {len(comparisons)} variables agree with {options.reference}")
+        print(f"{len(comparisons) - len(failed)} of {len(comparisons)} variables agree with {reference}")
     return 1 if failed else 0

@@ -5,18 +5,18 @@ whether they fit together, is checked where they are used.
 """
 
 import difflib
-import tomllib
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
 from discrepancy.problem import FREE_ZERO
 from fmu_src.faults import InputFault
-from reducers.reducer import NAME, Strict
+from fmu_src.reading import parse_toml, quoted, read_text
+from fmu_src.strict_file import NAME, Strict, validated
 
-FILE = "campaign.toml"
+FILE, REMEDY = "campaign.toml", "see docs/campaigns.md"
 
 # "15 rpm" or { value = 15, unit = "rpm" }; read by ``amount``, which knows the unit that is needed.
 Stated = str | float | dict[str, Any]
@@ -183,18 +183,10 @@ class CampaignFile(Strict):
 
 def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
     """The checked content of the file, and its text."""
-    if not path.is_file():
-        raise InputFault(f"no campaign file at {path}; rvwear campaign template FOLDER writes one")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}; see docs/campaigns.md") from None
+    text = read_text(path, "campaign file", "rvwear campaign template FOLDER writes one")
+    content = parse_toml(text, path, REMEDY)
     lay_out(content, path)
-    try:
-        return CampaignFile(**content), text
-    except ValidationError as problem:
-        raise InputFault(f"{path}: {describe(problem, content)}; see docs/campaigns.md") from None
+    return validated(CampaignFile, content, path, REMEDY), text
 
 
 def lay_out(content: dict[str, Any], path: Path) -> None:
@@ -202,57 +194,16 @@ def lay_out(content: dict[str, Any], path: Path) -> None:
     layouts = content.pop("layouts", {})
     runs = content.get("runs", [])
     if not isinstance(layouts, dict) or not all(isinstance(layout, dict) for layout in layouts.values()):
-        raise InputFault(f"{path}: layouts = {layouts!r}: write [layouts.NAME] with keys of a run below it")
+        raise InputFault(f"{path}: layouts = {quoted(layouts)}: write [layouts.NAME] with keys of a run below it")
     if not isinstance(runs, list) or not all(isinstance(run, dict) for run in runs):
-        raise InputFault(f"{path}: runs = {runs!r}: write [[runs]], in double brackets, once for each run")
+        raise InputFault(f"{path}: runs = {quoted(runs)}: write [[runs]], in double brackets, once for each run")
     for i, run in enumerate(runs):
         name = run.pop("layout", None)
         if name is None:
             continue
-        if name not in layouts:
+        if not isinstance(name, str) or name not in layouts:
             known = ", ".join(layouts) or "none is stated"
             raise InputFault(
-                f"{path}: runs[{i + 1}].layout = {name!r}: there is no such layout ({known}); add [layouts.{name}]"
+                f"{path}: runs[{i + 1}].layout = {quoted(name)}: there is no such layout ({known}); add [layouts.{name}]"
             )
         runs[i] = layouts[name] | run
-
-
-def describe(problem: ValidationError, content: dict[str, Any]) -> str:
-    """Key, value and remedy of the first fault."""
-    first = problem.errors()[0]
-    location, kind = first["loc"], first["type"]
-    place = key_path(location, content)
-    if kind == "missing":
-        return f"{place}.{location[-1]}".lstrip(".") + " is missing; add it"
-    if kind == "extra_forbidden":
-        section = [str(part) for part in location[:-1] if part in SECTIONS]
-        owner = list((SECTIONS[section[-1]] if section else CampaignFile).model_fields)
-        close = difflib.get_close_matches(str(location[-1]), owner, 1)
-        hint = f"did you mean {close[0]}?" if close else f"possible here: {', '.join(owner)}"
-        return f"{place} = {first['input']!r} is not a key here; {hint}"
-    message = first["msg"].removeprefix("Value error, ").replace("Input should", "it should")
-    return f"{place} = {first['input']!r}: {message}"
-
-
-def key_path(location: tuple[int | str, ...], content: dict[str, Any]) -> str:
-    """The place as written in the file, runs counted from 1 and with their id.
-
-    pydantic also names the members of a union; they are no keys of the file and are left out.
-    """
-    place = ""
-    item: Any = content
-    for part in location:
-        if isinstance(item, list) and isinstance(part, int):
-            item = item[part]
-            place += f"[{part + 1}]" + (f" ({item['id']})" if isinstance(item, dict) and "id" in item else "")
-        elif isinstance(item, dict) and part in item:
-            item = item[part]
-            place += f".{part}" if place else str(part)
-    return place
-
-
-# The keys below a key, for the hints of ``describe``.
-SECTIONS: dict[str, type[Strict]] = {
-    "campaign": Head, "quantities": QuantityEntry, "conditions": ConditionEntry, "runs": Run, "nuisances": NuisanceEntry, "rig": RigEntry,
-    "columns": Column, "table": Inline, "average": Average, "where": Range,
-}  # fmt: skip

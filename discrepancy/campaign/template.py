@@ -7,6 +7,7 @@ import pandas as pd
 
 from discrepancy.campaign.file_format import FILE
 from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, USUAL, VALUE, Quantity, roles_of
+from fmu_src.checked_file import replacing, write_text
 from fmu_src.faults import InputFault, MissingPart
 
 FORMATS = ("csv", "parquet")
@@ -87,14 +88,14 @@ def write_template(
     existing = [path for path in (folder / FILE, *files) if path.exists()]
     if existing:
         raise InputFault(f"{existing[0]} exists already; choose another folder, nothing is overwritten")
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / FILE).write_text(campaign_text(folder.resolve().name, quantities, runs, kind, reducer), encoding="utf-8")
+    write_text(folder / FILE, campaign_text(folder.resolve().name, quantities, runs, kind, reducer))
     for path, columns in files.items():
         frame = pd.DataFrame({heading(*column): pd.Series(dtype=float) for column in columns})
-        if kind == "parquet":
-            frame.to_parquet(path)
-        else:
-            frame.to_csv(path, index=False)
+        with replacing(path) as partial:
+            if kind == "parquet":
+                frame.to_parquet(partial)
+            else:
+                frame.to_csv(partial, index=False)
     return [folder / FILE, *files]
 
 

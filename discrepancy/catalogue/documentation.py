@@ -32,7 +32,8 @@ turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pic
 """
 # When the units call the hooks.
 STAGES = {
-    "prepare": "once, when the parameters are known",
+    "start": "once, at initialisation: own states",
+    "prepare": "at initialisation, and whenever an amplitude is set during a run",
     "warm": "before every equilibrium (in motion: every internal step): temperature",
     "before": "after that: what depends on angle and temperature",
     "hold": "in every iteration of an equilibrium (not in motion): forces and their tangent",

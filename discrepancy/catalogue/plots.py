@@ -22,7 +22,8 @@ from discrepancy.catalogue.signature import (
     worn,
 )
 from discrepancy.effects import MODULES
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
 from fmu_src.arrays import Floats
 from pages import look
 from pages.charts import COLOURS, Curve, chart
@@ -114,9 +115,13 @@ def wear_against(
     def all_depths(values: Values) -> dict[str, Floats]:
         return {s: np.array([worn(bench, condition(p), values)[s] for p in places]) for s in SURFACES}
 
+    def change(surface: str) -> float:
+        first, last = (np.maximum(depths[surface], 1e-12) for _, depths in (found[0], found[-1]))
+        ratios: Floats = last / first
+        return float(np.abs(np.log(ratios)).max())
+
     found = [(label, all_depths(v)) for label, v in versions(name, cases)]
-    base = found[0][1]
-    surface = max(SURFACES, key=lambda s: np.abs(np.log(np.maximum(found[-1][1][s], 1e-12) / np.maximum(base[s], 1e-12))).max())
+    surface = max(SURFACES, key=change)
     curves = [Curve(label, np.array(places) * scale, d[surface], colour_of(i), mode="lines+markers")
               for i, (label, d) in enumerate(found)]
     return chart(name, title, what, curves, x_title, f"{surface.replace('_', ' ')} [um]", 12, 320, x_axis={"type": "log"},

@@ -13,8 +13,9 @@ import numpy as np
 from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, part_of
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import every_effect
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.observe import OBSERVED
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer

@@ -16,6 +16,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, UNKNOWN
 from discrepancy.model_file import every_effect
 from discrepancy.verdict import Answer, told_in
+from fmu_src.checked_file import write_text
 from fmu_src.effect_check import WHERE, check_any_file
 from fmu_src.faults import InputFault
 from fmu_src.source_hash import USER_EFFECTS
@@ -114,8 +115,7 @@ def write(draft: Draft) -> None:
         raise InputFault(f"{draft.file}: is there already and says something else; give the draft another name (--name NAME) or take that file away")
     if not there and draft.name in every_effect():
         raise InputFault(f"--name {draft.name}: there is an effect of this name already; give the draft another one")
-    draft.file.parent.mkdir(parents=True, exist_ok=True)
-    draft.file.write_text(draft.text, encoding="utf-8")
+    write_text(draft.file, draft.text)
     findings = check_any_file(draft.file)
     if findings:
         if not there:
@@ -128,6 +128,5 @@ def written_to(answer: Answer, file: Path) -> Path | None:
     drafts, _ = drafts_of(answer, file.parent, file.stem)
     if not drafts:
         return None
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(drafts[0].text, encoding="utf-8")
+    write_text(file, drafts[0].text)
     return file

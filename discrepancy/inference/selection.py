@@ -9,10 +9,10 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
-from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised
+from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised, price
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
-from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
+from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain, joint_gain, screen
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import BASE, Candidate
 
@@ -72,7 +72,7 @@ class Selection:
         if not scores:
             return []
         top = scores[0].statistic
-        chosen = few_of_each([s for s in scores if s.statistic >= 0.35 * top])[: self.settings.shortlist]
+        chosen = self.first_tried([s for s in scores if s.statistic >= 0.35 * top], top)
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
@@ -87,6 +87,22 @@ class Selection:
         near = self.near(fits[0])
         fits = [*self.tried("fitting in earnest", self.refits.renewed, [f for f in fits if f.fit.chi2 < near]), *[f for f in fits if f.fit.chi2 >= near]]
         return sorted(fits, key=penalised)
+
+    def first_tried(self, scores: list[Score], top: float) -> list[Score]:
+        """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
+        near = 4 * self.settings.margin + ROUGH * top
+        alike = [s for s in scores if s.statistic >= top - near]
+        if len(few_of_each(alike)) <= self.settings.shortlist:
+            return few_of_each(scores)[: self.settings.shortlist]
+        promise = {s.name: self.promise(s) for s in alike}
+        likely = [s for s in alike if promise[s.name] >= max(promise.values()) - near]
+        return few_of_each(sorted(likely, key=lambda s: -promise[s.name]))
+
+    def promise(self, score: Score) -> float:
+        """What an effect could gain within its bounds if it were linear, less the price of its parameters and of an implausible size."""
+        candidate = self.refits.by_name[score.name]
+        gain, sizes = bounded_gain(self.columns, self.space.base, score, candidate.amplitudes)
+        return gain - price(candidate, sizes)
 
     def race(self, what: str, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
         """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""

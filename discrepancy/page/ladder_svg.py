@@ -8,6 +8,7 @@ from xml.sax.saxutils import escape
 
 from discrepancy.model_file import ModelFile
 from discrepancy.page.ladder import KINDS, WIDE, attempts, label, stairs
+from fmu_src.checked_file import write_text
 from pages.look import FONT, GRID, INK, QUIET
 
 LEFT, RIGHT, TOP, BOTTOM, STEP, HEIGHT = 64.0, 40.0, 62.0, 74.0, 190.0, 250.0
@@ -20,8 +21,7 @@ TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 10
 def ladder_picture(file: ModelFile, path: Path) -> Path:
     """Write the picture; equal ladders give equal bytes."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(svg(file.name, file.steps), encoding="utf-8", newline="\n")
+    write_text(path, svg(file.name, file.steps))
     return path
 
 

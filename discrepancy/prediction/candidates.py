@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from itertools import product
 
 from discrepancy.effects import MODULES
-from discrepancy.model_file import every_effect
+from discrepancy.model_file import every_effect, halves_of
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
@@ -25,6 +25,11 @@ MOST_CRANKS = 3
 def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
     v = p.variable
     return Parameter(name or v.name, v.unit, value, v.minimum, v.maximum, p.scale, p.sign, None, v.description)
+
+
+def shown_by(effect: Effect) -> tuple[str, ...]:
+    """Quantities that show the effect; none: any."""
+    return tuple(q for s in effect.signals for q in SHOWN_BY.get(s, (s,)))
 
 
 def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[EffectParameter]]]:
@@ -60,7 +65,11 @@ def candidates(
     found = []
     for name, effect in every_effect().items():
         part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
-        signals = tuple(q for s in effect.signals for q in SHOWN_BY.get(s, (s,)))
+        halves = [half for half in halves_of(name) if set(shown_by(half)) & set(quantities)]
+        if len(halves) == 1:
+            # Of the other half nothing shows: its parameters would stay where they are, its shapes are no shapes here.
+            effect = halves[0]
+        signals = shown_by(effect)
         if (signals and not set(signals) & set(quantities)) or not there[effect.needs]:
             continue
         if part == "chain":

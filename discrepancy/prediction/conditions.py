@@ -5,7 +5,8 @@ from collections.abc import Hashable, Mapping
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 

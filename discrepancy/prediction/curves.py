@@ -9,10 +9,11 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from studies.coupled import COLUMNS

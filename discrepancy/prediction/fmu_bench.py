@@ -17,15 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.model_file import ModelFile, extended_reducer
-from discrepancy.prediction.bench import (
-    HELD_ANGLES,
-    SHORT_CYCLE,
-    TOLERANCE,
-    Bench,
-    Condition,
-    stretches,
-    within_turn,
-)
+from discrepancy.prediction.bench import HELD_ANGLES, Bench
+from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
+from discrepancy.prediction.units import TOLERANCE, Condition, within_turn
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.fmu import Fmu
@@ -115,7 +109,8 @@ class FmuBench(Bench):
         """The wear unit's FMU state after the condition's hours, if there are any."""
         if condition.hours == 0.0:
             return None
-        return self.states_to(condition, values, [condition.hours], SHORT_CYCLE)[condition.hours]
+        new = fresh(condition)
+        return self.states_to(new, values, self.looked_at(new, {condition.hours}), SHORT_CYCLE)[condition.hours]
 
     def wear_to(
         self, condition: Condition, values: Mapping[str, float], inspections: list[float], turns: int
@@ -130,30 +125,29 @@ class FmuBench(Bench):
         self, condition: Condition, values: Mapping[str, float], inspections: list[float], turns: int
     ) -> dict[float, bytes]:
         """The wear unit's FMU states at several operating times [s], see ``Bench.wear_to``."""
-        fresh = Condition(condition.speed, condition.load, condition.temperature, 0.0, condition.direction)
 
         def run() -> dict[float, bytes]:
-            self.renew_plant(fresh, values, fresh.direction * fresh.load)
-            self.renew(self.wear, {**values, "temperature": fresh.temperature})
+            self.renew_plant(condition, values, condition.direction * condition.load)
+            self.renew(self.wear, {**values, "temperature": condition.temperature, "largest_sweep": 1.0})
             with refusal_as_run_fault():
                 self.master.initialise()
             self.time = 0.0
-            step, steps = self.wear_steps(condition, turns)
+            step, weights = self.cycle(condition, turns)
             self.wear.set("acceleration", 0.0)
             for _ in range(2):
                 self.step_pair(step)
             found = dict.fromkeys(inspections, self.wear.save())
             ageing = self.plant.get("grease_ageing") != 0.0
-            for done, stretch, target in stretches(inspections):
+            for done, stretch, target in stretches(inspections, turns):
                 if ageing:
-                    self.age_plant(replace(fresh, hours=done + 0.5 * stretch), values)
-                self.wear.set("acceleration", stretch / (steps * step))
-                for _ in range(steps):
+                    self.age_plant(replace(condition, hours=done + 0.5 * stretch), values)
+                for acceleration in stretch / step * weights:
+                    self.wear.set("acceleration", acceleration)
                     self.step_pair(step)
                 found[target] = self.wear.save()
             return found
 
-        return self.kept(("life", fresh, tuple(inspections), turns, self.relevant(values, True)), run)
+        return self.kept(("life", condition, tuple(inspections), turns, self.relevant(values, True)), run)
 
     def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         if cage != 0.0:

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 import numpy as np
 
-from discrepancy.prediction.bench import SHORT_CYCLE, Bench, Condition
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
 from discrepancy.prediction.curves import OverAngle, OverTorque, error_change, loop_change, signal
+from discrepancy.prediction.lives import fresh
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
@@ -97,6 +98,10 @@ def lost_motion(bench: Bench, record: Record, values: Values) -> Floats:
 
 
 def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
+    if not bench.remembers(values):
+        # Wherever the torque came from.
+        forward, backward = bench.held(at_rest(bench, condition), values, LOST_MOTION_SHARE * bench.rated_load * np.array([1.0, -1.0]))
+        return float(forward - backward)
     torque, turning = loop(bench, condition, values)
     rising = np.concatenate([[False], np.diff(torque) > 0.0])
     middle = []
@@ -111,8 +116,9 @@ def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
 
 def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
     torque = bench.rated_load
-    turning = bench.held(held_condition(bench, record), values, np.array([0.0, 0.25, 0.5, 0.75, 1.0]) * torque)
-    return np.full(len(record.values), 0.5 * torque / (turning[4] - turning[2]))
+    way_in = [0.0, 0.25] if bench.remembers(values) else []
+    turning = bench.held(held_condition(bench, record), values, np.array([*way_in, 0.5, 0.75, 1.0]) * torque)
+    return np.full(len(record.values), 0.5 * torque / (turning[-1] - turning[-3]))
 
 
 def input_torque(bench: Bench, record: Record, values: Values) -> Floats:
@@ -178,11 +184,12 @@ def worn_difference(measure: Callable[..., Floats]) -> Callable[[Bench, Record, 
     """
 
     def observed(bench: Bench, record: Record, values: Values) -> Floats:
-        full, base, share = bench.kept(("in proportion", measure.__name__, *identity(record)), lambda: in_proportion(bench, record))
-        return full + share * (measure(bench, record, values, SHORT_CYCLE) - base)
+        turns = bench.cycle_turns
+        full, base, share = bench.kept(("in proportion", measure.__name__, turns, *identity(record)), lambda: in_proportion(bench, record, turns))
+        return full + share * (measure(bench, record, values, turns) - base)
 
-    def in_proportion(bench: Bench, record: Record) -> tuple[Floats, Floats, Floats]:
-        full, base = (measure(bench, record, {}, turns) for turns in (bench.reducer.topology.lobes, SHORT_CYCLE))
+    def in_proportion(bench: Bench, record: Record, turns: int) -> tuple[Floats, Floats, Floats]:
+        full, base = (measure(bench, record, {}, t) for t in (bench.reducer.topology.lobes, turns))
         worn = np.abs(base) > LEAST_WORN * np.abs(base).max()
         return full, base, np.clip(np.divide(full, base, out=np.ones_like(base), where=worn), 0.5, 2.0)
 
@@ -192,14 +199,11 @@ def worn_difference(measure: Callable[..., Floats]) -> Callable[[Bench, Record, 
 
 def inspections(bench: Bench, record: Record, values: Values, turns: int) -> list[np.ndarray]:
     """The wear unit's record at every row's hours."""
-    by_run: dict[Condition, dict[int, float]] = {}
-    for row, c in enumerate(row_conditions(bench, record)):
-        by_run.setdefault(replace(c, hours=0.0), {})[row] = c.hours
-    found: dict[int, np.ndarray] = {}
-    for condition, hours in by_run.items():
-        worn = bench.wear_to(condition, values, sorted(set(hours.values())), turns)
-        found.update((row, worn[h]) for row, h in hours.items())
-    return [found[row] for row in range(len(found))]
+    rows = row_conditions(bench, record)
+    hours: dict[Condition, set[float]] = {}
+    for c in rows:
+        hours.setdefault(fresh(c), set()).add(c.hours)
+    return [bench.life(c, values, hours[fresh(c)], turns)[c.hours] for c in rows]
 
 
 def surface_of(wear: np.ndarray, tags: Mapping[str, str]) -> Floats:

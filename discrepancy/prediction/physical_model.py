@@ -1,6 +1,5 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-import difflib
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +14,7 @@ from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, condition_of, identity
+from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
 from discrepancy.prediction.curves import glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
@@ -23,8 +22,9 @@ from discrepancy.prediction.model_error import with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.threads import Threads
+from fmu_src.variables import Table
 
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
@@ -56,11 +56,15 @@ class PhysicalModel:
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
+        for record in self.records:
+            rows = row_conditions(self.bench, record)
+            # A held test looks at a life under the rated load.
+            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)])
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
-        self.require_known(nuisances)
+        require_known(campaign.folder, nuisances, self.bench.tables)
         self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
@@ -92,19 +96,6 @@ class PhysicalModel:
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip
-
-    def require_known(self, nuisances: Sequence[Nuisance]) -> None:
-        """InputFault for a nuisance that is no parameter of the model."""
-        scalars = {v.name for table in self.bench.tables for v in table.of_role("parameter", "input") if not v.shape}
-        for name in (n.parameter.name for n in nuisances):
-            if name not in scalars | {HOUSING_MASS} and name.partition("[")[0] not in CHAIN_PARAMETERS:
-                close = difflib.get_close_matches(name, scalars | CHAIN_PARAMETERS, 2)
-                hint = f"; did you mean {' or '.join(close)}?" if close else ""
-                raise InputFault(
-                    f"{self.campaign.folder}: nuisances.{name}: the model has no such parameter{hint} docs/variables.md lists those of the"
-                    f" reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
-                    f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
-                )
 
     def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.
@@ -230,7 +221,7 @@ class PhysicalModel:
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """Values with those of this record's mounting, condition or run under the plain name."""
-        own = dict(values)
+        own = {name: value for name, value in values.items() if not model_error.is_error(name)}
         for name, per in self.per.items():
             place = {"mounting": record.mounting, "condition": record.condition, "run": record.name}.get(per)
             if place is not None and f"{name}[{place}]" in values:
@@ -270,3 +261,15 @@ def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:
 
 
 CHAIN_PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
+
+
+def require_known(folder: Path, nuisances: Sequence[Nuisance], tables: Sequence[Table]) -> None:
+    """InputFault for a nuisance that is no parameter of the model."""
+    scalars = {v.name for table in tables for v in table.of_role("parameter", "input") if not v.shape}
+    for name in (n.parameter.name for n in nuisances):
+        if name not in scalars | {HOUSING_MASS, ENCODER_PHASE} and name.partition("[")[0] not in CHAIN_PARAMETERS:
+            raise InputFault(
+                f"{folder}: nuisances.{name}: the model has no such parameter{nearest(name, scalars | CHAIN_PARAMETERS, 2)}; docs/variables.md lists"
+                f" those of the reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
+                f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
+            )

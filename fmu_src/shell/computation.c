@@ -4,10 +4,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define STATE_BYTES (unit.state_cells * sizeof(union cell))
 
 static int append(char *text, int used, const char *format, ...)
 {
@@ -55,10 +52,7 @@ static const struct variable *spoilt_output(const struct instance *i)
 
 enum status compute_start(struct instance *i)
 {
-    union cell *before = malloc(STATE_BYTES);
-    if (!before)
-        return report(i, ERROR, "out of memory");
-    memcpy(before, i->cells, STATE_BYTES);
+    memcpy(i->backup, i->cells, STATE_BYTES);
     int64_t code = initialise(i->cells);
     const struct variable *spoilt = code ? NULL : spoilt_output(i);
     if (code)
@@ -66,23 +60,18 @@ enum status compute_start(struct instance *i)
     else if (spoilt)
         report(i, ERROR, "at time %.9g s: %s is not finite after initialisation; check the parameters", i->time, spoilt->name);
     if (code || spoilt)
-        memcpy(i->cells, before, STATE_BYTES);
-    free(before);
+        memcpy(i->cells, i->backup, STATE_BYTES);
     return code || spoilt ? ERROR : OK;
 }
 
 enum status refresh_outputs(struct instance *i)
 {
-    union cell *before = malloc(STATE_BYTES);
-    if (!before)
-        return report(i, ERROR, "out of memory");
-    memcpy(before, i->cells, STATE_BYTES);
     enum status status = compute_start(i);
+    /* What was set, with the outputs of now. */
     for (const struct variable *v = unit.variables; v < unit.variables + unit.variable_count; v++)
         if (status == OK && v->role == OUTPUT)
-            memcpy(before + v->first, i->cells + v->first, v->size * sizeof *before);
-    memcpy(i->cells, before, STATE_BYTES);
-    free(before);
+            memcpy(i->backup + v->first, i->cells + v->first, v->size * sizeof *i->cells);
+    memcpy(i->cells, i->backup, STATE_BYTES);
     i->is_stale = status != OK;
     return status;
 }
@@ -122,12 +111,17 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     i->last_step = status;
     if (status > WARNING)
         return status;
-    if (i->backup)
-        memcpy(i->backup, i->cells, GUARDED_BYTES);
+    memcpy(i->backup, i->cells, GUARDED_BYTES);
+    if (unit.pause_cell >= 0)
+        i->cells[unit.pause_cell].integer = i->pausing;
     int64_t code = step(i->cells, time, duration);
+    /* An importer's wish is no part of the state. */
+    if (unit.pause_cell >= 0)
+        i->cells[unit.pause_cell].integer = NOWHERE;
     const struct variable *spoilt = code ? NULL : spoilt_output(i);
     if (!code && !spoilt) {
-        i->time = time + duration;
+        double done = unit.pause_cell >= 0 ? i->cells[unit.paused_cell].real : 0.0;
+        i->time = time + (done > 0.0 ? done : duration);
         say_cautions(i);
         return status;
     }
@@ -135,8 +129,7 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
         report_fault(i, DISCARD, code, time);
     else
         report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs", time, spoilt->name);
-    if (i->backup)
-        memcpy(i->cells, i->backup, GUARDED_BYTES);
+    memcpy(i->cells, i->backup, GUARDED_BYTES);
     if (spoilt && unit.guarded_cells < unit.state_cells)
         i->phase = TERMINATED;
     return i->last_step = DISCARD;

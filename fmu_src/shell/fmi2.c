@@ -6,6 +6,7 @@
 #define DESERIALISE DeSerializeFMUstate
 
 #include "computation.h"
+#include "derivatives.h"
 #include "same_calls.h"
 #include "values.h"
 
@@ -73,6 +74,12 @@ FORWARD(DoStep, (fmi2Component c, fmi2Real time, fmi2Real duration, fmi2Boolean 
             set_values(i, &(struct call){__func__, references, count, kind, 0, count}, values))
 VALUES(Real, REAL)
 VALUES(Integer, INTEGER_32)
+
+FORWARD(GetDirectionalDerivative,
+        (fmi2Component c, const fmi2ValueReference unknowns[], size_t unknown_count, const fmi2ValueReference knowns[],
+         size_t known_count, const fmi2Real seed[], fmi2Real sensitivity[]),
+        directional_derivative(i, &(struct direction){__func__, 0, unknowns, unknown_count, knowns, known_count, seed, known_count,
+                                                      sensitivity, unknown_count}))
 
 /* What may be asked about a step, which ends before it returns: one kind of each type. */
 #define ASK(name, type, kind_offered, answer, what)                                                                              \

@@ -16,9 +16,5 @@ REFUSE_TYPE(String)
 REFUSE_SOME(SetRealInputDerivatives, (REFERENCES, const fmi2Integer orders[], const fmi2Real values[]), count,
             "input derivatives")
 REFUSE_SOME(GetRealOutputDerivatives, (REFERENCES, const fmi2Integer orders[], fmi2Real values[]), count, "output derivatives")
-REFUSE(GetDirectionalDerivative,
-       (fmi2Component c, const fmi2ValueReference unknowns[], size_t unknown_count, const fmi2ValueReference knowns[],
-        size_t known_count, const fmi2Real seed[], fmi2Real sensitivity[]),
-       "directional derivatives")
 REFUSE(GetIntegerStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value), "integer status")
 REFUSE(CancelStep, (fmi2Component c), "step in progress: steps end before they return")

@@ -6,6 +6,7 @@
 #define DESERIALISE DeserializeFMUState
 
 #include "computation.h"
+#include "derivatives.h"
 #include "same_calls.h"
 #include "values.h"
 
@@ -22,11 +23,23 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger,
                                          fmi3IntermediateUpdateCallback update)
 {
-    (void)resources, (void)visible, (void)early_return, (void)intermediate, (void)update;
+    (void)resources, (void)visible;
     struct importer importer = {deliver, (void (*)(void))logger, environment};
-    const char *objection =
-        event_mode || intermediate_count ? "the unit has no event mode and no intermediate values; ask for neither" : NULL;
-    return instantiate(importer, logging, __func__, name, objection, "token", token);
+    int pauses = unit.pause_cell >= 0;
+    const char *objection = event_mode ? "the unit has no event mode; do not ask for it" : NULL;
+    if (intermediate_count && !(pauses && update))
+        objection = pauses ? "intermediate variables are asked for, but there is no callback to be called then"
+                           : "the unit has no intermediate values; ask for none";
+    for (size_t k = 0; k < intermediate_count && !objection; k++)
+        if (!intermediate || !find_variable(intermediate[k]))
+            objection = "an intermediate variable has a value reference that the unit does not know";
+    struct instance *i = instantiate(importer, logging, __func__, name, objection, "token", token);
+    if (i && pauses) {
+        i->may_return_early = early_return;
+        i->update = (void (*)(void))update;
+        i->pausing = update ? EVERYWHERE : early_return ? WHERE_JUDGED_OTHERWISE : NOWHERE;
+    }
+    return i;
 }
 
 static enum status enter_initialisation(struct instance *i, const char *function, double start, int has_stop, double stop)
@@ -51,6 +64,55 @@ FORWARD(EnterInitializationMode,
 VALUES(Float64, REAL)
 VALUES(Int64, INTEGER_64)
 
+FORWARD(GetDirectionalDerivative,
+        (fmi3Instance c, const fmi3ValueReference unknowns[], size_t unknown_count, const fmi3ValueReference knowns[],
+         size_t known_count, const fmi3Float64 seed[], size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count),
+        directional_derivative(i, &(struct direction){__func__, 1, unknowns, unknown_count, knowns, known_count, seed, seed_count,
+                                                      sensitivity, sensitivity_count}))
+
+/* Asks the importer between two parts; how much of the step is still to be done. */
+static double left_after_update(struct instance *i, double left)
+{
+    fmi3Boolean requested = fmi3False;
+    fmi3Float64 until = i->time;
+    ((fmi3IntermediateUpdateCallback)i->update)(i->importer.environment, i->time, fmi3False, fmi3True, fmi3True,
+                                                i->may_return_early && left > 0.0, &requested, &until);
+    if (!requested || !i->may_return_early)
+        return left;
+    double wanted = until - i->time;
+    return wanted <= 0.0 ? 0.0 : wanted < left ? wanted : left;
+}
+
+/* A step, in parts where the importer wants to hear of them; ``early`` if it ends before its time. */
+static enum status through_parts(struct instance *i, const char *function, double time, double duration, int *early)
+{
+    enum status worst = OK;
+    double left = duration, end = time + duration;
+    do {
+        enum status status = do_step(i, function, time, left);
+        worst = status > worst ? status : worst;
+        if (worst > WARNING)
+            return worst;
+        double done = unit.pause_cell >= 0 ? i->cells[unit.paused_cell].real : 0.0;
+        left = done > 0.0 ? left - done : 0.0;
+        if (left == 0.0)
+            i->time = end;
+        time = i->time;
+        if (i->update) {
+            double wanted = left_after_update(i, left);
+            if (wanted < left) {
+                *early = 1;
+                end = i->time + wanted;
+            }
+            left = wanted;
+        } else if (left > 0.0) {
+            *early = 1;
+            return worst;
+        }
+    } while (left > 0.0);
+    return worst;
+}
+
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 duration, fmi3Boolean no_return_before,
                       fmi3Boolean *needs_events, fmi3Boolean *terminates, fmi3Boolean *early_return, fmi3Float64 *last_time)
 {
@@ -58,13 +120,14 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 duration, fm
     (void)no_return_before;
     if (!i)
         return fmi3Error;
-    fmi3Status status = (fmi3Status)do_step(i, __func__, time, duration);
+    int early = 0;
+    fmi3Status status = (fmi3Status)through_parts(i, __func__, time, duration, &early);
     if (needs_events)
         *needs_events = fmi3False;
     if (terminates)
         *terminates = i->phase == TERMINATED;
     if (early_return)
-        *early_return = fmi3False;
+        *early_return = early != 0;
     if (last_time)
         *last_time = i->time;
     return status;

@@ -41,7 +41,6 @@ REFUSE_SOME(GetOutputDerivatives, (REFERENCES, const fmi3Int32 orders[], fmi3Flo
 #define DERIVATIVE                                                                                                               \
     (fmi3Instance c, const fmi3ValueReference unknowns[], size_t unknown_count, const fmi3ValueReference knowns[],               \
      size_t known_count, const fmi3Float64 seed[], size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count)
-REFUSE(GetDirectionalDerivative, DERIVATIVE, "directional derivatives")
 REFUSE(GetAdjointDerivative, DERIVATIVE, "adjoint derivatives")
 REFUSE(GetNumberOfVariableDependencies, (fmi3Instance c, fmi3ValueReference reference, size_t *count),
        "dependencies per element; see ModelStructure")

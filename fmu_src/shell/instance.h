@@ -8,6 +8,9 @@
 enum status { OK, WARNING, DISCARD, ERROR, FATAL };
 
 /* Saved states hold these numbers, see fmu_src/state.py. */
+/* The kernels know these numbers, see rv_reducer/judgement.py. */
+enum pausing { NOWHERE, WHERE_JUDGED_OTHERWISE, EVERYWHERE };
+
 enum phase { INSTANTIATED, INITIALISING, STEPPING, TERMINATED };
 
 struct instance;
@@ -31,14 +34,18 @@ struct instance {
     int is_stale;    /* initialisation mode: outputs do not fit the values set */
     double time, stop_time;
     enum status last_step;
+    enum pausing pausing; /* FMI 3: where a step may end before its time */
+    int may_return_early;
+    void (*update)(void); /* FMI 3: called between the parts of a step */
     uint32_t cautioned; /* one bit per caution that was said */
     union cell *cells;
-    union cell *backup; /* guarded cells before a step; NULL if failing steps change nothing */
+    union cell *backup; /* cells before a step or an initialisation: nothing is allocated then */
     struct state *states; /* those handed out, see state.c */
 };
 
 #define TEXT_SIZE 2048
 #define GUARDED_BYTES (unit.guarded_cells * sizeof(union cell))
+#define STATE_BYTES (unit.state_cells * sizeof(union cell))
 
 /* Logs a message and returns the status. */
 INTERNAL enum status report(struct instance *, enum status, const char *format, ...)

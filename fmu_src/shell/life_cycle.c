@@ -30,9 +30,8 @@ static struct instance *new_instance(const char *name)
         return NULL;
     i->name = malloc(strlen(name) + 1);
     i->cells = calloc(unit.cell_count, sizeof *i->cells);
-    if (unit.guarded_cells)
-        i->backup = malloc(GUARDED_BYTES);
-    if (!i->name || !i->cells || (unit.guarded_cells && !i->backup)) {
+    i->backup = malloc(STATE_BYTES);
+    if (!i->name || !i->cells || !i->backup) {
         free_instance(i);
         return NULL;
     }

@@ -20,8 +20,7 @@ struct state {
     union cell cells[];
 };
 
-#define CELL_BYTES (unit.state_cells * sizeof(union cell))
-#define BLOCK_BYTES (sizeof(struct header) + CELL_BYTES)
+#define BLOCK_BYTES (sizeof(struct header) + STATE_BYTES)
 
 static const char MAGIC[8] = {'R', 'V', 's', 't', 'a', 't', 'e', '3'};
 
@@ -57,7 +56,7 @@ static struct state *known(struct instance *i, const char *function, const void 
 
 static struct state *new_state(struct instance *i)
 {
-    struct state *s = malloc(sizeof *s + CELL_BYTES);
+    struct state *s = malloc(sizeof *s + STATE_BYTES);
     if (!s) {
         report(i, ERROR, "out of memory for a state of %lu bytes", (unsigned long)BLOCK_BYTES);
         return NULL;
@@ -91,7 +90,7 @@ enum status get_state(struct instance *i, const char *function, void **state)
     s->header.is_set_up = i->is_set_up;
     s->header.time = i->time;
     s->header.stop_time = i->stop_time;
-    memcpy(s->cells, i->cells, CELL_BYTES);
+    memcpy(s->cells, i->cells, STATE_BYTES);
     *state = s;
     return OK;
 }
@@ -101,7 +100,7 @@ enum status set_state(struct instance *i, const char *function, void *state)
     struct state *s = known(i, function, state);
     if (!s)
         return ERROR;
-    memcpy(i->cells, s->cells, CELL_BYTES);
+    memcpy(i->cells, s->cells, STATE_BYTES);
     i->phase = (enum phase)s->header.phase;
     i->is_set_up = s->header.is_set_up != 0;
     i->time = s->header.time;
@@ -147,8 +146,20 @@ enum status serialise(struct instance *i, const char *function, void *state, voi
                       (unsigned long)BLOCK_BYTES);
     s->header = summed(s->header, s->cells);
     memcpy(bytes, &s->header, sizeof s->header);
-    memcpy((char *)bytes + sizeof s->header, s->cells, CELL_BYTES);
+    memcpy((char *)bytes + sizeof s->header, s->cells, STATE_BYTES);
     return OK;
+}
+
+/* The first number of a state that the unit cannot have got to, or NULL.  A NaN fails both comparisons. */
+static const struct range *impossible(const union cell *cells)
+{
+    for (const struct range *r = unit.ranges; r < unit.ranges + unit.range_count; r++)
+        for (const union cell *c = cells + r->first; c < cells + r->first + r->size; c++) {
+            double value = r->is_integer ? (double)c->integer : c->real;
+            if (!(value >= r->lowest && value <= r->highest))
+                return r;
+        }
+    return NULL;
 }
 
 enum status deserialise(struct instance *i, const char *function, const void *bytes, size_t size, void **state)
@@ -174,7 +185,13 @@ enum status deserialise(struct instance *i, const char *function, const void *by
     if (!s)
         return ERROR;
     s->header = header;
-    memcpy(s->cells, (const char *)bytes + sizeof header, CELL_BYTES);
+    memcpy(s->cells, (const char *)bytes + sizeof header, STATE_BYTES);
+    const struct range *wrong = impossible(s->cells);
+    if (wrong) {
+        void *useless = s;
+        free_state(i, function, &useless);
+        return report(i, ERROR, "%s: the state is impossible in %s; it was not saved by this unit", function, wrong->name);
+    }
     *state = s;
     return OK;
 }

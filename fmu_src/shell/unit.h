@@ -5,11 +5,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Hidden, so that two units in one process cannot take each other's functions. */
+/* Hidden, so that two units in one process cannot take each other's functions; in one source file (all.c) they are static. */
+#if defined(UNIT_IN_ONE_FILE)
+#define INTERNAL static
+#define DECLARED static
+#define DEFINED static
+#else
 #if defined(__ELF__)
 #define INTERNAL __attribute__((visibility("hidden")))
 #else
 #define INTERNAL
+#endif
+#define DECLARED extern INTERNAL
+#define DEFINED
 #endif
 
 #define MOST_DIMENSIONS 4
@@ -30,7 +38,7 @@ struct variable {
     uint32_t first, size;
     int dimensions;
     uint32_t shape[MOST_DIMENSIONS];
-    double lowest, highest;
+    double lowest, highest, nominal;
 };
 
 /* Start values of all cells, equal neighbours together. */
@@ -59,6 +67,14 @@ struct caution {
     const char *text;
 };
 
+/* What the numbers of a part of the state may be; integers are indices and counts of the kernels. */
+struct range {
+    const char *name;
+    uint32_t first, size;
+    int is_integer;
+    double lowest, highest;
+};
+
 struct unit {
     const char *name;
     const char *identity; /* FMI 2 guid, FMI 3 instantiation token */
@@ -75,12 +91,15 @@ struct unit {
     int category_count;
     uint32_t guarded_cells; /* leading cells that a failing step may have changed */
     double longest_step;
+    int pause_cell, paused_cell; /* where a step may end before its time, and how much of it was done; -1: never */
+    const struct range *ranges; /* all cells of the state, in their order */
+    int range_count;
 };
 
-extern INTERNAL const struct unit unit;
+DECLARED const struct unit unit;
 
-/* The kernels' object code; 0, or a fault's code. */
-extern INTERNAL int64_t initialise(void *cells);
-extern INTERNAL int64_t step(void *cells, double time, double duration);
+/* The kernels; 0, or a fault's code. */
+DECLARED int64_t initialise(void *cells);
+DECLARED int64_t step(void *cells, double time, double duration);
 
 #endif

@@ -13,7 +13,7 @@ struct span {
     uint32_t cell, size;
 };
 
-static const struct variable *find(uint32_t cell)
+const struct variable *find_variable(uint32_t cell)
 {
     int low = 0, high = unit.variable_count;
     while (high - low > 1) {
@@ -51,7 +51,7 @@ static enum status resolve(struct instance *i, const struct call *call, size_t k
         return OK;
     }
     if (!v || reference < v->first || reference - v->first >= v->size)
-        v = find(reference);
+        v = find_variable(reference);
     if (!v || (call->whole_variables ? reference != v->first : v->role == PROFILE))
         return report(i, ERROR, "%s: %s has no variable with value reference %u", call->function, unit.name, (unsigned)reference);
     if (v->is_integer != (call->kind != REAL)) {
@@ -80,6 +80,22 @@ static enum status check_call(struct instance *i, const struct call *call, const
     if (total != call->value_count)
         return report(i, ERROR, "%s: the variables have %lu values, %lu were given", call->function, (unsigned long)total,
                       (unsigned long)call->value_count);
+    return OK;
+}
+
+enum status check_roles(struct instance *i, const struct call *call, const void *values, unsigned roles, const char *what)
+{
+    int has_outputs = 0;
+    if (check_call(i, call, values, &has_outputs))
+        return ERROR;
+    struct span span = {0};
+    for (size_t k = 0; k < call->reference_count; k++) {
+        char name[256];
+        resolve(i, call, k, &span);
+        if (!span.variable || !(roles >> span.variable->role & 1))
+            return report(i, ERROR, "%s: %s cannot be %s", call->function,
+                          span.variable ? element_name(span.variable, span.cell - span.variable->first, name, sizeof name) : "time", what);
+    }
     return OK;
 }
 

@@ -15,6 +15,10 @@ struct call {
     int whole_variables;
     size_t value_count;
 };
+/* The variable that a cell belongs to; NULL if none. */
+INTERNAL const struct variable *find_variable(uint32_t cell);
+/* ERROR with a message unless all variables of the call exist, have so many values, and are of one of the roles (bits 1 << role). */
+INTERNAL enum status check_roles(struct instance *, const struct call *, const void *values, unsigned roles, const char *what);
 INTERNAL enum status get_values(struct instance *, const struct call *, void *values);
 INTERNAL enum status set_values(struct instance *, const struct call *, const void *values);
 

@@ -220,7 +220,8 @@ class KernelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu has no types
     def _set_fmu_state(self, state: bytes) -> None:
         try:
             saved = unpack(self.stamp["guid"], state, self.table.state_cells)
-        except StateFault as fault:
+            self.table.check_state(saved.cells)
+        except (StateFault, ValueFault) as fault:
             self.fail(f"{self.table.name}: {fault}")
         self.cells[: self.table.state_cells] = saved.cells
         self.initialised = saved.phase == STEPPING

@@ -5,22 +5,25 @@ input back to a unit's output, the transformations on the way composed.  Units a
 converted before a transformation is applied, as the standard says.
 """
 
-import re
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from urllib.parse import unquote
-from zipfile import BadZipFile, ZipFile
+from zipfile import is_zipfile
 
 from lxml import etree
 
 from fmu_src.faults import InputFault
+from fmu_src.reading import reading, unpack_archive
 from fmu_src.units import BaseUnit
 from orchestrator.master import Connection
 from orchestrator.scratch import Scratch
 from orchestrator.ssp.parameters import Parameter, read_bindings
-from orchestrator.ssp.xml import child, children, local, number, parse, units_of
+from orchestrator.ssp.xml import child, children, file_at, local, number, parse, units_of
 
 MAIN_FILE = "SystemStructure.ssd"
+# Whatever comes after the point.
+KNOWN_VERSIONS = ("1", "2")
+# Systems in systems, systems and components in all, connectors that a value is handed on through (all assumed, far beyond what is built).
+DEEPEST, MOST_ELEMENTS, MOST_HOPS = 20, 5000, 200
 # A path of element names from the top, and a connector there.
 Node = tuple[tuple[str, ...], str]
 MAPPINGS = ("BooleanMappingTransformation", "IntegerMappingTransformation", "EnumerationMappingTransformation")
@@ -47,6 +50,8 @@ class Structure:
     connections: list[Connection] = field(default_factory=list)
     parameters: list[tuple[str, str, Parameter]] = field(default_factory=list)
     open_inputs: list[str] = field(default_factory=list)
+    # Dimensions of array connectors (SSP 2.0), by unit and connector, where all are given.
+    shapes: dict[tuple[str, str], tuple[int, ...]] = field(default_factory=dict)
     start: float = 0.0
     stop: float | None = None
     step: float | None = None
@@ -60,6 +65,8 @@ class Importer:
 
     def __init__(self) -> None:
         self.structure = Structure()
+        # Descriptions that are being read, the outermost first.
+        self.within: list[Path] = []
         self.units: dict[tuple[str, ...], Path] = {}
         self.systems: list[tuple[str, ...]] = []
         self.edges: dict[Node, Edge] = {}
@@ -77,26 +84,37 @@ class Importer:
             raise InputFault(f"no SSP at {path}")
         folder = Scratch()
         self.structure.folders.append(folder)
-        try:
-            with ZipFile(path) as archive:
-                archive.extractall(folder.path)
-        except BadZipFile:
-            raise InputFault(f"{path} is not an SSP package: it is no zip archive") from None
+        if not is_zipfile(path):
+            raise InputFault(f"{path} is not an SSP package: it is no zip archive")
+        unpack_archive(path, folder.path, "SSP package")
         return folder.path / MAIN_FILE
 
     def read(self, path: Path, place: tuple[str, ...]) -> etree._Element:
         """One description, its system at ``place``; returns its root."""
+        if len(self.within) >= DEEPEST:
+            raise InputFault(f"{path}: systems within systems more than {DEEPEST} deep; does one contain itself?")
         file = self.open(path)
+        if file.resolve() in self.within:
+            raise InputFault(f"{path}: the system contains itself, as {'.'.join(place)}: take it out of it")
+        self.within.append(file.resolve())
         root = parse(file)
         if local(root) != "SystemStructureDescription":
             raise InputFault(f"{file}: a {local(root)}, not a SystemStructureDescription")
+        if root.get("version", "1.0").split(".")[0] not in KNOWN_VERSIONS:
+            raise InputFault(f"{file}: SSP version {root.get('version')!r} is not known; versions {' and '.join(KNOWN_VERSIONS)} are")
         system = child(root, "System")
         if system is None:
             raise InputFault(f"{file}: no System")
+        # What a package names is in it; a system that was unpacked by hand stands where its author put it.
         self.walk(system, place, file.parent, units_of(root))
+        self.within.pop()
         return root
 
     def walk(self, system: etree._Element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
+        if len(self.systems) + len(self.units) > MOST_ELEMENTS:
+            raise InputFault(f"more than {MOST_ELEMENTS} systems and components; run parts of it on their own")
+        if len(place) > DEEPEST:
+            raise InputFault(f"{'.'.join(place[:3])} ...: systems within systems more than {DEEPEST} deep")
         self.systems.append(place)
         self.connectors(system, place, units)
         self.bound += [(place, p) for p in read_bindings(system, folder)]
@@ -118,12 +136,12 @@ class Importer:
             named = next((unit for e in connector if (unit := e.get("unit"))), None)
             if named in units:
                 self.connector_units[node] = units[named]
+            sizes = [d.get("size") for d in children(connector, "Dimension")]
+            if sizes and None not in sizes:
+                self.structure.shapes[".".join(place), node[1]] = sizes_of(node, sizes)
 
     def component(self, element: etree._Element, place: tuple[str, ...], folder: Path, units: dict[str, BaseUnit]) -> None:
-        source = unquote(element.get("source", ""))
-        if not source or re.match(r"[a-z]+://", source):
-            raise InputFault(f"{'.'.join(place)}: source {source!r} is not a file of the package")
-        path = folder / source
+        path = file_at(folder, element.get("source", ""), ".".join(place))
         if path.suffix in (".ssp", ".ssd"):
             self.read(path, place)
         else:
@@ -140,6 +158,9 @@ class Importer:
         # Which way values go is a matter of the connectors' kinds, not of what was written first.
         if self.gives(end, place) and not self.gives(start, place):
             start, end = end, start
+        for part in ("startIndices", "endIndices"):
+            if element.get(part):
+                raise InputFault(f"connection to {text_of(end)}: {part} = {element.get(part)!r} is not supported; connect whole arrays")
         for transformation in MAPPINGS:
             if child(element, transformation) is not None:
                 raise InputFault(f"connection to {text_of(end)}: {transformation} is not supported")
@@ -156,7 +177,11 @@ class Importer:
     def trace(self, end: Node) -> Connection | None:
         """The connection that ends at a unit's input; None if it begins outside the system."""
         node, factor, offset, convert = end, 1.0, 0.0, True
+        passed: set[Node] = set()
         while node[0] not in self.units or node == end:
+            if node in passed:
+                raise InputFault(f"connection to {text_of(end)}: it goes in a circle through {text_of(node)}; let it begin at an output")
+            passed.add(node)
             edge = self.edges.get(node)
             if edge is None:
                 return None
@@ -175,22 +200,24 @@ class Importer:
             convert = False
         return Connection(text_of(node), text_of(end), factor, offset, convert)
 
-    def bind(self, place: tuple[str, ...], parameter: Parameter) -> None:
+    def bind(self, place: tuple[str, ...], parameter: Parameter, hops: int = 0) -> None:
         """Find the unit's variable that a value is for; a name that fits nothing is noted, as the standard allows it."""
+        if hops > MOST_HOPS:
+            raise InputFault(f"parameter {text_of((place, parameter.name))}: it goes in a circle from connector to connector")
         if place in self.units:
             self.structure.parameters.append((".".join(place), parameter.name, parameter))
             return
         if (place, parameter.name) in self.kinds:
             # A connector of this system hands the value on to what it is connected with.
             for inner, connector in [end for end, edge in self.edges.items() if edge.start == (place, parameter.name)]:
-                self.bind(inner, replace(parameter, name=connector))
+                self.bind(inner, replace(parameter, name=connector), hops + 1)
             return
         # The longest path of elements that the name begins with.
         below = [p for p in (*self.units, *self.systems) if p != place and p[: len(place)] == place]
         for inner in sorted(below, key=len, reverse=True):
             prefix = ".".join(inner[len(place) :]) + "."
             if parameter.name.startswith(prefix):
-                self.bind(inner, replace(parameter, name=parameter.name[len(prefix) :]))
+                self.bind(inner, replace(parameter, name=parameter.name[len(prefix) :]), hops + 1)
                 return
         self.structure.notes.append(text_of((place, parameter.name)))
 
@@ -198,6 +225,8 @@ class Importer:
         structure = self.structure
         structure.name = root.get("name") or "system"
         structure.fmus = {".".join(place): path for place, path in self.units.items()}
+        if len(structure.fmus) != len(self.units):
+            raise InputFault("two components have the same name, counted with the systems that they are in; rename one")
         for end in [node for node in self.edges if node[0] in self.units]:
             connection = self.trace(end)
             if connection is None:
@@ -218,6 +247,13 @@ class Importer:
         return structure
 
 
+def sizes_of(node: Node, sizes: list[str | None]) -> tuple[int, ...]:
+    try:
+        return tuple(int(size or "") for size in sizes)
+    except ValueError:
+        raise InputFault(f"connector {text_of(node)}: Dimension size = {', '.join(map(repr, sizes))}: a whole number is needed") from None
+
+
 def text_of(node: Node) -> str:
     return ".".join((*node[0], node[1]))
 
@@ -225,4 +261,5 @@ def text_of(node: Node) -> str:
 def read_ssp(path: str | Path) -> Structure:
     """The flattened system of a package (.ssp), a folder with one unpacked, or an .ssd file."""
     importer = Importer()
-    return importer.finish(importer.read(Path(path), ()))
+    with reading(Path(path), "a system structure (SSP)"):
+        return importer.finish(importer.read(Path(path), ()))

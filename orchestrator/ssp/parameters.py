@@ -3,12 +3,14 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from lxml import etree
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.units import BaseUnit, UnitError, conversion
 from orchestrator.component import Component, Signal
-from orchestrator.ssp.xml import child, children, local, number, parse, units_of
+from orchestrator.ssp.xml import child, children, file_at, local, number, parse, units_of
 
 
 @dataclass(frozen=True)
@@ -31,9 +33,16 @@ def read_bindings(element: etree._Element, folder: Path) -> list[Parameter]:
 
 def read_binding(binding: etree._Element, folder: Path) -> list[Parameter]:
     source = binding.get("source")
-    root = parse(folder / source) if source else child(binding, "ParameterValues", "ParameterSet")
+    root = parse(file_at(folder, source, "ParameterBinding")) if source else child(binding, "ParameterValues", "ParameterSet")
     if root is None:
         raise InputFault("ParameterBinding: neither a source nor values")
+    found = values_in(root, binding.get("prefix", ""))
+    mapping = child(binding, "ParameterMapping")
+    return found if mapping is None else mapped(found, mapping, folder)
+
+
+def values_in(root: etree._Element, prefix: str = "") -> list[Parameter]:
+    """The values of a parameter set (SSV)."""
     units = units_of(root)
     found = []
     for element in children(root, "Parameters", "Parameter"):
@@ -48,16 +57,15 @@ def read_binding(binding: etree._Element, folder: Path) -> list[Parameter]:
         # Some tools write units in brackets.
         unit = value.get("unit", "").strip("[]") or None
         found.append(Parameter(
-            binding.get("prefix", "") + name, local(value), text, unit, units.get(value.get("unit", "")),
+            prefix + name, local(value), text, unit, units.get(value.get("unit", "")),
         ))  # fmt: skip
-    mapping = child(binding, "ParameterMapping")
-    return found if mapping is None else mapped(found, mapping, folder)
+    return found
 
 
 def mapped(parameters: list[Parameter], mapping: etree._Element, folder: Path) -> list[Parameter]:
     """Those that the mapping names, under their new names."""
     source = mapping.get("source")
-    root = parse(folder / source) if source else child(mapping, "ParameterMapping")
+    root = parse(file_at(folder, source, "ParameterMapping")) if source else child(mapping, "ParameterMapping")
     by_name = {p.name: p for p in parameters}
     result = []
     for entry in children(root, "MappingEntry"):
@@ -86,8 +94,16 @@ def apply(parameter: Parameter, component: Component, variable: str) -> None:
         raise InputFault(f"parameter {component.name}.{variable} = {parameter.text!r}: {problem}") from None
 
 
-def value_of(parameter: Parameter, signal: Signal) -> float | int | bool:
+def value_of(parameter: Parameter, signal: Signal) -> float | int | bool | Floats:
     text = parameter.text.strip()
+    if signal.shape:
+        # Row by row; one value is for all elements.
+        texts = text.split()
+        if len(texts) not in (1, len(signal.references)):
+            raise ValueError(f"{len(texts)} values, but {signal.name} has {len(signal.references)}")
+        single = replace(signal, shape=())
+        values = np.array([value_of(replace(parameter, text=one), single) for one in texts])
+        return np.broadcast_to(values, len(signal.references)).reshape(signal.shape)
     if parameter.kind == "Boolean":
         return text in ("true", "1")
     if parameter.kind == "Enumeration" and text in signal.choices:

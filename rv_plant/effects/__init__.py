@@ -4,7 +4,8 @@ Hooks, each a kernel of that name in an effect's file, in stages: all effects' `
 ``before``.  Within a stage the order of the effects does not matter, because each only adds to (or multiplies) fields
 that the plant has cleared, and reads none of them:
 
-    prepare(r)            once, when parameters are known: errors of parts, compliance of supports
+    start(r)              once, at initialisation: the effect's own states
+    prepare(r)            then, and whenever an amplitude is set during a run: errors of parts, compliance of supports
     warm(r)               before every equilibrium (in motion: every internal step): the temperature
     before(r)             after that: what depends on angle and temperature
     hold(r)               adds to residual and tangent of an equilibrium, see ``assembly``
@@ -16,7 +17,7 @@ that the plant has cleared, and reads none of them:
 from fmu_src.effect import OWN_STATES, Effect, effect_modules
 
 HOOKS = {
-    "prepare": ("r", ""), "warm": ("r", ""), "before": ("r", ""), "hold": ("r", ""), "after": ("r", ""),
+    "start": ("r", ""), "prepare": ("r", ""), "warm": ("r", ""), "before": ("r", ""), "hold": ("r", ""), "after": ("r", ""),
     "advance": ("r, duration", ""), "heat": ("r, duration", ""),
 }  # fmt: skip
 
@@ -31,6 +32,7 @@ def scaled(*fields: str) -> dict[str, str]:
 
 # The fields that a hook may change, and how; the plant clears them before the stage.
 ALLOWED = {
+    "start": OWN_STATES,
     "prepare": OWN_STATES
     | added("pin_x", "pin_y", "pin_radius_added", "lobe_gap_added", "lobe_pitch_added", "profile_radius_added",
             "profile_circle_added", "roller_gap_added", "output_gap_added", "throw_added", "lobe_turn_added",

@@ -23,7 +23,7 @@ EFFECT = Effect(
         shape("grease_life", "s", "t_a", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h"),
         shape("grease_age", "s", "hours since the grease was filled", 0.0, 0.0, 1e6 * HOUR, "new grease"),
     ),
-    signals=("input_torque", "no_load_torque", "efficiency", "temperature", "wear_depth", "wear_profile", "mass_loss"),
+    signals=("input_torque", "no_load_torque", "efficiency", "temperature"),
     also_in="wear_fmu",
 )
 

@@ -45,8 +45,12 @@ EFFECT = Effect(
 
 
 @kernel
-def prepare(r):
+def start(r):
     r.support_force = r.support_turn = 0.0
+
+
+@kernel
+def prepare(r):
     r.compliance[ring_coordinate(r)] += r.support_slip_compliance
 
 

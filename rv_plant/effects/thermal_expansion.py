@@ -35,7 +35,7 @@ EFFECT = Effect(
 
 
 @kernel
-def prepare(r):
+def start(r):
     r.housing_temperature = r.temperature
 
 

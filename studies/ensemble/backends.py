@@ -19,13 +19,34 @@ Found = TypeVar("Found")
 
 
 def through_joblib(function: Callable[[Task], Found], tasks: Sequence[Task], jobs: int) -> Generator[Found, None, None]:
-    """Results as they come."""
+    """Results as they come; what a process that dies was to compute is computed again once."""
     if jobs == 1:
         yield from map(function, tasks)
         return
     from joblib import Parallel, delayed
+    from joblib.externals.loky.process_executor import BrokenProcessPool
 
-    yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(delayed(function)(task) for task in tasks)
+    left = {task.number: task for task in tasks}
+    for _ in range(2):
+        try:
+            for number, found in Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(
+                delayed(with_number)(function, task) for task in list(left.values())
+            ):
+                del left[number]
+                yield found
+            return
+        except BrokenProcessPool as problem:
+            # Other lives than those that it computed are lost with a process: all that have not arrived run again.
+            lost = problem
+    raise RunFault(
+        f"processes died twice under lives {', '.join(map(str, sorted(left)[:10]))}{' ...' if len(left) > 10 else ''}"
+        f" ({str(lost).split('. ')[0]}): out of memory, or killed. {len(tasks) - len(left)} lives of this run are kept;"
+        " the same command with fewer --jobs goes on"
+    )
+
+
+def with_number(function: Callable[[Task], Found], task: Task) -> tuple[int, Found]:
+    return task.number, function(task)
 
 
 def through_dask(function: Callable[[Task], Found], tasks: Sequence[Task], scheduler: str) -> Generator[Found, None, None]:

@@ -17,20 +17,22 @@
 Further keys: ``seed``, ``tolerance``, ``settings`` (a list of "name=value"), ``duty`` (a file beside this one).
 """
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from fmu_src.faults import InputFault
+from fmu_src.reading import read_toml, reading
+from fmu_src.strict_file import Strict, validated
 from fmu_src.units import UnitError, conversion
 from orchestrator.settings import Setting, parse_setting
-from reducers.reducer import Reducer, Strict, load_reducer
+from reducers.reducer import Reducer, load_reducer
 from studies.duty import Segment, load_duty
 from studies.ensemble.figures import FIGURES
 
+REMEDY = "examples/ensemble.toml shows one"
 # What a duty's scatter multiplies; no variables of a unit.
 DUTY_FACTORS = ("duty_torque_factor", "duty_speed_factor")
 # The numbers that each distribution takes.
@@ -98,15 +100,11 @@ class Ensemble:
 def load_ensemble(path: str | Path, samples: int | None = None) -> Ensemble:
     """Read and check an ensemble's file; ``samples`` before the file's."""
     path = Path(path)
-    if not path.is_file():
-        raise InputFault(f"no ensemble file at {path}")
-    try:
-        content = Content(**tomllib.loads(path.read_text(encoding="utf-8-sig")))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise InputFault(f"{path}: not a TOML file: {problem}") from None
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        raise InputFault(f"{path}: {'.'.join(map(str, first['loc']))} = {first['input']!r}: {first['msg']}") from None
+    with reading(path, "an ensemble file", REMEDY):
+        return ensemble_of(validated(Content, read_toml(path, "ensemble file", REMEDY), path, REMEDY), path, samples)
+
+
+def ensemble_of(content: Content, path: Path, samples: int | None) -> Ensemble:
     beside = path.parent / content.reducer
     reducer = load_reducer(beside if beside.suffix == ".toml" and beside.is_file() else content.reducer)
     count = samples or content.samples

@@ -2,7 +2,7 @@
 
 Hooks, each a kernel of that name in an effect's file:
 
-    prepare(r)            once, when parameters are known; adds 1 to ``r.effects_on`` if the effect is on
+    prepare(r)            at initialisation and whenever an amplitude is set during a run; adds 1 to ``r.effects_on`` if the effect is on
     factor(r, surface, line_load, radius, speed, depth)
                           by which the wear coefficient is multiplied at a contact: surface
                           0 flank and pin, 1 inner, 2 outer raceway; load per length [N/m], equivalent

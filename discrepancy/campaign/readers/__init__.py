@@ -4,14 +4,17 @@ A reader is ``read(path, names, options) -> {name: array}``.  It gives what stan
 no units, no selection.  Text columns come as objects, so that rows can be selected by them.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from fmu_src.faults import InputFault, MissingPart
+from fmu_src.reading import reading, require_size, shown
+from fmu_src.reading_apart import read_apart, restored
 
 # Ending of the file's name -> reader's module.  The modules import their libraries themselves:
 # a campaign of CSV files needs none of the others.
@@ -19,6 +22,13 @@ ENDINGS = {
     ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".parquet": "parquet", ".mat": "mat", ".mf4": "mdf",
     ".mdf": "mdf", ".tdms": "tdms",
 }  # fmt: skip
+
+# Formats whose libraries trust what they read.
+APART = ("mat", "mdf", "parquet", "tdms")
+# Bytes of a file, and of what it is when it is unpacked (assumed: hours of many channels).
+MOST, MOST_UNPACKED = 2_000_000_000, 2_000_000_000
+# Signs of a list of names in a fault.
+MOST_SHOWN = 1000
 
 
 @dataclass(frozen=True)
@@ -46,24 +56,7 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
             f"{place}: file = {path.name!r}: the ending does not tell the format; name it {', '.join(ENDINGS)},"
             ' or state format = "csv" | "parquet" | "mat" | "mdf" | "tdms"'
         )
-    try:
-        reader = import_module(f"discrepancy.campaign.readers.{kind}")
-    except ModuleNotFoundError as problem:
-        raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
-    try:
-        columns: dict[str, np.ndarray] = reader.read(path, names, options)
-    except ModuleNotFoundError as problem:
-        raise MissingPart(f"{place}: file = {path.name!r}: reading it", problem.name or kind, "measurements") from None
-    except ReadFault as problem:
-        raise InputFault(f"{place}: {path}: {problem}") from None
-    except InputFault:
-        raise
-    # The libraries' own exceptions on broken files are of every kind (struct, key, value, runtime errors).
-    except Exception as problem:  # noqa: BLE001
-        raise InputFault(
-            f"{place}: {path}: not readable as {kind}: {type(problem).__name__}: {problem}; check the file, or state its"
-            " format"
-        ) from None
+    columns = read_by(path, names, options, kind, place)
     lengths = {name: len(column) for name, column in columns.items()}
     if len(set(lengths.values())) > 1:
         raise InputFault(
@@ -73,15 +66,36 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     return columns
 
 
-class ReadFault(ValueError):
+def read_by(path: Path, names: set[str], options: Options, kind: str, place: str) -> dict[str, np.ndarray]:
+    """What the format's reader finds, its faults with the place of the run."""
+    try:
+        with reading(path, kind, "check the file, or state its format"):
+            require_size(path, MOST)
+            arguments = (path, kind, sorted(names), vars(options))
+            columns: dict[str, np.ndarray] = restored(read_apart(f"{__name__}:read_as", *arguments)) if kind in APART else read_as(*arguments)
+    except ModuleNotFoundError as problem:
+        raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
+    except InputFault as fault:
+        raise InputFault(f"{place}: {fault}") from None
+    return columns
+
+
+def read_as(path: Path, kind: str, names: Sequence[str], options: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """In this process, or in that which reads binary formats."""
+    with reading(path, kind, "check the file, or state its format"):
+        columns: dict[str, np.ndarray] = import_module(f"{__name__}.{kind}").read(path, set(names), Options(**options))
+    return columns
+
+
+class ReadFault(InputFault):
     """What is wrong with a file and how to mend it; the place is added by the caller."""
 
 
 def missing_column(name: str, available: Iterable[object]) -> ReadFault:
     """No such column, with what there is."""
-    names = [str(n) for n in available]
-    shown = ", ".join(names[:30]) + (f", ... ({len(names)} in all)" if len(names) > 30 else "")
-    return ReadFault(f"column {name!r}: the file has no such column; it has {shown}")
+    names = [shown(str(n)) for n in available]
+    some = ", ".join(names[:30]) + (f", ... ({len(names)} in all)" if len(names) > 30 else "")
+    return ReadFault(f"column {name!r}: the file has no such column; it has {some[:MOST_SHOWN]}")
 
 
 def aligned(signals: Mapping[str, tuple[np.ndarray, np.ndarray | None]], align: str | None) -> dict[str, np.ndarray]:

@@ -12,7 +12,7 @@ from typing import TextIO
 import numpy as np
 import pandas as pd
 
-from discrepancy.campaign.readers import Options, ReadFault, missing_column
+from discrepancy.campaign.readers import MOST_UNPACKED, Options, ReadFault, missing_column
 
 # In this order: a comma may be the decimal sign, so it is tried last.
 DELIMITERS = (";", "\t", "|", ",")
@@ -71,6 +71,8 @@ def scan(path: Path) -> tuple[str, list[int]]:
     UTF-8 where the file is; else what Windows programs write (micro and degree signs, "Unicode
     text").  pandas' own comments would also cut a column name like "sensor #1".
     """
+    if path.suffix.lower() == ".gz":
+        require_unpacked_size(path)
     with (gzip.open if path.suffix.lower() == ".gz" else open)(path, "rb") as file:
         wide = file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
     encodings = ("utf-16",) if wide else ("utf-8-sig", "cp1252")
@@ -81,6 +83,15 @@ def scan(path: Path) -> tuple[str, list[int]]:
         except UnicodeDecodeError:
             continue
     raise ReadFault("not a text in UTF-8, UTF-16 or Windows-1252; export it as UTF-8, or state its format")
+
+
+def require_unpacked_size(path: Path) -> None:
+    size = 0
+    with gzip.open(path, "rb") as file:
+        while block := file.read(1 << 20):
+            size += len(block)
+            if size > MOST_UNPACKED:
+                raise ReadFault(f"unpacked it has more than {MOST_UNPACKED / 1e9:g} GB; export less at a time")
 
 
 def opened(path: Path, encoding: str) -> TextIO:

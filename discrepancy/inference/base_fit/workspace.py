@@ -121,8 +121,8 @@ class Workspace:
         self.raw_nuisance = self._everywhere(nuisances, values)
         jacobian = self._stack(self.raw_nuisance)
         self.base = fit_of(nuisances, values, self.residual(values), jacobian)
-        # nuisances that no training record can see (mounting phases of held-out runs)
-        self.blind = [k for k in range(len(nuisances)) if not np.any(jacobian[:, k])]
+        # nuisances that no training record can see (mounting phases of held-out runs), and of which nothing is known otherwise
+        self.blind = [k for k, p in enumerate(nuisances) if p.prior is None and not np.any(jacobian[:, k])]
         return self.base
 
     def _nuisances_from(self, values: Mapping[str, float], raw: Sequence[Mapping[int, Floats]]) -> dict[str, float]:

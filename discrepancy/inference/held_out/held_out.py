@@ -108,8 +108,20 @@ class HeldOutJudge:
         before, width = self.error(self.space.base.values)
         after, _ = self.error(rival.fit.values)
         dof = effective_dof(self.space, self._shares())
-        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fisher.sf(after / width, width, dof)),
+        known = self.directions.T @ self._raw(rival.fit.values)
+        # What the fit does not know it foretells no better: noise, and the uncertainty of its parameters.
+        spread = self.directions.T @ self._sensitivities(rival)
+        expected = np.eye(width) + spread @ rival.covariance @ spread.T
+        unexplained = float(known @ np.linalg.solve(expected, known))
+        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fisher.sf(unexplained / width, width, dof)),
                        self.rms(rival.fit.values), "held-out runs")
+
+    def _sensitivities(self, rival: Refit) -> Floats:
+        """Derivatives of the held-out runs by the fit's parameters: those of nuisances at the base fit."""
+        space, own = self.space, {p.name for p in rival.own}
+        nuisances = {p.name: columns for p, columns in zip(space.model.nuisances, space.raw_nuisance)}
+        raw = [space.column(rival.fit.values, p, self.indices) if p.name in own else nuisances.get(p.name, {}) for p in rival.fit.parameters]
+        return np.column_stack([self._stack({i: c for i, c in columns.items() if i in self.rows}) for columns in raw])
 
     def _shares(self) -> dict[tuple[str, str], float]:
         """Share of each part of the noise in the common directions."""

@@ -9,7 +9,8 @@ from scipy.stats import t as student
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import UNDETERMINED, Refit
-from discrepancy.problem import Parameter
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.arrays import Floats
 
 MARGIN = 6.0
 """Difference of chi-square within which an effect stays in the set."""
@@ -27,16 +28,20 @@ FORM = 5e-4
 """Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
 
 
-def implausible(rival: Refit) -> float:
-    """Chi-square of the amplitudes' disagreement with their plausible range."""
-    amplitudes = [p for c in rival.candidates for p in c.amplitudes]
-    sizes = (abs(rival.fit.values[p.name] - p.off) / (PLAUSIBLE * p.scale) for p in amplitudes)
-    return float(sum((np.log10(max(size, 1.0)) / DECADE) ** 2 for size in sizes))
+def implausible(sizes: Floats) -> float:
+    """Chi-square of the disagreement of amplitudes with their plausible range, from their sizes in units of ``Parameter.scale``."""
+    return float(np.sum((np.log10(np.maximum(np.abs(sizes) / PLAUSIBLE, 1.0)) / DECADE) ** 2))
+
+
+def price(candidate: Candidate, sizes: Floats) -> float:
+    """What a candidate's parameters cost (a flexible effect imitates a stiff one, not the other way round) and their implausible ``sizes``."""
+    return PER_PARAMETER * len(candidate.parameters) + implausible(sizes)
 
 
 def penalised(rival: Refit) -> float:
-    """Chi-square with a price for parameters (a flexible effect imitates a stiff one, not the other way round) and for implausible sizes."""
-    return rival.fit.chi2 + PER_PARAMETER * len(rival.own) + implausible(rival)
+    """Chi-square with the price of what is fitted."""
+    values = rival.fit.values
+    return rival.fit.chi2 + sum(price(c, np.array([(values[p.name] - p.off) / p.scale for p in c.amplitudes])) for c in rival.candidates)
 
 
 def ends_at_a_bound(rival: Refit) -> bool:

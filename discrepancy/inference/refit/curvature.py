@@ -12,7 +12,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.problem import Candidate
+from discrepancy.problem import Candidate, near
 from fmu_src.arrays import Floats
 
 # The first axes are those of the derivatives; the second time they are the right ones.
@@ -51,7 +51,8 @@ def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequenc
         shares = (moved[places] - x[places]) / np.where(step == 0.0, 1.0, sense * step * part.scale)
         share = float(np.min(np.where(step == 0.0, 1.0, shares)))
         moved[places] = x[places] + share * sense * step * part.scale
-        ends.append(space.residual(box.named(moved)))
+        with near(box.named(x)):
+            ends.append(space.residual(box.named(moved)))
         parts.append(share)
     whole = parts[0] + parts[1]
     return (ends[1] - ends[0]) / whole if whole > 0.0 else np.zeros_like(ends[0])

@@ -11,7 +11,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, other_starts
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
 
 MISLED = 0.2
@@ -183,7 +183,8 @@ def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12)
             scaled = scaled + damping * np.diag(np.maximum(np.diag(scaled), 1e-9 * (np.max(np.diag(scaled)) + 1e-300)))
             step = box.step(x, scaled, gradient * box.scale)
             trial = np.clip(x + step, box.lower, box.upper)
-            new, new_r = total(trial)
+            with near(frozen.theta | box.named(x)):
+                new, new_r = total(trial)
             if np.isfinite(new) and new < cost:
                 better = True
                 break
@@ -230,7 +231,8 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
         step = box.step(x, normal, box.scale * (columns.T @ r - box.prior_gradient(x)))
         for part in (1.0, 0.4, 0.1):
             trial = np.clip(x + part * step, box.lower, box.upper)
-            new, new_r = cost_of(trial)
+            with near(box.named(x)):
+                new, new_r = cost_of(trial)
             if new < cost:
                 break
         gain = cost - new

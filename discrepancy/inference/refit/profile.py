@@ -11,6 +11,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import Refit
+from discrepancy.problem import near
 from fmu_src.arrays import Floats
 
 # Places in standard deviations of the linear interval.
@@ -55,10 +56,12 @@ def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndar
     rest = Box([fit.parameters[j] for j in others])
     normal = fit.normal[np.ix_(others, others)] * np.outer(rest.scale, rest.scale)
     x[others] += rest.step(x[others], normal, -rest.scale * fit.normal[others, k] * (value - best[k]))
-    residual = space.residual(box.named(x))
+    with near(fit.values):
+        residual = space.residual(box.named(x))
     first = float(residual @ residual) + box.prior_cost(x)
     # What the sensitivities did not foretell, the others follow once more.
     gradient = fit.jacobian[:, others].T @ residual - box.prior_gradient(x)[others]
     x[others] += rest.step(x[others], normal, rest.scale * gradient)
-    residual = space.residual(box.named(x))
+    with near(fit.values):
+        residual = space.residual(box.named(x))
     return min(first, float(residual @ residual) + box.prior_cost(x))

@@ -285,6 +285,16 @@ def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
     return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
 
 
+def bounded_gain(columns: Columns, fit: Fit, score: Score, amplitudes: Sequence[Parameter]) -> tuple[float, Floats]:
+    """Gain in chi-square of one effect alone, linear, with its amplitudes drawn into their bounds, and their sizes before."""
+    chosen = columns.values[:, columns.blocks[score.best_block].columns]
+    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    slope = chosen.T @ fit.settled
+    free = np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ slope
+    inside = np.clip(free, [(p.lower - p.off) / p.scale for p in amplitudes], [(p.upper - p.off) / p.scale for p in amplitudes])
+    return float(2.0 * inside @ slope - inside @ gram @ inside), free
+
+
 def _tail(value: float, sims: Floats, width: int, dof: float) -> float:
     """Probability under the null: counted, beyond the 99th percentile continued with the law of F."""
     draws = sims.size

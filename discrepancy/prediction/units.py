@@ -1,0 +1,146 @@
+"""Records of a reducer's two units, set up for the bench at stated conditions."""
+
+import math
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+
+from fmu_src.arrays import Floats
+from fmu_src.faults import RunFault
+from fmu_src.threads import Once
+from fmu_src.variables import Table
+from reducers.reducer import Reducer
+from rv_plant import plant
+from rv_plant.faults import FAULTS
+from rv_plant.gear_stage import total_ratio
+from rv_plant.needle_bearing import cage_rate
+from wear_fmu import accumulator
+from wear_fmu.variables import Resolution
+
+# Out-of-balance force over load: errors of 1e-5 arcsec.
+TOLERANCE = 1e-7
+KEPT_RUNS = 4000
+# The values that a run depends on, by name.
+Relevant = tuple[tuple[str, float], ...]
+Run = TypeVar("Run")
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What the bench is set to; SI units.  ``direction`` +1 or -1 of rotation and of the torque that opposes it."""
+
+    speed: float
+    load: float
+    temperature: float = 293.15
+    hours: float = 0.0
+    direction: int = 1
+
+
+class Units:
+    """Both units of one reducer with settings; every method takes the values of further parameters.
+
+    Runs are kept, so that parameters that a run does not depend on cost nothing.
+    """
+
+    def __init__(self, reducer: Reducer, settings: Mapping[str, float], resolution: Resolution):
+        self.reducer = replace(reducer, resolution=resolution)
+        self.tables: tuple[Table, Table] = (self.reducer.plant, self.reducer.wear)
+        self.templates = []
+        for table in self.tables:
+            records = table.new_records()
+            for name, value in settings.items():
+                if name in table.by_name:
+                    records[name] = value
+            if "tolerance" in table.by_name:
+                records["tolerance"] = TOLERANCE
+            self.templates.append(records)
+        self.runs = Once(KEPT_RUNS)
+        topology = reducer.topology
+        self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
+        self.rated_speed = float(self.templates[0]["input_speed"][0])
+        self.rated_load = float(self.templates[0]["load_torque"][0])
+
+    def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
+        """The run under ``key``, made if there is none yet."""
+        return self.runs.get(key, make)
+
+    def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
+        """The values that a run depends on, without those that stand at their start."""
+        tables = self.tables if worn else self.tables[:1]
+        templates = self.templates if worn else self.templates[:1]
+        return tuple(sorted(
+            (name, value) for name, value in values.items()
+            if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
+        ))  # fmt: skip
+
+    def away(self, values: Mapping[str, float]) -> dict[str, float]:
+        """By name how far the plant's values are off the base model's."""
+        start = self.templates[0]
+        return {name: value - float(start[name].flat[0]) for name, value in self.relevant(values, False)}
+
+    def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
+             **plant_values: float | Floats) -> tuple[np.ndarray, np.ndarray]:
+        """Records of both units, initialised at a condition and an output angle [rad].
+
+        ``cage`` is how far the roller cages stand ahead of where rolling from 0 brings them [rad].
+        """
+        plants = self.new_plant(condition, values, first_angle, cage, **plant_values)
+        wears = self.set_up(1, values, condition)
+        for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
+            wears[name] = plants[name]
+        fault = accumulator.initialise(wears)
+        if fault:
+            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+        return plants, wears
+
+    def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
+        """Records of a unit (0 plant, 1 wear) with values and the condition's temperature."""
+        records = self.templates[unit].copy()
+        for name, value in values.items():
+            if name in self.tables[unit].by_name:
+                records[name] = value
+        records["temperature"] = condition.temperature
+        return records
+
+    def new_plant(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
+                  **plant_values: float | Floats) -> np.ndarray:
+        """The plant's records, see ``pair``: all that runs of a new unit need."""
+        plants = self.set_up(0, values, condition)
+        plants["input_speed"] = self.input_speed(condition)
+        plants["load_torque"] = condition.direction * condition.load
+        plants["ideal_output"] = first_angle
+        # Where the cages have rolled with the output from 0.
+        rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
+        plants["cage"] = rate * within_turn(first_angle) + cage
+        if "grease_age" in self.tables[0].by_name:
+            plants["grease_age"] = condition.hours
+        for name, value in plant_values.items():
+            plants[name] = value
+        fault = plant.initialise(plants)
+        if fault:
+            raise RunFault(FAULTS[fault].format(**scalars(self.tables[0], plants)))
+        return plants
+
+    def input_speed(self, condition: Condition) -> float:
+        """Speed of the sun [rad/s] with its sign."""
+        return condition.direction * condition.speed * (1.0 if self.ratio > 0.0 else -1.0)
+
+    def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
+        for code, faults, table, records in zip(status, (FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
+            if code:
+                raise RunFault(faults[code].format(**scalars(table, records)))
+
+    def turning_time(self, condition: Condition) -> float:
+        """Time of one turn of the cranks in the housing [s]."""
+        return 2.0 * math.pi * abs(self.ratio) / (condition.speed * self.reducer.topology.lobes)
+
+
+def within_turn(angle: float) -> float:
+    """The same place of the output by the shorter way from 0 [rad]."""
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
+    return {v.name: records[v.name][0] for v in table.variables if not v.shape}
