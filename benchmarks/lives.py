@@ -14,7 +14,9 @@ import numpy as np
 
 from benchmarks.ratios import Curve, Figure, Measured, Ratio, cost_at
 from fmu_src.package import build_native
+from orchestrator.settings import Setting
 from reducers.reducer import Reducer, load_reducer
+from rv_plant.faults import DYNAMIC
 from studies.coupled_master import CoupledMaster
 from studies.life import HOUR, Life, LifeSettings, depths, live, run_cycle
 from studies.pair import Pair, make_pair
@@ -32,6 +34,11 @@ MEASURED_CYCLES = 10
 def in_process(reducer: Reducer) -> Pair:
     """As ``rvwear life`` runs it."""
     return make_pair(reducer, master_kind=CoupledMaster)
+
+
+def in_motion(reducer: Reducer) -> Pair:
+    """Bodies in motion with the reducer's own damping."""
+    return make_pair(reducer, [Setting("fidelity", DYNAMIC)], master_kind=CoupledMaster)
 
 
 def timed(function: Callable[[], object]) -> float:
@@ -121,6 +128,11 @@ def measure_one(found: Measured, name: str, quick: bool) -> None:
                               PUBLISHED_FACTOR, note=f"extrapolated: {cycles:.3g} cycles from {MEASURED_CYCLES}"))
     found.figures.append(Figure("life", f"{work}, in process, error control at {TOLERANCE:.0%}", seconds, "s",
                                 at_most=5.0, note=f"error {error:.2%}"))
+    if not quick:
+        moved, seconds = controlled(in_motion(reducer), hours, TOLERANCE)
+        finer, _ = controlled(in_motion(reducer), hours, TOLERANCE / 10.0)
+        found.figures.append(Figure("life", f"{work}, in motion, error control at {TOLERANCE:.0%}", seconds, "s", at_most=60.0,
+                                    note=f"{error_of(moved, finer):.2%} from a life at a tenth of the tolerance"))
     native = through_native(reducer, hours)
     if native is not None:
         found.figures.append(Figure("life", f"{work}, native FMUs", native[1], "s", at_most=10.0,

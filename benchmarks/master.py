@@ -33,7 +33,7 @@ STRANGERS = Path(__file__).resolve().parents[1] / "tests" / "strangers"
 # Steps of a burst.
 BURST = 100
 # simulate_ssp sends zero before the first step, and no reducer runs at 0 K.
-EXCHANGED = [pair for pair in CONNECTIONS if pair[1] != "wear.temperature"]
+EXCHANGED = [pair for pair in CONNECTIONS if not pair[1].startswith("wear.heat.")]
 
 
 def ours(package: Path, h: float, steps: int) -> tuple[float, float]:
@@ -63,7 +63,7 @@ def timed(function: Callable[[float, float], object], total: list[float]) -> Cal
 
 
 def stranger(script: str, source: Path, h: float, steps: int) -> float | None:
-    command = [sys.executable, STRANGERS / script, source, repr(h), str(steps), "plant.output_angle"]
+    command = [sys.executable, STRANGERS / script, source, repr(h), str(steps), "plant.output.angle"]
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode != 0:
         print(f"{script}: {done.stderr.strip().splitlines()[-1:]}", file=sys.stderr)
@@ -127,7 +127,7 @@ def main() -> None:
 
 def sizes(reducer: Reducer) -> list[tuple[int, ...]]:
     tables = {"plant": reducer.plant, "wear": reducer.wear}
-    return [tables[a.partition(".")[0]].by_name[a.partition(".")[2]].shape for a, _ in EXCHANGED]
+    return [tables[a.partition(".")[0]].by_path[a.partition(".")[2]].shape for a, _ in EXCHANGED]
 
 
 if __name__ == "__main__":

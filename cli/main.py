@@ -9,13 +9,15 @@ Help and completion answer at once: a command imports what it computes with when
 import argparse
 import io
 import sys
+import warnings
+from typing import Any
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, hear_termination, reader_is_gone, silence
 from cli.progress import new_screen
 from fmu_src.checked_file import OF_THE_DISK
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
@@ -42,7 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        with told_to(new_screen()):
+        with told_to(new_screen()), warnings.catch_warnings():
+            say_old_names()
             code = int(options.run(options))
         sys.stdout.flush()
         return code
@@ -76,6 +79,20 @@ def ended_by(problem: OSError, command: str) -> int:
     # What could not be printed cannot be printed at the end either.
     silence()
     return 1
+
+
+def say_old_names() -> None:
+    """Each old name that a file or setting still has, once, in a line of its own."""
+    others = warnings.showwarning
+
+    def say(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, OldName):
+            print(f"warning: {message}", file=sys.stderr)
+        else:
+            others(message, category, *where, **more)
+
+    warnings.filterwarnings("once", category=OldName)
+    warnings.showwarning = say
 
 
 def print_whatever_the_console_can() -> None:

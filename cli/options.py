@@ -22,12 +22,12 @@ REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_RED
 
 # Options that are shorthands of settings: option -> (variable, unit).
 SHORTHANDS = {
-    "torque": ("load_torque", "N.m"),
-    "bearing_clearance": ("bearing_clearance", "um"),
-    "equidistant": ("equidistant_modification", "um"),
-    "shift": ("shift_modification", "um"),
-    "stiffness_reading": ("stiffness_reading", ""),
-    "contact_law": ("contact_law", ""),
+    "torque": ("output.load_torque", "N.m"),
+    "bearing_clearance": ("bearing.clearance", "um"),
+    "equidistant": ("disc.equidistant_modification", "um"),
+    "shift": ("disc.shift_modification", "um"),
+    "stiffness_reading": ("contact.stiffness_reading", ""),
+    "contact_law": ("contact.law", ""),
 }
 
 
@@ -49,7 +49,7 @@ def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True
     command.add_argument("--contact-law", metavar="LAW", help="line, lankarani-nikravesh or palmgren")
     command.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE",
-        help="any parameter or input, with a unit if it is not SI: --set pin_radius_error[3]=2um",
+        help="any parameter or input, with a unit if it is not SI: --set errors.pin.radius[3]=2um",
     )  # fmt: skip
     if positions:
         command.add_argument("--positions", type=int, default=72, help="equilibria per crank turn (default 72)")

@@ -5,10 +5,10 @@
     reducer = "RV20E-121"
 
     [settings]
-    bearing_clearance = "3 um"
+    bearing.clearance = "3 um"
 
     [effects.needle_clearance]
-    needle_clearance_added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
+    added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
 
     [[steps]]                       # the ladder, one entry per attempt
 """
@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable
 
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
@@ -26,6 +26,7 @@ from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault, nearest
+from fmu_src.names import dotted, last_part, warn_of_old_name
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
 from fmu_src.strict_file import NAME, Strict, described, validated
@@ -86,6 +87,11 @@ class Content(Strict):
     settings: dict[str, str | float | int] = {}
     effects: dict[str, dict[str, Any]] = {}
     steps: list[StepEntry] = []
+
+    @field_validator("settings", mode="before")
+    @classmethod
+    def by_structured_name(cls, given: Any) -> Any:
+        return dotted(given) if isinstance(given, dict) else given
 
 
 @dataclass(frozen=True)
@@ -151,7 +157,8 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
     settings = {}
     for name, text in stated.settings.items():
         try:
-            settings[name] = parse_setting(f"{name}={text}", tables).value
+            setting = parse_setting(f"{name}={text}", tables)
+            settings[setting.name] = setting.value
         except InputFault as problem:
             raise InputFault(f"{path}: settings.{name}: {problem}") from None
     known = every_effect()
@@ -162,17 +169,18 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
                 f"{path}: effects.{shown(name)}: there is no such effect{nearest(name, known, 1)}; `rvwear effects` lists those there are, your own"
                 f" with {USER_EFFECTS}=DIR"
             )
-        effects[name] = {key: number_of(known[name], key, entry, f"{path}: effects.{name}.{shown(key)}") for key, entry in parameters.items()}
+        effects[name] = {}
+        for written, entry in parameters.items():
+            place = f"{path}: effects.{name}"
+            key = parameter_of(known[name], written, place)
+            effects[name][key] = number_of(known[name], key, entry, f"{place}.{shown(written)}")
     # As they stand in the file, where they are shown from.
     return ModelFile(stated.model.name, reducer, settings, effects, tuple(content.get("steps", ())), path)
 
 
 def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any]:
-    """A parameter's value and interval in its own unit, within its bounds."""
-    have = {p.variable.name: p.variable for p in effect.parameters}
-    variable = have.get(key.partition("[")[0])
-    if variable is None:
-        raise InputFault(f"{place}: the effect has {', '.join(sorted(have))}{nearest(key, have, 1)}")
+    """A parameter's value and interval in its own unit, within its bounds; ``key`` is what kernels call it."""
+    variable = next(p.variable for p in effect.parameters if p.variable.name == key.partition("[")[0])
     if not isinstance(entry, dict) or "value" not in entry:
         raise InputFault(f'{place} = {quoted(entry)}: write {{ value = ..., unit = "..." }}')
     unknown = sorted(entry.keys() - set(Number.model_fields))
@@ -182,7 +190,7 @@ def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any
         number = Number(**entry)
         factor, offset = conversion(number.unit or variable.unit, variable.unit)
         numbers = {name: factor * value + offset for name in ("value", "low", "high") if (value := getattr(number, name)) is not None}
-        variable.check(numbers["value"], key)
+        variable.check(numbers["value"])
     except ValidationError as problem:
         raise InputFault(f"{place}.{described(problem, Number, entry)}") from None
     except (UnitError, ValueFault) as problem:
@@ -190,14 +198,40 @@ def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any
     return {"value": numbers["value"], "unit": variable.unit} | numbers
 
 
+def parameter_of(effect: Effect, written: str, place: str) -> str:
+    """What kernels call the parameter (or an element of it) of an effect that a file calls so."""
+    base, bracket, rest = written.partition("[")
+    short = {last_part(p.variable.path): p.variable.name for p in effect.parameters}
+    if base in short:
+        return short[base] + bracket + rest
+    new = next((name for name, old in short.items() if old == base), None)
+    if new is None:
+        raise InputFault(f"{place}.{shown(written)}: the effect has {', '.join(sorted(short))}{nearest(base, short, 1)}")
+    warn_of_old_name(base, new, place)
+    return written
+
+
+def written_name(effect: Effect, parameter: str) -> str:
+    """What a file calls the parameter that kernels call so."""
+    base, bracket, rest = parameter.partition("[")
+    return next(last_part(p.variable.path) for p in effect.parameters if p.variable.name == base) + bracket + rest
+
+
 def save_model(model: ModelFile, path: Path) -> None:
     """Write the model; the file is replaced at once, never left half written."""
     document = tomlkit.document()
     document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
     if model.settings:
-        document["settings"] = {name: as_read(model.reducer, name, value) for name, value in model.settings.items()}
+        settings = tomlkit.table()
+        for name, value in model.settings.items():
+            written, given = as_read(model.reducer, name, value)
+            settings.add(tomlkit.key(written.split(".")), given)
+        document["settings"] = settings
     if model.effects:
-        document["effects"] = {name: {k: inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()}
+        known = every_effect()
+        document["effects"] = {
+            name: {written_name(known[name], k): inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()
+        }
     if model.steps:
         steps = tomlkit.aot()
         for step in model.steps:
@@ -206,10 +240,11 @@ def save_model(model: ModelFile, path: Path) -> None:
     write_text(path, tomlkit.dumps(document))
 
 
-def as_read(reducer: Reducer, name: str, value: float | int) -> float | int | str:
-    """A setting as ``load_model`` takes it: a choice by its name, a number in the variable's unit."""
-    variable = next(t.by_name[name.partition("[")[0]] for t in (reducer.plant, reducer.wear) if name.partition("[")[0] in t.by_name)
-    return variable.choices[int(value)] if variable.choices else value
+def as_read(reducer: Reducer, name: str, value: float | int) -> tuple[str, float | int | str]:
+    """A setting as ``load_model`` takes it: structured name, and a choice by its name or a number in the variable's unit."""
+    base, bracket, rest = name.partition("[")
+    variable = next(t.by_name[base] for t in (reducer.plant, reducer.wear) if base in t.by_name)
+    return variable.path + bracket + rest, variable.choices[int(value)] if variable.choices else value
 
 
 def extended_reducer(file: ModelFile) -> Reducer:

@@ -4,6 +4,6 @@ from orchestrator.system import load
 
 system = load("dist/RvReducer.ssp")
 system["wear.acceleration"] = 1e6
-system["plant.load_torque"] = "150 N.m"
-series = system.run(duration=0.2, record=["plant.lag", "wear.flank_depth"])
-print(f"lag {series['plant.lag'][-1]:.4g} rad, deepest flank {series['wear.flank_depth'][-1].max():.3g} m")
+system["plant.output.load_torque"] = "150 N.m"
+series = system.run(duration=0.2, record=["plant.output.lag", "wear.flank.depth"])
+print(f"lag {series['plant.output.lag'][-1]:.4g} rad, deepest flank {series['wear.flank.depth'][-1].max():.3g} m")

@@ -36,7 +36,7 @@ int main(int count, char **arguments)
     if (!library)
         return fprintf(stderr, "cannot load %s\n", path), 2;
     fmi2CallbackFunctions callbacks = {say, calloc, free, NULL, NULL};
-    fmi2ValueReference lag = (unsigned)strtoul(strstr(strstr(text, "name=\"lag\""), "valueReference=") + 16, NULL, 10);
+    fmi2ValueReference lag = (unsigned)strtoul(strstr(strstr(text, "name=\"output.lag\""), "valueReference=") + 16, NULL, 10);
     fmi2Component plant = FIND(library, fmi2Instantiate)("plant", fmi2CoSimulation, guid, "", &callbacks, fmi2False, fmi2True);
     if (!plant || FIND(library, fmi2SetupExperiment)(plant, fmi2False, 0, 0, fmi2False, 0) ||
         FIND(library, fmi2EnterInitializationMode)(plant) || FIND(library, fmi2ExitInitializationMode)(plant))

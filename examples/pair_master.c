@@ -36,12 +36,12 @@ struct connection {
 };
 
 static const char *TO_WEAR[][2] = {
-    {"crank_angle", "crank_angle"}, {"crank_speed", "crank_speed"}, {"output_angle", "output_angle"}, {"cage_angle", "cage_angle"},
-    {"crank_path", "crank_path"}, {"mesh_force_path", "mesh_force_path"}, {"roller_force_path", "roller_force_path"},
-    {"reducer_temperature", "temperature"},
+    {"crank.angle", "crank.angle"}, {"crank.speed", "crank.speed"}, {"output.angle", "output.angle"}, {"cage.angle", "cage.angle"},
+    {"crank.path", "crank.path"}, {"mesh.force_path", "mesh.force_path"}, {"roller.force_path", "roller.force_path"},
+    {"heat.contact_temperature", "heat.contact_temperature"},
 };
 static const char *TO_PLANT[] = {
-    "profile_angle", "mesh_profile_error", "roller_profile_error", "mesh_profile_slope", "roller_profile_slope",
+    "profile.angle", "mesh.profile_error", "roller.profile_error", "mesh.profile_slope", "roller.profile_slope",
 };
 #define COUNT(array) (sizeof array / sizeof *array)
 
@@ -235,9 +235,9 @@ int main(int count, char **arguments)
         }
         step(&wear, time, duration);
     }
-    print(&wear, "flank_depth");
-    print(&wear, "inner_race_depth");
-    print(&wear, "outer_race_depth");
+    print(&wear, "flank.depth");
+    print(&wear, "inner_race.depth");
+    print(&wear, "outer_race.depth");
 
     for (size_t i = 0; i < COUNT(forward); i++)
         free(forward[i].values);

@@ -2,16 +2,20 @@
 
 import hashlib
 import json
+from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from fmu_src.display import display_unit, displays
 from fmu_src.project import Project
 from fmu_src.unit import LOG_CATEGORIES, Specification
 from fmu_src.units import fmi_base_unit
-from fmu_src.variables import Table, Variable
+from fmu_src.variables import SETTABLE, Table, Variable
 
-CAUSALITY = {"input": "input", "parameter": "parameter", "output": "output"}
+# Relative accuracy of forces and depths at the default step.  The units hold their own error bounds (``numerics``), whatever step
+# or tolerance a master asks for.
+TOLERANCE = "0.001"
 
 
 def guid(specification: Specification, code_hash: str) -> str:
@@ -26,7 +30,7 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
 
     All outputs are states of the unit: within a communication point no output depends
     on an input, so the ModelStructure declares empty dependencies.  Their initial values
-    are computed from inputs and parameters alike, unless ``starts_from_nothing``.
+    are computed from inputs and parameters alike, unless the table knows better (``known_at_start``).
     """
     root = Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=table.name, guid=identity,
@@ -43,7 +47,7 @@ def model_description(table: Table, identity: str, code_hash: str, step_size: fl
     add_units(root, variables)
     add_types(root, variables)
     add_log_categories(root)
-    SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(72 * step_size), stepSize=repr(step_size))
+    add_experiment(root, step_size)
     add_variables(root, table, variables)
     return root
 
@@ -54,11 +58,23 @@ def add_log_categories(root: Element) -> None:
         SubElement(categories, "Category", name=name, description=text)
 
 
-def add_units(root: Element, variables: list[Variable]) -> None:
+def add_experiment(root: Element, step_size: float) -> None:
+    """One crank turn in steps of the size that ``step_size`` [s] suggests."""
+    times = {"startTime": "0", "stopTime": repr(72 * step_size), "stepSize": repr(step_size)}
+    SubElement(root, "DefaultExperiment", times | {"tolerance": TOLERANCE})
+
+
+def add_units(root: Element, variables: list[Variable], inverses: bool = False) -> None:
+    """Units by what they are made of, each with those that it may be shown in; FMI 3 alone knows ``inverses``."""
     definitions = SubElement(root, "UnitDefinitions")
     for unit in sorted({v.unit for v in variables if v.unit != "1" and not v.is_integer}):
         attributes = {k: repr(v) if k in ("factor", "offset") else f"{v:g}" for k, v in fmi_base_unit(unit).items()}
-        SubElement(SubElement(definitions, "Unit", name=unit), "BaseUnit", attributes)
+        element = SubElement(definitions, "Unit", name=unit)
+        SubElement(element, "BaseUnit", attributes)
+        for shown in displays(unit):
+            if inverses or not shown.inverse:
+                how = {"offset": repr(shown.offset)} if shown.offset else {"inverse": "true"} if shown.inverse else {}
+                SubElement(element, "DisplayUnit", {"name": shown.name, "factor": repr(shown.factor), **how})
 
 
 def add_types(root: Element, variables: list[Variable]) -> None:
@@ -79,7 +95,7 @@ def type_name(variable: Variable) -> str:
 def add_variables(root: Element, table: Table, variables: list[Variable]) -> None:
     """ModelVariables and ModelStructure; the value reference is the cell of the record."""
     model_variables = SubElement(root, "ModelVariables")
-    unknowns = []
+    positions: dict[str, list[int]] = {}
     position = 0
     for v in variables:
         starts = np.broadcast_to(v.start, v.shape).ravel()
@@ -87,30 +103,38 @@ def add_variables(root: Element, table: Table, variables: list[Variable]) -> Non
             position += 1
             attributes = {
                 "name": name, "valueReference": str(table.offset[v.name] + i), "description": v.description,
-                "causality": CAUSALITY[v.role], "variability": v.variability,
+                "causality": v.role, "variability": v.variability,
             }
-            if v.role == "output":
+            if v.role not in SETTABLE:
                 attributes["initial"] = "calculated"
-                unknowns.append(position)
             elif v.role == "parameter":
                 attributes["initial"] = "exact"
             scalar = SubElement(model_variables, "ScalarVariable", attributes)
             add_type(scalar, v, starts[i])
+            positions.setdefault(v.name, []).append(position)
     structure = SubElement(root, "ModelStructure")
     outputs = SubElement(structure, "Outputs")
     initial = SubElement(structure, "InitialUnknowns")
-    for position in unknowns:
-        SubElement(outputs, "Unknown", index=str(position), dependencies="")
-        SubElement(initial, "Unknown", {"index": str(position), **starts_from(table)})
+    for v in table.of_role("output"):
+        known = starts_from(table, v, positions)
+        for position in positions[v.name]:
+            SubElement(outputs, "Unknown", index=str(position), dependencies="")
+            SubElement(initial, "Unknown", {"index": str(position), **known})
 
 
-def starts_from(table: Table) -> dict[str, str]:
-    """Dependencies of initial values: none declared means "depends on all"; new surfaces depend on nothing."""
-    return {"dependencies": ""} if table.starts_from_nothing else {}
+def starts_from(table: Table, v: Variable, numbers: Mapping[str, Iterable[int]]) -> dict[str, str]:
+    """What the initial value is computed from, by the numbers of the variables; none declared means "depends on all"."""
+    known = table.known_at_start.get(v.name)
+    return {} if known is None else {"dependencies": " ".join(str(n) for name in known for n in numbers[name])}
 
 
 def number(v: Variable, value: float) -> str:
     return str(int(value)) if v.is_integer else repr(float(value))
+
+
+def shown_in(v: Variable) -> dict[str, str]:
+    name = display_unit(v)
+    return {"displayUnit": name} if name else {}
 
 
 def limits_of(v: Variable) -> dict[str, str]:
@@ -130,7 +154,8 @@ def add_type(scalar: Element, v: Variable, start: float) -> None:
         kind = "Real"
         if v.unit != "1":
             attributes["unit"] = v.unit
+            attributes |= shown_in(v)
     attributes |= limits_of(v)
-    if v.role != "output":
+    if v.role in SETTABLE:
         attributes["start"] = number(v, start)
     SubElement(scalar, kind, attributes)

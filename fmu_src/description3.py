@@ -1,12 +1,12 @@
-"""FMI 3.0 model description from a table of variables: arrays stay arrays, surfaces are outputs."""
+"""FMI 3.0 model description from a table of variables: arrays stay arrays, surfaces are local variables."""
 
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-from fmu_src.description import CAUSALITY, add_log_categories, add_units, limits_of, number, starts_from, type_name
+from fmu_src.description import add_experiment, add_log_categories, add_units, limits_of, number, shown_in, starts_from, type_name
 from fmu_src.project import Project
-from fmu_src.variables import Table, Variable
+from fmu_src.variables import SETTABLE, Table, Variable
 
 
 def model_description3(table: Table, identity: str, code_hash: str, step_size: float, tool: str, made_by: Project) -> Element:
@@ -22,10 +22,10 @@ def model_description3(table: Table, identity: str, code_hash: str, step_size: f
         canHandleVariableCommunicationStepSize="true",
     )
     variables = [v for v in table.variables if table.is_visible(v)]
-    add_units(root, variables)
+    add_units(root, variables, inverses=True)
     add_types3(root, variables)
     add_log_categories(root)
-    SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(72 * step_size), stepSize=repr(step_size))
+    add_experiment(root, step_size)
     add_variables3(root, table, variables)
     return root
 
@@ -48,31 +48,30 @@ def add_variables3(root: Element, table: Table, variables: list[Variable]) -> No
         model_variables, "Float64", name="time", valueReference=str(table.cell_count), causality="independent",
         variability="continuous", unit="s", description="simulation time",
     )
-    unknowns = []
     for v in variables:
-        causality = CAUSALITY.get(v.role, "output")
+        causality = "local" if v.profile else v.role
         attributes = {
-            "name": v.name, "valueReference": str(table.offset[v.name]), "description": v.description,
+            "name": v.path, "valueReference": str(table.offset[v.name]), "description": v.description,
             "causality": causality, "variability": v.variability,
-            "initial": "calculated" if causality == "output" else "exact",
+            "initial": "exact" if causality in SETTABLE else "calculated",
         }
         if v.choices:
             attributes["declaredType"] = type_name(v)
         elif v.unit != "1" and not v.is_integer:
             attributes["unit"] = v.unit
+            attributes |= shown_in(v)
         attributes |= limits_of(v)
-        if causality == "output":
-            unknowns.append(v)
-        else:
+        if causality in SETTABLE:
             attributes["start"] = " ".join(number(v, x) for x in np.broadcast_to(v.start, v.shape).ravel())
         kind = "Enumeration" if v.choices else "Int64" if v.is_integer else "Float64"
         element = SubElement(model_variables, kind, attributes)
-        for size in v.shape:
+        for _, size in v.seen_axes:
             SubElement(element, "Dimension", start=str(size))
     structure = SubElement(root, "ModelStructure")
-    for v in unknowns:
+    outputs = table.of_role("output")
+    for v in outputs:
         SubElement(structure, "Output", valueReference=str(table.offset[v.name]), dependencies="")
-    for v in unknowns:
-        # New surfaces are even: what is hidden in FMI 2 depends on nothing at the start.
-        dependencies = {"dependencies": ""} if v.profile else starts_from(table)
-        SubElement(structure, "InitialUnknown", {"valueReference": str(table.offset[v.name]), **dependencies})
+    references = {v.name: [table.offset[v.name]] for v in variables}
+    for v in outputs:
+        known = starts_from(table, v, references)
+        SubElement(structure, "InitialUnknown", {"valueReference": str(table.offset[v.name]), **known})

@@ -99,10 +99,11 @@ def amplitude(
 
 def shape(
     name: str, unit: str, text: str, start: float, low: float, high: float, source: str, grid: Iterable[float] = (), group: str = "",
+    display: str = "",
 ) -> EffectParameter:  # fmt: skip
     """A parameter that says how an effect acts once it is on; ``group`` names one group or several."""
     variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=abs(start) or 1.0,
-                        source=source)
+                        source=source, display=display)
     # A phase of 0 has no size of its own.
     scale = abs(start) or (0.3 if unit == "rad" else 0.1 * (high - low))
     return EffectParameter(variable, "shape", scale, 0, tuple(grid), group)

@@ -321,7 +321,7 @@ def owner_that_changes(hook: str, name: str, frame: Frame) -> str:
 
 
 # How a role reads in a sentence.
-ROLE = {"input": "an input", "parameter": "a parameter", "output": "an output", "state": "a state", "scratch": "work space"}
+ROLE = {"input": "an input", "parameter": "a parameter", "output": "an output", "local": "a diagnostic", "state": "a state", "scratch": "work space"}
 
 
 def meaning(v: Variable) -> str:

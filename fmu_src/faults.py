@@ -1,10 +1,15 @@
 """Errors that a user can mend."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 
 class InputFault(ValueError):
     """Bad input: says where, what, and how to mend it."""
+
+
+class OldName(FutureWarning):
+    """A name that will no longer be known in the version after the next."""
 
 
 class MissingPart(InputFault):
@@ -18,9 +23,14 @@ class RunFault(RuntimeError):
     """A run that cannot go on: says which unit, when, and what to do."""
 
 
-def nearest(name: str, known: Iterable[str], most: int = 3) -> str:
-    """The names that were perhaps meant, as the end of a message; empty if none is near."""
+def nearest(name: str, known: Iterable[str], most: int = 3, old: Mapping[str, str] = MappingProxyType({})) -> str:
+    """The names that were perhaps meant, as the end of a message; empty if none is near.
+
+    Of structured names the last part is enough, and ``old`` ones, which people may still write, lead to what they are now.
+    """
     import difflib
 
-    close = difflib.get_close_matches(name, list(known), most)
+    names = list(known)
+    meant = {name.rpartition(".")[2]: name for name in names} | dict(old) | {name: name for name in names}
+    close = dict.fromkeys(meant[k] for k in difflib.get_close_matches(name, meant, most))
     return f"; did you mean {', '.join(close)}?" if close else ""

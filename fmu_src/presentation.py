@@ -1,17 +1,13 @@
 """What a person finds inside an FMU: documentation, diagram, icon and licence."""
 
 import re
-import struct
-import zlib
-from collections.abc import Iterator
-from functools import cache
 from html import escape
 
-import numpy as np
-
-from fmu_src.arrays import Mask
+from fmu_src.display import display_unit
+from fmu_src.icons import drawing, picture, terminal_drawing, terminal_picture
 from fmu_src.link import FMI_HEADERS
 from fmu_src.project import Project
+from fmu_src.terminals import terminals_file
 from fmu_src.variables import Table, Variable
 
 STYLE = """body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#223}
@@ -27,24 +23,25 @@ def files_for_people(table: Table, fmi: str, identity: str, made_by: Project) ->
         "documentation/diagram.png": picture(512),
         "documentation/licenses/license.txt": licence(table, made_by).encode(),
     }
-    if fmi == "2.0":
-        return files | {"model.png": picture(128)}
-    return files | {"terminalsAndIcons/icon.png": picture(128), "terminalsAndIcons/terminalsAndIcons.xml": ICON_PLACE}
+    # Of FMI 3.0; importers of FMI 2.0 that do not know the folder leave it alone.
+    place, arrays = "terminalsAndIcons", fmi != "2.0"
+    files |= {
+        f"{place}/icon.png": picture(128), f"{place}/icon.svg": drawing(),
+        f"{place}/terminalsAndIcons.xml": terminals_file(table.terminals, lambda name: names_in(table, name, arrays)),
+    }  # fmt: skip
+    for icon in sorted({t.icon for t in table.terminals}):
+        files |= {f"{place}/{icon}.png": terminal_picture(icon, 64), f"{place}/{icon}.svg": terminal_drawing(icon)}
+    return files if arrays else files | {"model.png": picture(128)}
 
 
-ICON_PLACE = b"""<?xml version="1.0" encoding="UTF-8"?>
-<fmiTerminalsAndIcons fmiVersion="3.0">
-  <GraphicalRepresentation>
-    <CoordinateSystem x1="-100" y1="-100" x2="100" y2="100" suggestedScalingFactorTo_mm="0.1"/>
-    <Icon x1="-100" y1="-100" x2="100" y2="100"/>
-  </GraphicalRepresentation>
-</fmiTerminalsAndIcons>
-"""
+def names_in(table: Table, name: str, arrays: bool) -> list[str]:
+    """What a description calls a variable: an array by one name, or each element by its own."""
+    return [name] if arrays else list(table.by_path[name].element_names())
 
 
 def page(table: Table, identity: str, made_by: Project) -> str:
     """documentation/index.html: what the unit is, how it connects, every variable."""
-    sections = {"Inputs": "input", "Outputs": "output", "Parameters": "parameter"}
+    sections = {"Inputs": "input", "Outputs": "output", "Parameters": "parameter", "Diagnostics": "local"}
     parts = [
         f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{escape(table.name)}</title><style>{STYLE}</style>",
         f"<h1>{escape(table.name)}</h1><p>{escape(table.description)}.</p>{diagram(table)}",
@@ -58,18 +55,18 @@ def page(table: Table, identity: str, made_by: Project) -> str:
         parts += [f"<h2>{title}</h2>", variable_table(table.of_role(role))]
     profiles = [v for v in table.variables if v.profile]
     if profiles:
-        parts += ["<h2>Surfaces</h2><p>Array outputs in FMI 3.0.</p>", variable_table(profiles)]
+        parts += ["<h2>Surfaces</h2><p>Local arrays in FMI 3.0.</p>", variable_table(profiles)]
     return "\n".join(parts) + "\n"
 
 
 def variable_table(variables: list[Variable]) -> str:
-    rows = ["<tr><th>variable<th>unit<th>start<th>bounds<th>meaning<th>source"]
+    rows = ["<tr><th>variable<th>unit<th>shown in<th>start<th>bounds<th>meaning<th>source"]
     for v in variables:
-        shape = f"[{', '.join(f'{a} 1..{n}' for a, n in zip(v.axes, v.shape))}]" if v.shape else ""
+        shape = f"[{', '.join(f'{a} 1..{n}' for a, n in v.seen_axes)}]" if v.shape else ""
         start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
         bounds = ", ".join(v.choices) if v.choices else f"{v.minimum:.4g} to {v.maximum:.4g}"
-        cells = (v.unit, start, bounds, v.description, v.source)
-        rows.append(f"<tr><td><code>{escape(v.name)}</code>{escape(shape)}" + "".join(f"<td>{escape(c)}" for c in cells))
+        cells = (v.unit, display_unit(v), start, bounds, v.description, v.source)
+        rows.append(f"<tr><td><code>{escape(v.path)}</code>{escape(shape)}" + "".join(f"<td>{escape(c)}" for c in cells))
     return "<table>" + "\n".join(rows) + "</table>"
 
 
@@ -88,50 +85,8 @@ def diagram(table: Table) -> str:
             shape = f"[{' x '.join(map(str, v.shape))}]" if v.shape else ""
             unit = f", {v.unit}" if v.unit != "1" else ""
             parts.append(f'<path d="M{start} {y}H{end}m-7 -4l7 4l-7 4" fill="none" stroke="#456"/>')
-            parts.append(f'<text x="{label}" y="{y + 4}" text-anchor="{anchor}">{escape(v.name + shape + unit)}</text>')
+            parts.append(f'<text x="{label}" y="{y + 4}" text-anchor="{anchor}">{escape(v.path + shape + unit)}</text>')
     return "".join(parts) + "</svg>"
-
-
-@cache
-def picture(size: int) -> bytes:
-    """A cycloid disc between pins on three cranks, as PNG."""
-    fine = 4
-    axis = (np.arange(fine * size) + 0.5) / (fine * size) * 2.0 - 1.0
-    x, y = np.meshgrid(axis, -axis)
-    colours = np.zeros((fine * size, fine * size, 4))
-
-    def paint(where: Mask, colour: str) -> None:
-        colours[where] = (*(int(colour[i : i + 2], 16) for i in (1, 3, 5)), 255)
-
-    def circle(cx: float, cy: float, radius: float) -> Mask:
-        return np.hypot(x - cx, y - cy) < radius
-
-    def around(count: int, radius: float) -> Iterator[tuple[float, float]]:
-        angles = 2.0 * np.pi * np.arange(count) / count
-        return zip(radius * np.cos(angles), radius * np.sin(angles))
-
-    eccentricity, lobes = 0.05, 15
-    paint(circle(0, 0, 0.97), "#4a5d73")
-    paint(circle(0, 0, 0.88), "#dfe6ee")
-    for cx, cy in around(lobes + 1, 0.86):
-        paint(circle(cx, cy, 0.07), "#1f2d3d")
-    dx = x - eccentricity
-    radius = 0.77 - eccentricity * np.cos(lobes * np.arctan2(y, dx))
-    paint(np.hypot(dx, y) < radius, "#8fa9c4")
-    for cx, cy in around(3, 0.42):
-        paint(circle(cx + eccentricity, cy, 0.19), "#dfe6ee")
-        paint(circle(cx + eccentricity, cy, 0.13), "#c46a2b")
-        paint(circle(cx, cy, 0.06), "#1f2d3d")
-    paint(circle(eccentricity, 0, 0.15), "#dfe6ee")
-    paint(circle(0, 0, 0.08), "#1f2d3d")
-    pixels = colours.reshape(size, fine, size, fine, 4).mean((1, 3)).astype("u1")
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", size, size, 8, 6, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
 
 
 def licence(table: Table, made_by: Project) -> str:

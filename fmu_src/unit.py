@@ -96,8 +96,7 @@ class Unit:
 
     def fault_text(self, code: int, records: Records, time: float) -> str:
         """What a status code means for this record, in words."""
-        scalars = {v.name: records[v.name][0] for v in self.table.variables if not v.shape}
-        return f"{self.table.name} at time {time:.9g} s: {self.faults[code].format(**scalars)}"
+        return f"{self.table.name} at time {time:.9g} s: {self.faults[code].format(**self.table.scalars(records))}"
 
 
 def started(table: Table, specification: Specification) -> Table:

@@ -58,17 +58,18 @@ def c_array(kind: str, name: str, items: list[str]) -> str:
 
 
 def c_variable(table: Table, v: Variable) -> str:
-    if len(v.shape) > MOST_DIMENSIONS:
-        raise TableFault(f"{v.name} has {len(v.shape)} dimensions; the shell takes {MOST_DIMENSIONS}")
-    role = {"input": "INPUT", "output": "OUTPUT", "state": "PROFILE"}.get(
+    sizes = [length for _, length in v.seen_axes]
+    if len(sizes) > MOST_DIMENSIONS:
+        raise TableFault(f"{v.path} has {len(sizes)} dimensions; the shell takes {MOST_DIMENSIONS}")
+    role = {"input": "INPUT", "output": "OUTPUT", "local": "OUTPUT", "state": "PROFILE"}.get(
         v.role, "TUNABLE_PARAMETER" if v.tunable else "FIXED_PARAMETER"
     )
     unit = "" if v.unit == "1" else f" {v.unit}"
     choices = c_string(", ".join(f"{i} ({c})" for i, c in enumerate(v.choices))) if v.choices else "NULL"
-    shape = ", ".join(map(str, v.shape)) or "0"
+    shape = ", ".join(map(str, sizes)) or "0"
     return (
-        f"{{{c_string(v.name)}, {c_string(unit)}, {choices}, {role}, {int(v.is_integer)}, {table.offset[v.name]},"
-        f" {v.size}, {len(v.shape)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}, {float(v.nominal)!r}}}"
+        f"{{{c_string(v.path)}, {c_string(unit)}, {choices}, {role}, {int(v.is_integer)}, {table.offset[v.name]},"
+        f" {v.size}, {len(sizes)}, {{{shape}}}, {float(v.minimum)!r}, {float(v.maximum)!r}, {float(v.nominal)!r}}}"
     )
 
 

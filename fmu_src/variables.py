@@ -11,7 +11,7 @@ which holds nothing between two steps, comes last and is not part of the state.
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -23,13 +23,18 @@ import numpy as np
 from fmu_src.arrays import Floats, Mask, Records, field_of
 from fmu_src.kernel import PLAIN
 from fmu_src.limits import usual_limits
+from fmu_src.terminals import Terminal
 
 
 class ValueFault(ValueError):
     """A value that a variable cannot take; says which, why and what would fit."""
 
 
-ROLES = ("input", "parameter", "output", "state", "scratch")
+ROLES = ("input", "parameter", "output", "local", "state", "scratch")
+# What an importing tool sees: locals may be looked at, and nothing is connected to them.
+SEEN = ("input", "parameter", "output", "local")
+# What a caller may set.
+SETTABLE = ("input", "parameter")
 LARGEST = float(np.finfo(float).max)
 # In place of a bound or nominal value: the usual one.
 USUAL = math.nan
@@ -39,12 +44,18 @@ USUAL = math.nan
 class Variable:
     """A scalar or array of one unit.
 
+    It has two names: ``path``, the structured one that people and tools see (``mesh.force``), and ``name``, the field
+    of the record that kernels see (``mesh_force``).  Where the one is the other with its dots made underscores, it is declared
+    once, as ``name``; where kernels say it otherwise, ``path`` is declared beside it.
+
     ``shape`` is () for a scalar; ``start`` is in ``unit`` (an FMI unit string, "1" if
     there is none).  ``axes`` names what each index counts.  ``choices`` makes the
     variable an enumeration: its value is an index into it.  ``source`` says where the
     number comes from (``author, table``, ``reducer file``, ``assumed: reason``).
     Bounds and nominal value have usual ones where none are given (``limits``).  ValueError if one of the numbers is none.
-    ``profile`` makes a state visible as an array output where there are arrays (FMI 3).
+    ``profile`` makes a state visible as a local array where there are arrays (FMI 3); ``last_axes`` are the axes
+    (name, length) that its last one is made of.  ``display`` is the unit people read it in, where that is not the usual one
+    (``display``).  ``needs`` is a count of the topology and how many there must be for the variable to mean anything.
     """
 
     name: str
@@ -62,8 +73,14 @@ class Variable:
     tunable: bool = False
     profile: bool = False
     source: str = ""
+    path: str = ""
+    display: str = ""
+    last_axes: tuple[tuple[str, int], ...] = ()
+    needs: tuple[str, int] = ("", 0)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "path", self.path or self.name)
+        object.__setattr__(self, "name", self.name.replace(".", "_"))
         if self.role not in ROLES:
             raise ValueError(f"variable {self.name}: role {self.role!r} is none of {ROLES}")
         if len(self.axes) != len(self.shape):
@@ -87,14 +104,25 @@ class Variable:
         return math.prod(self.shape)
 
     @property
+    def seen_axes(self) -> tuple[tuple[str, int], ...]:
+        """(name, length) of each axis as a tool with arrays sees them."""
+        axes = tuple(zip(self.axes, self.shape))
+        return (*axes[:-1], *self.last_axes) if self.last_axes else axes
+
+    @property
     def variability(self) -> str:
         if self.role == "parameter":
             return "tunable" if self.tunable else "fixed"
         return "discrete" if self.is_integer else "continuous"
 
+    def within(self, counts: Mapping[str, int]) -> "Variable":
+        """The variable in a topology; hidden where that lacks the part that it speaks of."""
+        part, least = self.needs
+        return replace(self, role="state") if part and counts[part] < least else self
+
     def check(self, value: float, element: str | None = None) -> None:
         """Raise ValueFault unless ``value`` (in the variable's unit) is finite and within its bounds."""
-        name, unit = element or self.name, "" if self.unit == "1" else f" {self.unit}"
+        name, unit = element or self.path, "" if self.unit == "1" else f" {self.unit}"
         if self.choices:
             if value not in range(len(self.choices)):
                 known = ", ".join(f"{i} ({c})" for i, c in enumerate(self.choices))
@@ -106,16 +134,21 @@ class Variable:
             raise ValueFault(f"{name} = {value:g}{unit} is out of range: it must lie in {bounds}")
 
     def element_names(self) -> Iterator[str]:
-        """Names of the scalars, FMI 2 structured names with indices from 1: ``mesh_force[1,7]``."""
+        """Names of the scalars, FMI 2 structured names with indices from 1: ``mesh.force[1,7]``."""
         if not self.shape:
-            yield self.name
+            yield self.path
             return
         for index in product(*(range(1, n + 1) for n in self.shape)):
-            yield f"{self.name}[{','.join(map(str, index))}]"
+            yield f"{self.path}[{','.join(map(str, index))}]"
 
 
 def output(name: str, unit: str, text: str, **more: Any) -> Variable:
     return Variable(name, "output", unit, text, 0.0, **more)
+
+
+def local(name: str, unit: str, text: str, **more: Any) -> Variable:
+    """A diagnostic: computed, shown, not connected."""
+    return Variable(name, "local", unit, text, 0.0, **more)
 
 
 def state(name: str, unit: str, text: str, **more: Any) -> Variable:
@@ -141,31 +174,38 @@ class Sizes(dict[str, int]):
 class Table:
     """The variables of one unit, in record order.
 
-    ``starts_from_nothing`` says that the initial outputs depend on no input and no
-    parameter (the wear unit's new surfaces), which FMI wants to be declared.
+    ``known_at_start`` names the inputs and parameters that an output's initial value is computed from, where that is not all of
+    them (a new surface depends on none), which FMI wants to be declared.
 
     ``views`` lay other records over the same cells, each as {its field: variable of this
     table}: a kernel written for another table then works on this one (``records.plant``).
+    ``terminals`` say which variables belong to one place of the machine.
     A record with views also has all its ``cells`` as one row of ``i8``.
 
     ``arrays`` are start values of outputs and states that are not alike in all elements (worn surfaces).
     """
 
     def __init__(
-        self, name: str, description: str, variables: list[Variable], starts_from_nothing: bool = False,
-        views: dict[str, dict[str, str]] | None = None, arrays: dict[str, Floats] | None = None,
+        self, name: str, description: str, variables: list[Variable],
+        known_at_start: Mapping[str, Sequence[str]] | None = None, views: dict[str, dict[str, str]] | None = None,
+        terminals: Sequence[Terminal] = (), arrays: dict[str, Floats] | None = None,
     ):  # fmt: skip
         self.name = name
         self.description = description
-        self.starts_from_nothing = starts_from_nothing
+        self.known_at_start = known_at_start or {}
         self.views = views or {}
+        self.terminals = terminals
         self.arrays = arrays or {}
         order = sorted(range(len(variables)), key=lambda i: (ROLES.index(variables[i].role), i))
         self.variables = [variables[i] for i in order]
         self.by_name = {v.name: v for v in self.variables}
+        self.by_path = {v.path: v for v in self.variables if self.is_visible(v)}
         if len(self.by_name) != len(variables):
             names = [v.name for v in variables]
             raise ValueError(f"{name}: declared twice: {sorted({n for n in names if names.count(n) > 1})}")
+        if len(self.by_path) != sum(map(self.is_visible, variables)):
+            paths = [v.path for v in variables if self.is_visible(v)]
+            raise ValueError(f"{name}: two variables show the same name: {sorted({p for p in paths if paths.count(p) > 1})}")
         self.dtype = with_views(
             np.dtype([(v.name, "i8" if v.is_integer else "f8", v.shape) for v in self.variables], align=True), self.views
         )
@@ -189,7 +229,7 @@ class Table:
     def bounds(self) -> tuple[Floats, Floats]:
         """(lowest, highest) value of each interface cell that may be set; NaN where none may."""
         lowest, highest = np.full((2, self.interface_cells), np.nan)
-        for v in self.of_role("input", "parameter"):
+        for v in self.of_role(*SETTABLE):
             cells = self.cell_range(v.name)
             lowest[cells], highest[cells] = v.minimum, v.maximum
         return lowest, highest
@@ -215,11 +255,22 @@ class Table:
 
     def interface(self) -> list[Variable]:
         """The variables that an importing tool sees."""
-        return self.of_role("input", "parameter", "output")
+        return self.of_role(*SEEN)
 
     def is_visible(self, v: Variable) -> bool:
         """Whether an importing tool with arrays sees it: the interface and the surfaces' profiles."""
-        return v.role in ("input", "parameter", "output") or v.profile
+        return v.role in SEEN or v.profile
+
+    def find(self, name: str) -> Variable | None:
+        """The visible variable of a structured name, of one of its elements, or of the name that kernels have for it."""
+        base = name.partition("[")[0]
+        found = self.by_path.get(base) or self.by_name.get(base)
+        return found if found is not None and self.is_visible(found) else None
+
+    @cached_property
+    def renamed(self) -> dict[str, str]:
+        """Old names, which are those of the kernels, and what they are now; only those that differ."""
+        return {v.name: path for path, v in self.by_path.items() if v.name != path}
 
     def new_records(self) -> Records:
         """A one-element record array holding every start value."""
@@ -231,17 +282,24 @@ class Table:
         # Plain Python takes fields as attributes of NumPy's own records.
         return records.view(np.recarray) if PLAIN else records
 
+    def scalars(self, records: Records) -> dict[str, float]:
+        """Single values of a record by name, for the words of a fault."""
+        return {v.name: records[v.name][0] for v in self.variables if not v.shape}
+
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
         """The same table with other start values (and their sources)."""
         changed = [
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return Table(self.name, self.description, changed, self.starts_from_nothing, self.views, self.arrays)
+        return self.remade(self.description, changed, self.arrays)
 
     def with_arrays(self, arrays: dict[str, Floats], description: str) -> "Table":
         """The same table that starts with these outputs and states, described as such."""
-        return Table(self.name, description, self.variables, self.starts_from_nothing, self.views, self.arrays | arrays)
+        return self.remade(description, self.variables, self.arrays | arrays)
+
+    def remade(self, description: str, variables: list[Variable], arrays: dict[str, Floats]) -> "Table":
+        return Table(self.name, description, variables, self.known_at_start, self.views, self.terminals, arrays)
 
     def cells(self, records: Records) -> Floats:
         """The record's memory as one flat ``f8`` array (integers reinterpreted, not converted)."""
@@ -252,18 +310,18 @@ class Table:
         return slice(self.offset[name], self.offset[name] + self.by_name[name].size)
 
     def cell_index(self, element: str) -> int:
-        """Cell (= FMI value reference) of ``name`` or ``name[i,j]``; KeyError if there is none."""
+        """Cell (= FMI value reference) of a scalar or of ``mesh.force[i,j]``; KeyError if there is none."""
         name, _, rest = element.partition("[")
-        variable = self.by_name[name]
+        variable = self.by_path.get(name) or self.by_name[name]
         if not rest:
             if variable.shape:
-                raise KeyError(f"{name} is an array of shape {variable.shape}: give indices, {name}[1]")
-            return self.offset[name]
+                raise KeyError(f"{variable.path} is an array of shape {variable.shape}: give indices, {variable.path}[1]")
+            return self.offset[variable.name]
         try:
             index = tuple(int(i) - 1 for i in rest.rstrip("]").split(","))
-            return self.offset[name] + int(np.ravel_multi_index(index, variable.shape))
+            return self.offset[variable.name] + int(np.ravel_multi_index(index, variable.shape))
         except ValueError:
-            raise KeyError(f"{element}: indices do not fit the shape {variable.shape} of {name}") from None
+            raise KeyError(f"{element}: indices do not fit the shape {variable.shape} of {variable.path}") from None
 
     def element_at(self, cell: int) -> tuple[Variable, str]:
         """The variable that a cell belongs to and the name of its scalar."""
@@ -279,7 +337,7 @@ class Table:
             if not 0 <= cell < self.interface_cells:
                 raise ValueFault(f"{self.name} has no variable with value reference {cell}")
             variable, element = self.element_at(cell)
-            if variable.role not in ("input", "parameter"):
+            if variable.role not in SETTABLE:
                 raise ValueFault(f"{element} is an output of {self.name}; it cannot be set")
             variable.check(float(value), element)
 
@@ -289,9 +347,8 @@ class Table:
 
         Numbers that are set, and whole numbers (indices and counts of the kernels), lie within their bounds; all others need be finite alone.
         """
-        within = ("input", "parameter")
         return [
-            (v, v.minimum, v.maximum) if v.is_integer or v.role in within else (v, -LARGEST, LARGEST)
+            (v, v.minimum, v.maximum) if v.is_integer or v.role in SETTABLE else (v, -LARGEST, LARGEST)
             for v in self.variables if v.role != "scratch"
         ]  # fmt: skip
 
@@ -313,16 +370,6 @@ class Table:
         if len(wrong):
             _, element = self.element_at(int(wrong[0]))
             raise ValueFault(f"the state is impossible: {element} = {values[wrong[0]]:.6g}; it was not saved by this unit")
-
-    def markdown(self) -> str:
-        """The documentation table of the interface."""
-        rows = ["| variable | role | unit | start | meaning | source |", "|---|---|---|---|---|---|"]
-        for v in self.interface():
-            shape = f"[{', '.join(f'{a} 1..{n}' for a, n in zip(v.axes, v.shape))}]" if v.shape else ""
-            start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
-            text = v.description + (f" ({', '.join(v.choices)})" if v.choices else "")
-            rows.append(f"| `{v.name}`{shape} | {v.role} | {v.unit} | {start} | {text} | {v.source} |")
-        return "\n".join(rows) + "\n"
 
 
 def with_views(plain: np.dtype, views: dict[str, dict[str, str]]) -> np.dtype:

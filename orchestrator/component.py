@@ -7,7 +7,7 @@ allocating.
 
 import json
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from fmu_src.arrays import Integers, Records
 from fmu_src.faults import InputFault, RunFault, nearest
+from fmu_src.names import warn_of_old_name
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
 from fmu_src.variables import Table, ValueFault, Variable
@@ -77,23 +78,38 @@ class Component(ABC):
     input_derivatives = 0
     usual_step: float | None = None
 
+    def old_names(self) -> Mapping[str, str]:
+        """Of this project's units: the name that kernels have for a variable, once that of files too, and its own."""
+        return {}
+
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         """Output element -> the input elements that it depends on at once; none is the usual case."""
         return {}
 
     def signal(self, name: str) -> Signal:
-        """The signal of a name, an array's element included; InputFault if there is none."""
+        """The signal of a name, kernels' names and an array's elements included; InputFault if there is none."""
         if name in self.signals:
             return self.signals[name]
         base, _, index = name.partition("[")
         array = self.signals.get(base)
+        if array is None and (new := self.old_names().get(base)) is not None:
+            return self.signal(new + name[len(base) :])
         if array is not None and array.shape and index.endswith("]"):
             try:
                 place = np.ravel_multi_index(tuple(int(i) - 1 for i in index[:-1].split(",")), array.shape)
             except ValueError:
                 raise InputFault(f"{self.name}.{name}: {base} has the shape {array.shape}, counted from 1") from None
             return replace(array, name=name, references=(array.references[place],), shape=())
-        raise InputFault(f"{self.name} has no variable {name!r}{nearest(base, self.signals)}")
+        raise InputFault(f"{self.name} has no variable {name!r}{nearest(base, self.signals, old=self.old_names())}")
+
+    def as_written(self, name: str) -> Signal:
+        """The signal of a name that a user wrote; an old one is said to be one."""
+        signal = self.signal(name)
+        base = name.partition("[")[0]
+        if name not in self.signals and base not in self.signals:
+            # Once for all elements of an array.
+            warn_of_old_name(f"{self.name}.{base}", f"{self.name}.{self.old_names()[base]}")
+        return signal
 
     def has(self, name: str) -> bool:
         """Whether there is a variable or array element of this name."""
@@ -207,10 +223,13 @@ class InProcess(Component):
         self.name = name
         self.unit = unit_of(specification)
         self.table: Table = self.unit.table
-        self.signals = {v.name: signal_of(v, self.table) for v in self.table.interface()}
+        self.signals = {v.path: signal_of(v, self.table) for v in self.table.interface()}
         self.records = self.table.new_records()
         self.cells = self.table.cells(self.records)
         self.integers: Integers = self.cells.view("i8")
+
+    def old_names(self) -> Mapping[str, str]:
+        return self.table.renamed
 
     @cached_property
     def entry_points(self) -> tuple[Callable[[], int], Callable[[float, float], int]]:
@@ -280,4 +299,4 @@ class InProcess(Component):
 def signal_of(v: Variable, table: Table) -> Signal:
     first = table.offset[v.name]
     references = tuple(range(first, first + v.size))
-    return Signal(v.name, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices, nominal=v.nominal)
+    return Signal(v.path, v.role, v.unit, references, v.shape, v.is_integer, v.tunable, v.choices, nominal=v.nominal)

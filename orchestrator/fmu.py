@@ -4,7 +4,7 @@ import contextlib
 import json
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from zipfile import is_zipfile
@@ -87,6 +87,9 @@ class Fmu(Component):
         step = float(experiment.stepSize) if experiment and experiment.stepSize else None
         # A step that is none is no suggestion.
         self.usual_step = step if step is not None and 0.0 < step < math.inf else None
+
+    def old_names(self) -> Mapping[str, str]:
+        return {} if self.stamp() is None else unit_of(self.specification()).table.renamed
 
     @property
     def slave(self) -> FMU2Slave | FMU3Slave:

@@ -75,7 +75,7 @@ def shown(component: Component) -> dict[str, Any]:
         plain = vars(signal) | {"base_unit": None if signal.base_unit is None else tuple(vars(signal.base_unit).values())}
         signals_of.append(plain)
     return {key: getattr(component, key) for key in SHOWN} | {
-        "signals": signals_of, "feedthrough": tuple(component.feedthrough().items()),
+        "signals": signals_of, "old_names": dict(component.old_names()), "feedthrough": tuple(component.feedthrough().items()),
     }  # fmt: skip
 
 

@@ -9,7 +9,7 @@ import math
 import signal as signals
 import time as clock
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +65,7 @@ class Isolated(Component):
         for key in SHOWN:
             setattr(self, key, shown[key])
         self.through: dict[Element, tuple[Element, ...]] = dict(shown["feedthrough"])
+        self.known_old_names: Mapping[str, str] = shown["old_names"]
         self.signals = {}
         for plain in shown["signals"]:
             base = plain["base_unit"]
@@ -121,6 +122,9 @@ class Isolated(Component):
             f"{self.name} ({self.path.name}): the process of this unit {how} during {self.doing}{when}. The other units are"
             f" unharmed; what it printed stands above. Start it anew, with other parameters or a shorter step{longer}"
         )
+
+    def old_names(self) -> Mapping[str, str]:
+        return self.known_old_names
 
     def feedthrough(self) -> dict[Element, tuple[Element, ...]]:
         return self.through

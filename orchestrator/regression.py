@@ -54,13 +54,13 @@ class Comparison:
 
 
 def parse_tolerance(text: str) -> Tolerance:
-    """``1e-6``, ``plant.lag=1e-6`` or ``wear.*=1e-6,1e-12`` (relative, absolute)."""
+    """``1e-6``, ``plant.output.lag=1e-6`` or ``wear.*=1e-6,1e-12`` (relative, absolute)."""
     pattern, equals, numbers = text.rpartition("=")
     try:
         values = [float(number) for number in numbers.split(",")]
         tolerance = Tolerance(pattern if equals else "*", *values)
     except (ValueError, TypeError):
-        raise InputFault(f"tolerance {text!r}: write 1e-6, plant.lag=1e-6 or wear.*=1e-6,1e-12 (relative, absolute)") from None
+        raise InputFault(f"tolerance {text!r}: write 1e-6, plant.output.lag=1e-6 or wear.*=1e-6,1e-12 (relative, absolute)") from None
     if not all(0.0 <= value < math.inf for value in values):
         raise InputFault(f"tolerance {text!r}: finite numbers are needed that are not negative")
     return tolerance

@@ -10,12 +10,12 @@
     [components.plant]
     fmu = "../dist/RvPlant.fmu"       # or reducer = "RV20E-121", unit = "plant"
     ratio = 1                         # base steps per step of this unit
-    parameters = { load_torque = "150 N.m" }
-    record = ["lag", "mesh_force"]
+    parameters = { output.load_torque = "150 N.m" }
+    record = ["output.lag", "mesh.force"]
 
     [[connections]]
-    from = "plant.mesh_force"
-    to = "wear.mesh_force"
+    from = "plant.mesh.force_path"
+    to = "wear.mesh.force_path"
 
 Paths are relative to the file.  Every error names file, key, value and remedy.
 """
@@ -26,9 +26,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from fmu_src.faults import InputFault
+from fmu_src.names import dotted
 from fmu_src.reading import parse_toml, read_text
 from fmu_src.strict_file import NAME, Strict, validated
 from fmu_src.units import UnitError, conversion
@@ -83,6 +84,11 @@ class ComponentEntry(Strict):
     call_limit: float | dict[str, float] | None = None
     parameters: dict[str, str | float | int] = {}
     record: list[str] = []
+
+    @field_validator("parameters", mode="before")
+    @classmethod
+    def by_structured_name(cls, given: Any) -> Any:
+        return dotted(given) if isinstance(given, dict) else given
 
 
 class ConnectionEntry(Strict):
@@ -151,7 +157,7 @@ def read_scenario(
     connections = [Connection(c.source, c.target, c.factor, c.offset) for c in content.connections]
     recorded = [(name, signal) for name, entry in content.components.items() for signal in entry.record]
     for name, signal in recorded:
-        components[name].signal(signal)
+        components[name].as_written(signal)
     return Scenario(head.name, components, connections, step, duration, recorded, options, text)
 
 
@@ -191,7 +197,7 @@ def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, 
 
 def set_parameter(component: Component, key: str, value: str | float, place: str) -> None:
     """A number is in the variable's unit, a text carries its own."""
-    signal = component.signal(key)
+    signal = component.as_written(key)
     try:
         component.set(key, parse_value(value, signal) if isinstance(value, str) else value)
     except (UnitError, InputFault) as problem:

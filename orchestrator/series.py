@@ -84,7 +84,7 @@ def read_csv(path: Path) -> dict[str, np.ndarray]:
 
 
 def flat(series: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Arrays by element: ``plant.mesh_force[1,7]``."""
+    """Arrays by element: ``plant.mesh.force[1,7]``."""
     columns = {}
     for name, values in series.items():
         for index in np.ndindex(values.shape[1:]):

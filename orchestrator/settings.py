@@ -1,7 +1,7 @@
 """Settings ``name=value`` that a user gives for a run, with or without a unit.
 
-``load_torque=200``, ``bearing_clearance=10um``, ``pin_radius_error[3]=2um``,
-``contact_law=palmgren``: any parameter or input of plant or wear unit.
+``output.load_torque=200``, ``bearing.clearance=10um``, ``errors.pin.radius[3]=2um``,
+``contact.law=palmgren``: any parameter or input of plant or wear unit.
 """
 
 import re
@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest
+from fmu_src.names import found_by_name, settable_names
 from fmu_src.reading import quoted
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import Table, ValueFault, Variable
+from fmu_src.variables import SETTABLE, Table, ValueFault, Variable
 from orchestrator.component import Component, Signal
 
 # Signs of a setting (assumed: names and units have a fraction of it).
@@ -22,7 +23,7 @@ NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan
 
 @dataclass(frozen=True)
 class Setting:
-    """One checked setting; ``value`` is in the variable's own unit."""
+    """One checked setting; ``name`` is what kernels call the variable, ``value`` is in its own unit."""
 
     name: str
     value: float | int
@@ -43,51 +44,54 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
     if len(text) > LONGEST:
         raise InputFault(f"setting {quoted(text)}: longer than {LONGEST} signs; write name=value, for instance load_torque=200")
     if not equals:
-        raise InputFault(f"setting {text!r}: write name=value, for instance load_torque=200")
-    owners = [t for t in tables if name.partition("[")[0] in t.by_name]
-    owners = [t for t in owners if t.by_name[name.partition("[")[0]].role in ("parameter", "input")]
+        raise InputFault(f"setting {text!r}: write name=value, for instance output.load_torque=200")
+    owners = found_by_name(tables, name, "setting", SETTABLE)
     if not owners:
-        names = [v.name for t in tables for v in t.of_role("parameter", "input")]
-        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{nearest(name, names)}")
-    for owner in owners:
-        variable = owner.by_name[name.partition("[")[0]]
-        if "[" in name:
+        names, old = settable_names(tables)
+        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{nearest(name, names, old=old)}")
+    _, bracket, rest = name.partition("[")
+    for owner, variable in owners:
+        element = variable.path + bracket + rest
+        if bracket:
             try:
-                owner.cell_index(name)
+                owner.cell_index(element)
             except KeyError as problem:
                 raise InputFault(f"setting {text!r}: {problem.args[0]}") from None
         try:
             number = parse_value(value.strip(), variable)
-            variable.check(number, name)
+            variable.check(number, element)
         except (UnitError, ValueFault, InputFault) as problem:
             raise InputFault(f"setting {text!r}: {problem}") from None
-    return Setting(name, number)
+    return Setting(owners[0][1].name + bracket + rest, number)
 
 
 def parse_value(text: str, variable: Variable | Signal) -> float | int:
     """A number with an optional unit, or a choice's name, in the variable's unit."""
     if variable.choices:
         if text not in variable.choices:
-            raise InputFault(f"{variable.name} takes one of: {', '.join(variable.choices)}")
+            raise InputFault(f"{variable_name(variable)} takes one of: {', '.join(variable.choices)}")
         return variable.choices.index(text)
     match = NUMBER.match(text)
     if not match:
-        raise InputFault(f"{text!r} is not a number with a unit; {variable.name} is in {variable.unit}")
+        raise InputFault(f"{text!r} is not a number with a unit; {variable_name(variable)} is in {variable.unit}")
     number, unit = float(match[1]), match[2]
     if unit:
         factor, offset = conversion(unit, variable.unit)
         number = factor * number + offset
     if variable.is_integer:
         if number != int(number):
-            raise InputFault(f"{variable.name} = {text} must be a whole number")
+            raise InputFault(f"{variable_name(variable)} = {text} must be a whole number")
         return int(number)
     return number
+
+
+def variable_name(variable: Variable | Signal) -> str:
+    return variable.path if isinstance(variable, Variable) else variable.name
 
 
 def apply(settings: Iterable[Setting | ArraySetting], components: Mapping[str, Component]) -> None:
     """Set each on every component that has it."""
     for setting in settings:
-        base = setting.name.partition("[")[0]
         for component in components.values():
-            if base in component.signals and component.signals[base].causality != "output":
+            if component.has(setting.name) and component.signal(setting.name).causality in SETTABLE:
                 component.set(setting.name, setting.value)

@@ -2,7 +2,7 @@
 
     system = load("RvReducer.ssp")
     system["wear.acceleration"] = 1e6
-    series = system.run(duration=0.2, record=["plant.lag"])
+    series = system.run(duration=0.2, record=["plant.output.lag"])
 """
 
 import math
@@ -100,8 +100,9 @@ class System:
     def matching(self, pattern: str) -> list[tuple[str, str]]:
         """Variables that a name or pattern stands for."""
         if not set(pattern) & set("*?"):
-            name, signal = resolve(self.master.components, pattern)
-            return [(name, signal.name)]
+            # Under the name that was asked for, be it an old one.
+            name, _ = resolve(self.master.components, pattern)
+            return [(name, pattern[len(name) + 1 :])]
         found = [
             (name, variable) for name, component in self.master.components.items()
             for variable in component.signals if fnmatchcase(f"{name}.{variable}", pattern)
@@ -111,8 +112,10 @@ class System:
         return found
 
     def units(self) -> dict[str, str]:
-        """Units of all variables by path."""
-        return {f"{n}.{v}": s.unit for n, c in self.master.components.items() for v, s in c.signals.items()}
+        """Units of all variables by path, old names included."""
+        found = {f"{n}.{v}": s.unit for n, c in self.master.components.items() for v, s in c.signals.items()}
+        old = {f"{n}.{o}": found[f"{n}.{v}"] for n, c in self.master.components.items() for o, v in c.old_names().items() if v in c.signals}
+        return old | found
 
     def close(self) -> None:
         self.master.close()

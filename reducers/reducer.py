@@ -1,15 +1,14 @@
 """Reducer files: read, checked against the units' tables, turned into start values.
 
 A file has [reducer] (name, description), [topology] (counts) and any other sections
-with ``key = { value, unit, source }``.  The keys are names of variables of the plant, the
-wear unit or the unit of both; sections only group them.  The units' tables say what exists, in which
+with ``key = { value, unit, source }``.  Section and key together are the name of a variable of the plant, the
+wear unit or the unit of both: ``radius`` in [pin] is ``pin.radius``.  The units' tables say what exists, in which
 unit and within which bounds, so a new parameter needs no change here.
 
 A number may have a ``range = [low, high]`` in its unit, in which it is held to lie; one whose source says
 ``assumed`` has a tenth to either side where none is given.
 """
 
-import difflib
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -18,11 +17,12 @@ from typing import Any
 from pydantic import Field, ValidationError
 
 from fmu_src.faults import InputFault, nearest
+from fmu_src.names import dotted, found_by_name, settable_names
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.strict_file import NAME, Piece, Strict, keys_at
 from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import Table, ValueFault
+from fmu_src.variables import SETTABLE, Table, ValueFault
 from reducers.library import LIBRARY, available
 from rv_plant.dimension import FILE
 from rv_plant.topology import Topology
@@ -58,6 +58,10 @@ class Counts(Strict):
     lobes: int = Field(ge=3, le=399)
     rollers: int = Field(ge=3, le=200)
     output_pins: int = Field(default=0, ge=0, le=100)
+
+
+# A reducer that lacks no part, where names alone matter.
+EVERY_PART = Topology(discs=3, cranks=3, pins=4, lobes=3, rollers=3, output_pins=3)
 
 
 @dataclass(frozen=True)
@@ -107,6 +111,12 @@ class Reducer:
         return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
 
 
+def kernels_name(written: str, place: str) -> str:
+    """What kernels call the variable of plant or wear unit of a name; one of no variable, whatever the reducer, stays as it is."""
+    found = found_by_name((plant_table(EVERY_PART), wear_table(EVERY_PART)), written, place)
+    return found[0][1].name if found else written
+
+
 def load_reducer(name_or_path: str | Path) -> Reducer:
     """A reducer by its name in the library or by the path of its file."""
     path = Path(name_or_path)
@@ -150,15 +160,17 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
     for section, entries in content.items():
         if not isinstance(entries, dict):
             raise InputFault(f"{path}: {section} stands outside of a section; put it below a [section]")
-        for key, raw in entries.items():
-            entry = checked(Entry, raw, path, f"{section}.{key}")
-            if key in starts:
-                raise InputFault(f"{path}: [{section}] {key} is given twice; keep one")
-            starts[key] = si_value(tables, key, entry, f"{path}: [{section}] {key}")
-            sources[key] = entry.source
-            if (span := range_of(tables, key, entry, f"{path}: [{section}] {key}")) is not None:
-                ranges[key] = span
-    missing = sorted({v.name for t in tables for v in t.variables if v.source == FILE} - starts.keys())
+        for path_there, raw in dotted({section: entries}, Entry.model_fields).items():
+            group, _, key = path_there.rpartition(".")
+            entry = checked(Entry, raw, path, f"{group}.{key}")
+            place = f"{path}: [{group}] {key}"
+            name, value = si_value(tables, group, key, entry, place)
+            if name in starts:
+                raise InputFault(f"{place} is given twice; keep one")
+            starts[name], sources[name] = value, entry.source
+            if (span := range_of(tables, group, key, entry, place)) is not None:
+                ranges[name] = span
+    missing = sorted({v.path for t in tables for v in t.variables if v.source == FILE and v.role in SETTABLE and v.name not in starts})
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:
@@ -185,34 +197,35 @@ def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:
         raise InputFault(f"{path}: {shown(key)}{given}: {first['msg']}{hint}; {place} takes {', '.join(model.model_fields)}") from None
 
 
-def si_value(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> float:
-    """The entry in the variable's unit, checked against the tables that have it."""
-    owners = [t for t in tables if key in t.by_name and t.by_name[key].role in ("parameter", "input")]
-    if not owners:
-        names = [v.name for t in tables for v in t.of_role("parameter", "input")]
-        close = difflib.get_close_matches(key, names, 1)
-        hint = f"did you mean {close[0]}?" if close else "see docs/variables.md for the names"
-        raise InputFault(f"{place} is not a parameter of plant or wear unit; {hint}")
-    variable = owners[0].by_name[key]
+def si_value(tables: tuple[Table, ...], section: str, key: str, entry: Entry, place: str) -> tuple[str, float]:
+    """What kernels call the variable, and the entry in its unit, checked against the tables that have it."""
+    path = f"{section}.{key}"
+    # Up to version 0.2 keys alone were names, and sections only grouped them; some names belong to no group.
+    found = found_by_name(tables, path, place, SETTABLE) or found_by_name(tables, key, place, SETTABLE)
+    if not found:
+        names, old = settable_names(tables)
+        hint = nearest(path, names, 1) or nearest(key, names, 1, old) or "; see docs/variables.md for the names"
+        raise InputFault(f"{place} is not a parameter of plant or wear unit{hint}")
+    variable = found[0][1]
     if variable.choices:
         if entry.value not in variable.choices:
             raise InputFault(f"{place} = {entry.value!r}: choose one of {', '.join(variable.choices)}")
-        return variable.choices.index(entry.value)
+        return variable.name, variable.choices.index(entry.value)
     if isinstance(entry.value, str):
         raise InputFault(f"{place} = {entry.value!r} is not a number; give it in {variable.unit}")
     try:
         factor, offset = conversion(entry.unit, variable.unit)
         value = factor * entry.value + offset
-        for owner in owners:
-            owner.by_name[key].check(value)
+        for _, owned in found:
+            owned.check(value)
     except UnitError as problem:
         raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
     except ValueFault as problem:
         raise InputFault(f"{place} = {entry.value:g} {entry.unit}: {problem}") from None
-    return value
+    return variable.name, value
 
 
-def range_of(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> tuple[float, float] | None:
+def range_of(tables: tuple[Table, ...], section: str, key: str, entry: Entry, place: str) -> tuple[float, float] | None:
     """(lowest, highest) that the number may be, SI; None where nothing says that it may be another."""
     if isinstance(entry.value, str):
         if entry.range is not None:
@@ -227,5 +240,5 @@ def range_of(tables: tuple[Table, ...], key: str, entry: Entry, place: str) -> t
         raise InputFault(f"{place}: range = {list(limits)}: value = {entry.value:g} {entry.unit} lies outside; give [lowest, highest] in {entry.unit}")
     if limits[0] == limits[1]:
         return None
-    low, high = (si_value(tables, key, entry.model_copy(update={"value": limit}), f"{place}: range") for limit in limits)
+    low, high = (si_value(tables, section, key, entry.model_copy(update={"value": limit}), f"{place}: range")[1] for limit in limits)
     return low, high

@@ -56,7 +56,7 @@ def clearance(context: Context) -> Finding:
     play = s["outer_race_radius"] - s["inner_race_radius"] - 2.0 * s["roller_radius"]
     numbers = [Number("radial clearance from the radii", "µm", 1e6 * play)]
     for text, lag, error in (("0um", 26.5, 0.55), ("2.5um", 51.9, 6.8), ("5um", 75.5, 12.7), ("10um", 120.0, 24.0)):
-        found = 3600.0 * np.degrees(context.contacts(RV, f"bearing_clearance={text}").turn["lag"])
+        found = 3600.0 * np.degrees(context.contacts(RV, f"bearing.clearance={text}").turn["lag"])
         numbers += [Number(f"mean lag at {text.replace('um', ' µm')}", "arcsec", float(found.mean()), None, lag,
                            0.005), Number(f"transmission error at {text.replace('um', ' µm')}, peak to peak",
                                           "arcsec", float(np.ptp(found)), None, error, 0.02)]
@@ -84,8 +84,8 @@ def stiffness(context: Context) -> Finding:
     for name, audited in ((RV, (382.0, 199.0)), (BX, (1113.0, 581.0))):
         torque = context.reducer(name).starts["load_torque"]
         for _i, reading in enumerate(("SI", "literal")):
-            full, half = (float(context.contacts(name, f"stiffness_reading={reading}",
-                                                 f"load_torque={t!r}").turn["lag"].mean()) for t in (torque,
+            full, half = (float(context.contacts(name, f"contact.stiffness_reading={reading}",
+                                                 f"output.load_torque={t!r}").turn["lag"].mean()) for t in (torque,
                                                      0.5 * torque))
             found[name, reading] = 0.5 * torque / (60.0 * math.degrees(full - half))
         numbers.append(Number(f"{name}: stiffness of the second stage, SI", "N m/arcmin", found[name, "SI"], None,
@@ -182,8 +182,8 @@ def instantaneous_centre(context: Context) -> Finding:
         " T_load (40/39).")
 def pin_torque(context: Context) -> Finding:
     sun = context.contacts(RV)
-    couples = context.contacts(RV, "first_stage_ratio=0",
-                               f"input_speed={-context.reducer(RV).starts['input_speed'] * 39 / 121!r}rad/s")
+    couples = context.contacts(RV, "first_stage.ratio=0",
+                               f"input.speed={-context.reducer(RV).starts['input_speed'] * 39 / 121!r}rad/s")
     peaks = [float(c.force.max()) for c in (sun, couples)]
     rollers = [float(c.turn["largest_roller_force"].max()) for c in (sun, couples)]
     torque, moments = context.reducer(RV).starts["load_torque"], [ring_moment(c) for c in (sun, couples)]

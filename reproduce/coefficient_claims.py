@@ -46,7 +46,7 @@ def test_of(load: float, hours: npt.ArrayLike, law: tuple[float, float, float, f
 def new_wear_per_turn(context: Context) -> tuple[float, float]:
     """(flank depth [um] per crank turn and kappa, hours per crank turn) of new parts, constant kappa."""
     def make() -> tuple[float, float]:
-        pair = context.pair(BX, "mesh_wear_law=constant")
+        pair = context.pair(BX, "wear.mesh_law=constant")
         kappa, hour = pair.wear.number("mesh_wear_coefficient"), pair.turn_time / 3600.0
         run_cycle(pair, 1.0)
         return wear_figures(pair.wear.record())["disc_flank_um"] * hour / kappa, hour
@@ -68,7 +68,7 @@ def five_thousand_cycles(context: Context) -> Finding:
             numbers.append(Number(f"kappa for {depth:g} µm in 5,000 {label}", "1",
                                   depth / (per_turn * cranks * CYCLES), None, audited, 0.5))
     hours = 5.0 / (per_turn * 5e-9) * hour
-    life = context.life(BX, "mesh_wear_law=constant")
+    life = context.life(BX, "wear.mesh_law=constant")
     lived = float(np.interp(5.0, life.figure("disc_flank_um"), life.hours))
     numbers += [Number("hours for 5 µm at kappa = 5e-9, loads as new", "h", hours),
                 Number("the same with the loads moving on", "h", lived, None, (1000.0, 10_000.0))]
@@ -156,7 +156,7 @@ def feedback(context: Context) -> Finding:
     run = context.life(BX)
     new, old = (c.force_along for c in (run.contacts[0], run.contacts[-1]))
     per_turn, hour = new_wear_per_turn(context)
-    constant = context.life(BX, "mesh_wear_law=constant")
+    constant = context.life(BX, "wear.mesh_law=constant")
     frozen = per_turn * 5e-9 / hour * constant.hours[-1]
     found = float(constant.figure("disc_flank_um")[-1])
     moved = 100.0 * np.abs(old - new).sum() / new.sum()

@@ -21,9 +21,9 @@ from studies.pair import Pair, make_pair
 from studies.solve import ARCSEC, record_turn
 
 BX, RV = "BX-40E", "RV20E-121"
-MODIFIED = ("equidistant_modification=-13um", "shift_modification=-20um")
-RIGID_BEARINGS = ("bearing_clearance=0um", "roller_stiffness=1e8", "tolerance=1e-6")
-STAND, TURN = ("pins=stand",), ()
+MODIFIED = ("disc.equidistant_modification=-13um", "disc.shift_modification=-20um")
+RIGID_BEARINGS = ("bearing.clearance=0um", "roller.stiffness=1e8", "numerics.tolerance=1e-6")
+STAND, TURN = ("wear.pins=stand",), ()
 POSITIONS, TOLERANCE, HOURS = 72, 0.02, 10_000.0
 # At most [h]: statements are looked at from a few hundred hours on.
 FIRST_JUMP = 200.0

@@ -10,7 +10,7 @@ from reproduce.context import BX, MODIFIED, RV, STAND, Context, LifeRun, flank_o
 from reproduce.sliding_claims import smooth
 
 UM = 1e6
-PROUD = ("pin_radius_error[5]=5um",)
+PROUD = ("errors.pin.radius[5]=5um",)
 
 
 def tooth_curve(label: str, run: LifeRun, scale: float = UM, **more: Any) -> Curve:
@@ -36,8 +36,8 @@ def hump(run: LifeRun, hour: int = -1) -> tuple[float, float]:
 @states("T26", TOOTH, "Wear profile, inverted W", "The wear depth profile is an irregular, asymmetric inverted W"
         " with two primary peaks on the flanks of the lobe.")
 def inverted_w(context: Context) -> Finding:
-    way, other = context.life(BX), context.life(BX, "load_torque=-412", hours=1000.0, tolerance=0.05)
-    backwards = context.life(BX, "input_speed=-1815rpm", hours=1000.0, tolerance=0.05)
+    way, other = context.life(BX), context.life(BX, "output.load_torque=-412", hours=1000.0, tolerance=0.05)
+    backwards = context.life(BX, "input.speed=-1815rpm", hours=1000.0, tolerance=0.05)
     both = context.reversing(BX)
     modified = context.life(RV, *MODIFIED)
     coarse = context.life(BX, positions=24)
@@ -161,7 +161,7 @@ def peaks_inside(row: np.ndarray) -> bool:
 @states("T32", TOOTH, "Falling wear rate", "The wear rate is highest initially and gradually decreases, approaching"
         " a steady state.")
 def falling_rate(context: Context) -> Finding:
-    variable, constant = context.life(BX), context.life(BX, "mesh_wear_law=constant")
+    variable, constant = context.life(BX), context.life(BX, "wear.mesh_law=constant")
     numbers, curves, falls = [], [], []
     for label, run in (("variable coefficient", variable), ("constant coefficient", constant)):
         rate = np.diff(run.figure("disc_flank_um")) / np.diff(run.hours) * 1e3
@@ -183,7 +183,7 @@ def falling_rate(context: Context) -> Finding:
         "The constant-kappa model underestimated wear in the peak regions and failed to predict root/tip"
         " micro-peaks.")
 def constant_coefficient(context: Context) -> Finding:
-    variable, constant = context.life(BX), context.life(BX, "mesh_wear_law=constant")
+    variable, constant = context.life(BX), context.life(BX, "wear.mesh_law=constant")
     deep = [hump(run)[1] for run in (variable, constant)]
     curves = [tooth_curve(label, run, 1.0 / run.tooth().mean()) for label,
               run in (("variable", variable), ("constant, same mean wear", constant))]

@@ -21,8 +21,8 @@ from reproduce.context import BX, MODIFIED, RIGID_BEARINGS, RV, STAND, Context
 from rv_plant.contact import contact_force
 
 CASES: dict[str, tuple[tuple[str, ...], Audited]] = {
-    "rigid bearings": (RIGID_BEARINGS, 0.995), "bearings as given, no clearance": (("bearing_clearance=0um",), 0.90),
-    "bearings as given, 2.5 µm": ((), 0.70), "clearance 10 µm": (("bearing_clearance=10um",), (0.15, 0.25)),
+    "rigid bearings": (RIGID_BEARINGS, 0.995), "bearings as given, no clearance": (("bearing.clearance=0um",), 0.90),
+    "bearings as given, 2.5 µm": ((), 0.70), "clearance 10 µm": (("bearing.clearance=10um",), (0.15, 0.25)),
     "modified profile, 2.5 µm": (MODIFIED, (0.15, 0.25)),
 }  # fmt: skip
 
@@ -67,7 +67,7 @@ def sine_law(context: Context) -> Finding:
 def linear_penetration(context: Context) -> Finding:
     numbers, ratios = [], {}
     cases: dict[str, tuple[tuple[str, ...], Audited]] = {
-        "rigid": (RIGID_BEARINGS, 1.0), "2.5 µm": ((), (0.76, 1.03)), "10 µm": (("bearing_clearance=10um",), 0.54),
+        "rigid": (RIGID_BEARINGS, 1.0), "2.5 µm": ((), (0.76, 1.03)), "10 µm": (("bearing.clearance=10um",), 0.54),
     }  # fmt: skip
     for label, (texts, audited) in cases.items():
         contacts = context.contacts(RV, *texts)
@@ -117,8 +117,8 @@ def profile_error(context: Context) -> Finding:
 @states("T13", TOOTH, "Exponent 1.5", "Lankarani-Nikravesh force with n = 1.5, typical of elastic contact.")
 def exponent(context: Context) -> Finding:
     line = context.contacts(BX, *RIGID_BEARINGS)
-    sphere = context.contacts(BX, "bearing_clearance=0um", "contact_law=lankarani-nikravesh",
-                              "roller_stiffness_lankarani=5e8", "tolerance=1e-6")
+    sphere = context.contacts(BX, "bearing.clearance=0um", "contact.law=lankarani-nikravesh",
+                              "roller.stiffness_lankarani=5e8", "numerics.tolerance=1e-6")
     peaks = [float(c.force.max()) for c in (line, sphere)]
     record = context.pair(BX).plant.record()
     k, n = float(record["mesh_constant"][0]), float(record["mesh_exponent"][0])

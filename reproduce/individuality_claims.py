@@ -78,7 +78,7 @@ def around(context: Context, name: str, title: str, marks: Marks) -> Figure:
 
 @states("I01", INDIVIDUALITY, "A proud pin", "A pin 3 µm too thick marks itself, and all lobes evenly, for it meets each.")
 def proud_pin(context: Context) -> Finding:
-    m = marks_of(context, "pin_radius_error[3]=3um")
+    m = marks_of(context, "errors.pin.radius[3]=3um")
     own, rest = float(m.pins[:, 2].min()), others(m.pins, (0, 2), (1, 2))
     low, high, race = float(m.lobes.min()), float(m.lobes.max()), float(np.abs(m.races).max())
     return Finding(
@@ -95,7 +95,7 @@ def proud_pin(context: Context) -> Finding:
 
 @states("I02", INDIVIDUALITY, "A pitch error of a lobe", "A lobe displaced by 3 µm towards the load marks its own flank only.")
 def pitch_error(context: Context) -> Finding:
-    m = marks_of(context, "lobe_pitch_error[1,5]=-3um")
+    m = marks_of(context, "errors.lobe.pitch[1,5]=-3um")
     own, rest = float(m.lobes[0, 4]), others(m.lobes, (0, 4))
     pins, race = float(np.abs(m.pins).max()), float(np.abs(m.races).max())
     return Finding(
@@ -123,7 +123,7 @@ def spread(row: np.ndarray) -> float:
 @states("I03", INDIVIDUALITY, "Eccentricity of one crank lobe",
         "A throw 3 µm too large on one crank marks the raceways of that lobe and relieves its disc.")
 def crank_eccentricity(context: Context) -> Finding:
-    m = marks_of(context, "crank_eccentricity_error[1,1]=3um")
+    m = marks_of(context, "errors.crank.eccentricity[1,1]=3um")
     discs = m.lobes.mean(axis=1)
     return Finding(
         REPRODUCED, "Disc 1 is pushed off centre by one crank and held by the other: its bearings wear unequally, more at"
@@ -139,9 +139,9 @@ def crank_eccentricity(context: Context) -> Finding:
 @states("I04", INDIVIDUALITY, "Phase error of one crank lobe",
         "A lobe turned by 3 mrad against its crank moves load from one disc to the other.")
 def crank_phase(context: Context) -> Finding:
-    m = marks_of(context, "crank_phase_error[1,1]=0.003")
+    m = marks_of(context, "errors.crank.phase[1,1]=0.003")
     discs = m.lobes.mean(axis=1)
-    eccentricity = marks_of(context, "crank_eccentricity_error[1,1]=3um")
+    eccentricity = marks_of(context, "errors.crank.eccentricity[1,1]=3um")
     return Finding(
         REPRODUCED, "The error lies along the load: the faulty lobe hands its load to the same crank's other lobe. One"
         " disc wears less and the other more by the same, which tells it from an error of the throw.",

@@ -146,9 +146,9 @@ def growth_exponent(low: LifeRun, high: LifeRun, name: str, ratio: float) -> flo
 @states("L06", LITERATURE, "Clearance grows linearly with load", f"{DURABILITY}: clearance grows about linearly with"
         f" radial load.")
 def with_load(context: Context) -> Finding:
-    law = context.life(RV, "load_torque=83.5", **SHORT), context.life(RV, **SHORT)
-    constant = (context.life(RV, "raceway_wear_law=constant", "load_torque=83.5", **SHORT),
-                context.life(RV, "raceway_wear_law=constant", "load_torque=167", **SHORT))
+    law = context.life(RV, "output.load_torque=83.5", **SHORT), context.life(RV, **SHORT)
+    constant = (context.life(RV, "wear.race_law=constant", "output.load_torque=83.5", **SHORT),
+                context.life(RV, "wear.race_law=constant", "output.load_torque=167", **SHORT))
     found = [growth_exponent(*runs, name, 2.0) for runs in (law, constant) for name in ("inner_raceway_um",
         "outer_raceway_um")]
     return Finding(
@@ -175,8 +175,8 @@ def supports(context: Context) -> Finding:
         "Proc. IMechE E 2024, 10.1177/09544089241288026: wear first rises, then falls along the flank; depth and"
         " region grow with load and speed, the region more with load.")
 def one_hump(context: Context) -> Finding:
-    runs = {"rated": context.life(RV, **SHORT), "half torque": context.life(RV, "load_torque=83.5", **SHORT),
-            "half speed": context.life(RV, "input_speed=1000rpm", **SHORT)}
+    runs = {"rated": context.life(RV, **SHORT), "half torque": context.life(RV, "output.load_torque=83.5", **SHORT),
+            "half speed": context.life(RV, "input.speed=1000rpm", **SHORT)}
     numbers, curves, deep, wide = [], [], {}, {}
     for label, run in runs.items():
         phase, depth = flank_of(run.tooth())

@@ -94,7 +94,7 @@ def segments(context: Context) -> Finding:
 def inner_side(context: Context) -> Finding:
     run = context.life(RV)
     new = run.figure("inner_peak_deg")
-    wide = context.life(RV, "bearing_clearance=10um", tolerance=0.05)
+    wide = context.life(RV, "bearing.clearance=10um", tolerance=0.05)
     row = run.life.surfaces[-1]["inner_race_wear"][0, 0] * 1e6
     angle, opposite = degrees_of(run, row), 100.0 * across(run, row) / row.max()
     figure = polar("inner_race", "Inner raceway, RV20E-121, 10,000 h", "Depth [µm] over the angle from the eccentric"
@@ -130,7 +130,7 @@ def outer_side(context: Context) -> Finding:
     place = run.figure("outer_peak_deg")
     row = run.life.surfaces[-1]["outer_race_wear"][0, 0] * 1e6
     opposite = 100.0 * across(run, row) / row.max()
-    turned = context.life(RV, "load_torque=-167", hours=300.0, tolerance=0.1)
+    turned = context.life(RV, "output.load_torque=-167", hours=300.0, tolerance=0.1)
     other = float(turned.figure("outer_peak_deg")[-1])
     figure = polar("outer_race", "Outer raceway, RV20E-121, 10,000 h", "Depth [µm] over the angle from the outward"
                    " radial, the way the cranks turn.", [Curve("outer raceway", *degrees_of(run, row), "#e0a000")])
@@ -156,9 +156,9 @@ def inner_over_outer(context: Context) -> Finding:
     radii = [1.0 / (1.0 / s["roller_radius"] + sign / s[f"{side}_race_radius"]) for side,
              sign in zip(SIDES, (1.0, -1.0))]
     ratios = {}
-    for label, text, audited in (("0 µm", "bearing_clearance=0um", 2.22), ("10 µm", "bearing_clearance=10um", 1.71),
-                                 ("a0 26 mm", "crank_circle_radius=26mm", 1.96),
-                                 ("a0 30 mm", "crank_circle_radius=30mm", 2.23)):
+    for label, text, audited in (("0 µm", "bearing.clearance=0um", 2.22), ("10 µm", "bearing.clearance=10um", 1.71),
+                                 ("a0 26 mm", "crank.circle_radius=26mm", 1.96),
+                                 ("a0 30 mm", "crank.circle_radius=30mm", 2.23)):
         a, b = depths(context.life(RV, text, tolerance=0.05) if label == "10 µm" else context.life(RV, text,
             hours=300.0, tolerance=0.1))
         ratios[label] = a / b, audited

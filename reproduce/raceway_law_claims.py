@@ -74,7 +74,7 @@ def depths_by_scale(context: Context) -> tuple[np.ndarray, np.ndarray]:
     """(scales of k, depths [um] (scale, side)) after 10,000 h; k is scaled through the roughness."""
     base = context.reducer(RV).starts["roughness"]
     rows = [depths(context.life(RV) if scale == 1.0 else context.life(RV,
-        f"roughness={1e6 * base * scale ** (1.0 / ROUGHNESS):.6g}um", tolerance=0.05,
+        f"wear.roughness={1e6 * base * scale ** (1.0 / ROUGHNESS):.6g}um", tolerance=0.05,
         positions=36)) for scale in SCALES]
     return np.array(SCALES), np.array(rows)
 
@@ -170,7 +170,7 @@ def passes(context: Context) -> Finding:
     speed = s["input_speed"] / 121 * 40 * 60.0 / (2.0 * np.pi)
     both = s["inner_race_radius"] + s["outer_race_radius"]
     inner, outer = (16 * speed * s[f"{side}_race_radius"] / both for side in ("outer", "inner"))
-    halved = depths(context.life(RV, "slip_ratio_inner=0.025", "slip_ratio_outer=0.025", hours=300.0, tolerance=0.1))
+    halved = depths(context.life(RV, "wear.inner_slip_ratio=0.025", "wear.outer_slip_ratio=0.025", hours=300.0, tolerance=0.1))
     full = depths(context.life(RV, hours=300.0, tolerance=0.1))
     return Finding(
         REPRODUCED, "A point slides 2 b xi per pass of a roller, so that the depth of a pass is k (F/L_r) xi"

@@ -34,8 +34,8 @@ def eccentric_ring(size: float = 5e-6) -> tuple[str, ...]:
 
 
 ERRORS = {
-    "none": (), "throw of one lobe +3 µm": ("crank_eccentricity_error[1,1]=3um",),
-    "one hole of a disc 4 µm": ("disc_hole_error_tangential[1,1]=-4um",),
+    "none": (), "throw of one lobe +3 µm": ("errors.crank.eccentricity[1,1]=3um",),
+    "one hole of a disc 4 µm": ("errors.disc_hole.tangential[1,1]=-4um",),
     "pin ring 5 µm eccentric": eccentric_ring(), "pins 2 µm at random": random_pins(),
 }  # fmt: skip
 EXPECTED = {"none": (80, 3.46), "throw of one lobe +3 µm": (40, 4.98), "one hole of a disc 4 µm": (40, 6.05),
@@ -69,7 +69,7 @@ def orders(context: Context) -> Finding:
         " transmission error 22.91 arcsec.")
 def initial_error(context: Context) -> Finding:
     values = {label: float(np.ptp(context.output_turn(RV, *texts))) for label, texts in ERRORS.items()}
-    wide = float(3600.0 * np.degrees(np.ptp(context.contacts(RV, "bearing_clearance=10um").turn["lag"])))
+    wide = float(3600.0 * np.degrees(np.ptp(context.contacts(RV, "bearing.clearance=10um").turn["lag"])))
     return Finding(
         NOT_TESTABLE, "Clearance and part errors of that reducer are unknown; single errors of a few micrometres or"
         " 10 µm of clearance give this size.",
@@ -83,8 +83,8 @@ def initial_error(context: Context) -> Finding:
         " 25 % of the transmission error; a modified profile lowered the measured error by 47 %.")
 def elastic_share(context: Context) -> Finding:
     errors = ERRORS["throw of one lobe +3 µm"] + ERRORS["pins 2 µm at random"]
-    full, light = (float(np.ptp(context.output_turn(RV, *errors, torque))) for torque in ("load_torque=167",
-        "load_torque=1.67"))
+    full, light = (float(np.ptp(context.output_turn(RV, *errors, torque))) for torque in ("output.load_torque=167",
+        "output.load_torque=1.67"))
     modified = float(np.ptp(context.output_turn(RV, *errors, *MODIFIED)))
     share = 100.0 * (full - light) / full
     return Finding(
@@ -131,7 +131,7 @@ def jumping(context: Context) -> Finding:
 def closing(context: Context, name: str, reading: str, target: float) -> float:
     """Stiffness of each crank's supports [N/m] that brings the reducer to a catalogue's torsional stiffness; 0 if none does."""
     def excess(log_stiffness: float) -> float:
-        texts = f"stiffness_reading={reading}", f"crank_support_compliance={10.0**-log_stiffness!r}m/N"
+        texts = f"contact.stiffness_reading={reading}", f"effects.support_compliance.crank_support_compliance={10.0**-log_stiffness!r}m/N"
         return context.stiffness(name, *texts).stiffness_Nm_per_arcmin - target
 
     return float(10.0 ** brentq(excess, 7.0, 11.0, xtol=1e-3))
@@ -142,7 +142,7 @@ def torsional_stiffness(context: Context) -> Finding:
     numbers, grounds, curves = [], [], []
     for name, target in ((RV, 49.0), (BX, 108.0)):
         for reading in ("SI", "literal"):
-            bare = context.stiffness(name, f"stiffness_reading={reading}")
+            bare = context.stiffness(name, f"contact.stiffness_reading={reading}")
             needed = closing(context, name, reading, target)
             audited = 1.4e8 if (name, reading) == (RV, "literal") else None
             numbers += [Number(f"{name}, {reading}, rigid supports", "N m/arcmin", bare.stiffness_Nm_per_arcmin),
@@ -153,8 +153,8 @@ def torsional_stiffness(context: Context) -> Finding:
             grounds.append((f"{name}, {reading}: contacts alone are too stiff",
                             bare.stiffness_Nm_per_arcmin > 3.0 * target))
             if reading == "SI":
-                soft = context.stiffness(name, f"stiffness_reading={reading}",
-                                         f"crank_support_compliance={1.0 / needed!r}m/N")
+                soft = context.stiffness(name, f"contact.stiffness_reading={reading}",
+                                         f"effects.support_compliance.crank_support_compliance={1.0 / needed!r}m/N")
                 curves += [Curve(f"{name}, rigid supports", bare.torque, bare.turning),
                            Curve(f"{name}, supports {needed / 1e8:.2f}e8 N/m", soft.torque, soft.turning,
                                  dash="dash")]
@@ -173,7 +173,7 @@ def catalogue_lost_motion(context: Context) -> Finding:
     numbers, found = [], {}
     for name, target in ((RV, 49.0), (BX, 108.0)):
         needed = closing(context, name, "SI", target)
-        soft = f"crank_support_compliance={1.0 / needed!r}m/N"
+        soft = f"effects.support_compliance.crank_support_compliance={1.0 / needed!r}m/N"
         found[name] = context.stiffness(name).lost_motion_arcmin, context.stiffness(name, soft).lost_motion_arcmin
         numbers += [Number(f"{name}, as given", "arcmin", found[name][0]),
                     Number(f"{name}, with the supports of C01", "arcmin", found[name][1]),
@@ -181,7 +181,7 @@ def catalogue_lost_motion(context: Context) -> Finding:
                            context.stiffness(name, soft, *MODIFIED).lost_motion_arcmin)]
     for text in ("0um", "5um", "10um"):
         numbers.append(Number(f"{RV}, needle clearance {text.replace('um', ' µm')}", "arcmin",
-                              context.stiffness(RV, f"bearing_clearance={text}").lost_motion_arcmin))
+                              context.stiffness(RV, f"bearing.clearance={text}").lost_motion_arcmin))
     worst = max(max(pair) for pair in found.values())
     return Finding(
         CONDITIONAL, "The assumed needle clearance alone makes most of it; a few micrometres more, or the"
@@ -207,10 +207,10 @@ def catalogue_error(context: Context) -> Finding:
 def catalogue_efficiency(context: Context) -> Finding:
     def efficiency(name: str, share: float, *texts: str) -> float:
         load, ratio = {RV: 167.0, BX: 412.0}[name] * share, 121.0
-        turn = context.contacts(name, f"load_torque={load!r}", *texts).turn
+        turn = context.contacts(name, f"output.load_torque={load!r}", *texts).turn
         return 100.0 * load / (ratio * float(np.mean(turn["drive_torque"])))
 
-    seals, friction = {RV: "seal_torque=0.1", BX: "seal_torque=0.25"}, "friction_coefficient=0.06"
+    seals, friction = {RV: "effects.drag.seal_torque=0.1", BX: "effects.drag.seal_torque=0.25"}, "effects.stribeck_friction.friction_coefficient=0.06"
     numbers, ideal, rated, tenth = [], [], [], []
     for name in (RV, BX):
         ideal.append(efficiency(name, 1.0))

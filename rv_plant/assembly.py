@@ -35,8 +35,8 @@ hold_effects = compose("rv_plant.effects", HOOKS).hold
 def variables(sizes: Sizes) -> list[Variable]:
     z, n, crank = coordinate_count(sizes), moving_count(sizes), sizes["crank"]
     return [
-        output("housing_force_x", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
-        output("housing_force_y", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        output("housing.force_x", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
+        output("housing.force_y", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
         state("z", "1", "departures from ideal kinematics, see assembly", **sizes.over(coordinate=z)),
         state("compliance", "1", "compliance of each coordinate of z", **sizes.over(coordinate=z)),
         state("potential", "J", "energy of deformation"),

@@ -10,7 +10,7 @@ beta: critically damped).  (Baumgarte 1972; Garcia de Jalon and Bayo 1994)
 """
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.coordinates import moving_count
 from rv_plant.linear import cholesky_apply, cholesky_factor
 from rv_plant.mesh import ring_coordinate
@@ -25,10 +25,11 @@ def variables(sizes: Sizes) -> list[Variable]:
     each = ("constraint", "constraint_rate", "constraint_bias", "multiplier_step", "multiplier_start", "schur_scale")
     return [
         Variable("joints", "parameter", "1", "joints in motion: springs, or constraints with multipliers (then rigid)", 0,
-                 choices=("compliant", "constrained"), source="needle-bearing document has constraints"),
+                 choices=("compliant", "constrained"), source="needle-bearing document has constraints", path="numerics.joints"),
         Variable("baumgarte_rate", "parameter", "1/s", "rate at which drift of a constraint is pulled back", 1e4,
-                 minimum=0.0, maximum=1e8, nominal=1e4, source="assumed: faster than the cranks, slower than a step"),
-        output("constraint_drift", "m", "largest violation of a joint's constraint (turnings in rad)"),
+                 minimum=0.0, maximum=1e8, nominal=1e4, source="assumed: faster than the cranks, slower than a step", path="numerics.baumgarte_rate"),
+        local("constraint_drift", "m", "largest violation of a joint's constraint (turnings in rad)", path="numerics.constraint_drift",
+              display="um"),
         state("multiplier", "N", "forces of the joints' constraints (moments in N m)", **sizes.over(constraint=m)),
         *(scratch(name, (m,)) for name in each),
         scratch("constraint_jacobian", (m, n)), scratch("schur", (m, m)), scratch("schur_columns", (m, n)),

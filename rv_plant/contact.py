@@ -45,24 +45,24 @@ def variables(sizes: Sizes) -> list[Variable]:
     """What all contacts share; each has its own stiffness and damping."""
     return [
         Variable("elastic_modulus", "parameter", "Pa", "Young's modulus of all parts", 207e9, minimum=1e6,
-                 nominal=1e11, source=FILE),
+                 nominal=1e11, source=FILE, path="material.elastic_modulus"),
         Variable("poisson_ratio", "parameter", "1", "Poisson's ratio of all parts", 0.3, minimum=0.0, maximum=0.5,
-                 source=FILE),
-        Variable("contact_law", "parameter", "1", "law of force against penetration", 0, choices=LAWS,
+                 source=FILE, path="material.poisson_ratio"),
+        Variable("contact.law", "parameter", "1", "law of force against penetration", 0, choices=LAWS,
                  source="both sources"),
         Variable("stiffness_reading", "parameter", "1",
                  "force at 1 mm, or the same digits in N/m as force at 1 m per thousand", 0, choices=READINGS,
-                 source="assumed: Palmgren's constant for the printed length gives the SI reading"),
+                 source="assumed: Palmgren's constant for the printed length gives the SI reading", path="contact.stiffness_reading"),
         Variable("exponent_lankarani", "parameter", "1", "exponent of the Lankarani-Nikravesh law", 1.5, minimum=1.0,
-                 maximum=2.0, source="BX-40E document"),
+                 maximum=2.0, source="BX-40E document", path="contact.exponent_lankarani"),
         Variable("damping_law", "parameter", "1", "damping of the contacts in motion", STEP, choices=DAMPINGS,
-                 source="needle-bearing document: C c_c v"),
+                 source="needle-bearing document: C c_c v", path="contact.damping_law"),
         Variable("damping_depth", "parameter", "m", "penetration at which damping is full (law step)", 1e-6,
-                 minimum=1e-9, maximum=1e-3, nominal=1e-6, source="assumed: a third of the usual penetration"),
+                 minimum=1e-9, maximum=1e-3, nominal=1e-6, source="assumed: a third of the usual penetration", path="contact.damping_depth"),
         Variable("restitution", "parameter", "1", "coefficient of restitution (law lankarani-nikravesh)", 0.8,
-                 minimum=0.0, maximum=1.0, source="assumed: 0.7 to 0.9"),
+                 minimum=0.0, maximum=1.0, source="assumed: 0.7 to 0.9", path="contact.restitution"),
         Variable("modal_damping_time", "parameter", "s", "time tau of the law modal: damping ratio omega tau/2", 4e-6,
-                 minimum=0.0, maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+                 minimum=0.0, maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz", path="contact.modal_damping_time"),
     ]
 
 

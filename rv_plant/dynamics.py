@@ -35,27 +35,28 @@ RIGID_TOOTH = 1e-10
 STANDSTILL = 0.1
 
 
-def mass(name: str, unit: str, text: str, start: float) -> Variable:
+def mass(name: str, unit: str, text: str, start: float, display: str = "") -> Variable:
     return Variable(name, "parameter", unit, f"mass or inertia of {text}", start, minimum=1e-9,
-                    source="assumed: plausible from geometry")
+                    source="assumed: plausible from geometry", display=display)
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     bodies = sizes.over(coordinate=moving_count(sizes))
     return [
-        mass("disc_mass", "kg", "one disc", 0.387), mass("disc_inertia", "kg.m^2", "one disc", 5.7e-4),
-        mass("crank_mass", "kg", "one crank with its planet", 0.131),
-        mass("crank_inertia", "kg.m^2", "one crank with its planet", 1.26e-5),
-        mass("carrier_mass", "kg", "the carrier", 0.715), mass("carrier_inertia", "kg.m^2", "the carrier", 7.8e-4),
-        mass("sun_inertia", "kg.m^2", "sun with what is fixed to it", 3.6e-6),
-        mass("ring_inertia", "kg.m^2", "pin ring on its housing", 1e-3),
-        mass("load_inertia", "kg.m^2", "what the output flange carries", 5.0),
+        mass("disc.mass", "kg", "one disc", 0.387), mass("disc.inertia", "kg.m^2", "one disc", 5.7e-4),
+        mass("crank.mass", "kg", "one crank with its planet", 0.131),
+        mass("crank.inertia", "kg.m^2", "one crank with its planet", 1.26e-5),
+        mass("carrier.mass", "kg", "the carrier", 0.715), mass("carrier.inertia", "kg.m^2", "the carrier", 7.8e-4),
+        mass("sun.inertia", "kg.m^2", "sun with what is fixed to it", 3.6e-6),
+        mass("ring.inertia", "kg.m^2", "pin ring on its housing", 1e-3),
+        mass("load.inertia", "kg.m^2", "what the output flange carries", 5.0, display="kg.m^2"),
         Variable("tooth_stiffness_variation", "parameter", "1", "first-stage tooth stiffness over its mean, amplitude"
-                 " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant"),
+                 " at mesh order", 0.0, minimum=0.0, maximum=0.9, source="assumed: constant", path="first_stage.stiffness_variation"),
         Variable("joint_damping_time", "parameter", "s", "damping over stiffness of joints and teeth", 4e-6, minimum=0.0,
-                 maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz"),
+                 maximum=1.0, nominal=1e-6, source="assumed: ratio 0.045 at 3.5 kHz", path="contact.joint_damping_time"),
         Variable("swing_damping", "parameter", "N.m.s/rad", "damper in motion between the load and the input's turning over the ratio;"
-                 " 0: none", 0.0, minimum=0.0, maximum=1e9, nominal=100.0, tunable=True, source="chosen by the master"),
+                 " 0: none", 0.0, minimum=0.0, maximum=1e9, nominal=100.0, tunable=True, source="chosen by the master",
+                 path="load.swing_damping"),
         state("q", "1", "places of the bodies, see dynamics", **bodies),
         state("v", "1", "velocities of the coordinates, sun and load", **bodies),
         state("acceleration", "1", "accelerations of the bodies", **bodies),

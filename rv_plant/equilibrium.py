@@ -8,7 +8,7 @@ diagonal then leads to the next contact.
 """
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.assembly import assemble, assemble_beside
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.linear import cholesky_solve
@@ -29,11 +29,11 @@ def variables(sizes: Sizes) -> list[Variable]:
     z, n = coordinate_count(sizes), moving_count(sizes)
     return [
         Variable("tolerance", "parameter", "1", "out-of-balance force over load", 1e-9, minimum=1e-12,
-                 maximum=1e-3, source="assumed: far below every other error"),
+                 maximum=1e-3, source="assumed: far below every other error", path="numerics.tolerance"),
         Variable("max_iterations", "parameter", "1", "Newton iterations before an angle counts as failed", 60,
-                 integer=True, minimum=1, maximum=1000, source="assumed"),
-        output("residual", "1", "out-of-balance force over load at the last equilibrium"),
-        output("iterations", "1", "equilibrium iterations of the last angle", integer=True),
+                 integer=True, minimum=1, maximum=1000, source="assumed", path="numerics.max_iterations"),
+        local("residual", "1", "out-of-balance force over load at the last equilibrium", path="numerics.residual"),
+        local("iterations", "1", "equilibrium iterations of the last angle", integer=True, path="numerics.iterations"),
         state("is_free", "1", "whether the coordinate is an unknown", **sizes.over(coordinate=z), integer=True, minimum=0, maximum=1),
         state("free", "1", "the unknown coordinates", **sizes.over(unknown=z), integer=True, minimum=0, maximum=z - 1),
         state("free_count", "1", "number of unknowns", integer=True, minimum=0, maximum=z),

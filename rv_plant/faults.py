@@ -18,36 +18,36 @@ FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations."
     " Lower the load, or check clearances and profile errors (they are in m, not um)",
-    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
-    " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
-    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m plus equidistant_modification exceeds the"
-    " smallest convex radius of the centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
-    PINS_OVERLAP: "neighbouring pins overlap: pin_radius {pin_radius:.6g} m is too large for"
-    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce pin_radius or the number of pins",
-    ROLLERS_OVERLAP: "neighbouring rollers overlap: roller_radius {roller_radius:.6g} m is too large for the number of"
-    " rollers between the races. Reduce roller_radius or the number of rollers",
+    PRIMED: "the trochoid has loops: crank.eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce crank.eccentricity or enlarge pin.circle_radius",
+    UNDERCUT: "the profile is undercut: pin.radius {pin_radius:.6g} m plus disc.equidistant_modification exceeds the"
+    " smallest convex radius of the centre curve. Reduce pin.radius or crank.eccentricity, or enlarge pin.circle_radius",
+    PINS_OVERLAP: "neighbouring pins overlap: pin.radius {pin_radius:.6g} m is too large for"
+    " pin.circle_radius {pin_circle_radius:.6g} m. Reduce pin.radius or the number of pins",
+    ROLLERS_OVERLAP: "neighbouring rollers overlap: roller.radius {roller_radius:.6g} m is too large for the number of"
+    " rollers between the races. Reduce roller.radius or the number of rollers",
     RING_OPEN: "the pins do not close the ring: a cycloid disc needs one pin more than it has lobes."
     " Correct pins or lobes in [topology]",
     NO_MOTION: "the integrator's step fell below 1e-10 s (crank angle {crank_angle:.6g} rad, {rejected} rejected steps)."
-    " Loosen dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
+    " Loosen numerics.dynamic_tolerance, or check masses, damping and speeds: something moves impossibly fast",
     TORQUE_AT_REST: "drive = torque needs fidelity = dynamic: without inertia a torque sets no speed."
     " Set fidelity to dynamic, or drive to speed",
-    OUTPUT_HOLES_OVERLAP: "holes for the output pins overlap each other or the bearing: output_pin_radius {output_pin_radius:.6g} m"
-    " plus eccentricity {eccentricity:.6g} m is too large on output_circle_radius {output_circle_radius:.6g} m beside"
-    " outer_race_radius {outer_race_radius:.6g} m. Reduce output_pin_radius, outer_race_radius or the number of output pins",
-    OUTPUT_HOLES_OPEN: "holes for the output pins cut the flanks: output_circle_radius {output_circle_radius:.6g} m plus"
-    " output_pin_radius {output_pin_radius:.6g} m and eccentricity reaches the disc's roots."
-    " Reduce output_circle_radius or output_pin_radius",
+    OUTPUT_HOLES_OVERLAP: "holes for the output pins overlap each other or the bearing: output_pin.radius {output_pin_radius:.6g} m"
+    " plus crank.eccentricity {eccentricity:.6g} m is too large on output_pin.circle_radius {output_circle_radius:.6g} m beside"
+    " outer_race.radius {outer_race_radius:.6g} m. Reduce output_pin.radius, outer_race.radius or the number of output pins",
+    OUTPUT_HOLES_OPEN: "holes for the output pins cut the flanks: output_pin.circle_radius {output_circle_radius:.6g} m plus"
+    " output_pin.radius {output_pin_radius:.6g} m and eccentricity reaches the disc's roots."
+    " Reduce output_pin.circle_radius or output_pin.radius",
     OUTPUT_PINS_AT_REST: "fidelity = dynamic is not there for output through pins in holes of the disc."
     " Set fidelity to quasi-static",
-    CRANKS_ON_AXIS: "crank_circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
-    " crank_circle_radius, or give the reducer output_pins in [topology]",
-    LONG_STEP: "the communication step takes more than 100,000 internal steps at input_speed {input_speed:.6g} rad/s."
-    " Use a shorter communication step, a larger largest_crank_step than {largest_crank_step:.3g} rad,"
-    " or in motion a looser dynamic_tolerance",
-    RACES_DO_NOT_FIT: "the rollers do not fit: outer_race_radius {outer_race_radius:.6g} m must equal"
-    " inner_race_radius {inner_race_radius:.6g} m + 2 roller_radius {roller_radius:.6g} m within 0.1 mm;"
-    " the clearance is bearing_clearance",
+    CRANKS_ON_AXIS: "crank.circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
+    " crank.circle_radius, or give the reducer output_pins in [topology]",
+    LONG_STEP: "the communication step takes more than 100,000 internal steps at input.speed {input_speed:.6g} rad/s."
+    " Use a shorter communication step, a larger numerics.largest_crank_step than {largest_crank_step:.3g} rad,"
+    " or in motion a looser numerics.dynamic_tolerance",
+    RACES_DO_NOT_FIT: "the rollers do not fit: outer_race.radius {outer_race_radius:.6g} m must equal"
+    " inner_race.radius {inner_race_radius:.6g} m + 2 roller.radius {roller_radius:.6g} m within 0.1 mm;"
+    " the clearance is bearing.clearance",
 }
 
 

@@ -14,11 +14,11 @@ from rv_plant.contact_arrays import copy_contacts
 def variables(sizes: Sizes) -> list[Variable]:
     contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
-        output("crank_path", "rad", "turning of the cranks in the housing, either way added up", nominal=10.0),
-        output("mesh_force_path", "N.rad", "force between disc and pin added up along crank_path", **contact, nominal=1000.0),
-        output("roller_force_path", "N.rad", "force on a roller added up along crank_path", **roller, nominal=1000.0),
-        state("mesh_force_before", "N", "force at the last point of crank_path", **contact),
-        state("roller_force_before", "N", "force at the last point of crank_path", **roller),
+        output("crank.path", "rad", "turning of the cranks in the housing, either way added up", nominal=10.0),
+        output("mesh.force_path", "N.rad", "force between disc and pin added up along crank.path", **contact, nominal=1000.0),
+        output("roller.force_path", "N.rad", "force on a roller added up along crank.path", **roller, nominal=1000.0),
+        state("mesh_force_before", "N", "force at the last point of crank.path", **contact),
+        state("roller_force_before", "N", "force at the last point of crank.path", **roller),
     ]
 
 

@@ -16,20 +16,20 @@ A reducer without this stage has i1 = 0: its cranks are turned directly.
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, state
+from fmu_src.variables import Sizes, Variable, local, state
 from rv_plant.dimension import FILE
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     crank = sizes.over("crank")
     return [
-        Variable("first_stage_ratio", "parameter", "1", "teeth of planet over teeth of sun (0: no first stage)",
+        Variable("first_stage.ratio", "parameter", "1", "teeth of planet over teeth of sun (0: no first stage)",
                  3.0, minimum=0.0, maximum=100.0, source=FILE),
         Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
-                 minimum=0.0, maximum=0.7, source="assumed: standard gearing"),
+                 minimum=0.0, maximum=0.7, source="assumed: standard gearing", path="first_stage.pressure_angle"),
         Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
-                 source="assumed: usual for a ratio of 3"),
-        output("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0),
+                 source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
+        local("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0, path="first_stage.tooth_force"),
         state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
         state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
         state("tooth_play", "m", "play of sun and planet beyond that of all", **crank),

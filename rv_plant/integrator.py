@@ -30,11 +30,11 @@ def variables(sizes: Sizes) -> list[Variable]:
     bodies = sizes.over(coordinate=n)
     return [
         Variable("spectral_radius", "parameter", "1", "what the integrator leaves of frequencies far above its step",
-                 0.5, minimum=0.0, maximum=1.0, source="assumed: between none and all"),
+                 0.5, minimum=0.0, maximum=1.0, source="assumed: between none and all", path="numerics.spectral_radius"),
         Variable("dynamic_tolerance", "parameter", "1", "local error of a step over a deflection of 1 um", 3e-3,
-                 minimum=1e-9, maximum=1.0, source="measured: forces within 1 %"),
+                 minimum=1e-9, maximum=1.0, source="measured: forces within 1 %", path="numerics.dynamic_tolerance"),
         Variable("max_newton", "parameter", "1", "Newton iterations before a step is repeated shorter", 8,
-                 integer=True, minimum=2, maximum=100, source="assumed"),
+                 integer=True, minimum=2, maximum=100, source="assumed", path="numerics.max_newton"),
         state("smooth", "1", "the integrator's acceleration", **bodies),
         state("length_scale", "1", "small change of each coordinate", **bodies),
         state("assemblies", "1", "evaluations of all forces in the last communication step", integer=True, minimum=0),

@@ -3,7 +3,7 @@
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
 from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
@@ -16,29 +16,29 @@ APART = 1e-9
 def variables(sizes: Sizes) -> list[Variable]:
     contact, pin, lobe = sizes.over("disc", "pin"), sizes.over("pin"), sizes.over("disc", "lobe")
     return [
-        Variable("mesh_profile_error", "input", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
-        length("pin_radius", "radius of the pins", 1e-5, 2e-3),
-        length("pin_circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
-        length("mesh_width", "width of one disc", 1e-5, 8.82e-3),
+        Variable("mesh.profile_error", "input", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
+        length("pin.radius", "radius of the pins", 1e-5, 2e-3),
+        length("pin.circle_radius", "radius of the circle of the pins' centres", 1e-4, 52e-3),
+        length("mesh.width", "width of one disc", 1e-5, 8.82e-3),
         length("equidistant_modification", "added to the pin radius when the disc is generated (positive: gap)",
-               -1e-3, maximum=1e-3),
+               -1e-3, maximum=1e-3, path="disc.equidistant_modification", display="um"),
         length("shift_modification", "added to the pin circle radius when the disc is generated (negative: gap)",
-               -1e-3, maximum=1e-3),
-        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth into it (positive: gap)",
-                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none"),
-        Variable("mesh_stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
+               -1e-3, maximum=1e-3, path="disc.shift_modification", display="um"),
+        Variable("angle_modification", "parameter", "rad", "turning of both flanks of a tooth towards each other (positive: gap)",
+                 0.0, minimum=-1e-2, maximum=1e-2, source="assumed: none", path="disc.angle_modification", display="arcmin"),
+        Variable("mesh.stiffness", "parameter", "N", "force of disc on pin at 1 mm of penetration, exponent 10/9",
                  3.2e5, minimum=1.0, nominal=1e5, source=FILE),
-        Variable("mesh_stiffness_lankarani", "parameter", "N", "the same for the Lankarani-Nikravesh law", 3.2e6,
+        Variable("mesh.stiffness_lankarani", "parameter", "N", "force of disc on pin at 1 mm of penetration, Lankarani-Nikravesh law", 3.2e6,
                  minimum=1.0, nominal=1e6, source=FILE),
-        Variable("mesh_damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
+        Variable("mesh.damping", "parameter", "N.s/m", "coefficient C of disc and pin (law step)", 200.0, minimum=0.0,
                  nominal=100.0, source="assumed: 50 to 500 N s/m per tooth"),
-        deviation("pin_position_error_radial", "pin centre outwards", **pin),
-        deviation("pin_position_error_tangential", "pin centre along the circle", **pin),
-        deviation("pin_radius_error", "pin radius above nominal", **pin),
-        deviation("lobe_profile_error", "material missing on a lobe", **lobe),
-        deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe),
-        output("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0),
-        output("mesh_force", "N", "force between disc and pin", **contact, nominal=100.0),
+        deviation("pin_position_error_radial", "pin centre outwards", **pin, path="errors.pin.radial"),
+        deviation("pin_position_error_tangential", "pin centre along the circle", **pin, path="errors.pin.tangential"),
+        deviation("pin_radius_error", "pin radius above nominal", **pin, path="errors.pin.radius"),
+        deviation("lobe_profile_error", "material missing on a lobe", **lobe, path="errors.lobe.profile"),
+        deviation("lobe_pitch_error", "lobe displaced along the pitch", **lobe, path="errors.lobe.pitch"),
+        local("loaded_teeth", "1", "pins that a disc touches", **sizes.over("disc"), nominal=10.0, path="mesh.loaded_teeth"),
+        output("mesh.force", "N", "force between disc and pin", **contact, nominal=100.0),
         # What effects add to the ideal parts.
         state("pin_radius_added", "m", "added to the pins' radius", **pin),
         state("lobe_gap_added", "m", "material missing on a lobe", **lobe),

@@ -7,7 +7,7 @@ stored in motion and deformation.
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, state
+from fmu_src.variables import Sizes, Variable, local, state
 from rv_plant.constraints import CONSTRAINED, largest_drift
 from rv_plant.dynamics import RIGID, RIGID_TOOTH, assemble_motion
 from rv_plant.faults import DYNAMIC
@@ -38,8 +38,8 @@ GENTLE_RAMP = 2e-3
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
-        output("energy_error", "1", "energy that the account in motion lacks, over what was turned over"),
-        Variable("input_acceleration", "parameter", "rad/s^2", "in motion a new input speed is reached along a ramp of this slope"
+        local("energy_error", "1", "energy that the account in motion lacks, over what was turned over", path="numerics.energy_error"),
+        Variable("input.acceleration", "parameter", "rad/s^2", "in motion a new input speed is reached along a ramp of this slope"
                  " at most", 1e5, minimum=1e-3, nominal=1e5, source="assumed: rated speed in 2 ms"),
         state("drive_speed", "rad/s", "speed at which the input is driven"),
         state("ramp_left", "s", "time until that is input_speed"),

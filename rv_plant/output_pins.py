@@ -10,24 +10,27 @@ reducer whose output goes through cranks has no such pins; its arrays are of len
 """
 
 import math
+from typing import Any
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.contact import contact_force
 from rv_plant.dimension import FILE, length
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     source = FILE if sizes["output pin"] > 1 else "no output pins: without effect"
+    pins: dict[str, Any] = {"needs": ("output_pins", 1)}
     return [
-        length("output_pin_radius", "radius of the output pins with their rollers", 1e-5, 5e-3, source=source),
-        length("output_circle_radius", "radius of the circle of the output pins' centres", 1e-4, 20e-3, source=source),
+        length("output_pin.radius", "radius of the output pins with their rollers", 1e-5, 5e-3, source=source, **pins),
+        length("output_circle_radius", "radius of the circle of the output pins' centres", 1e-4, 20e-3, source=source,
+               path="output_pin.circle_radius", **pins),
         length("output_clearance", "hole in the disc beyond roller and eccentricity, in radius", -1e-3, maximum=1e-2,
-               source=source),
+               source=source, path="output_pin.clearance", display="um", **pins),
         Variable("output_stiffness", "parameter", "N", "force of an output pin on its hole at 1 mm, exponent 10/9", 1e5,
-                 minimum=1.0, nominal=1e5, source=source),
-        output("output_pin_force", "N", "force of an output pin on its hole at the present angle",
-               **sizes.over("disc", "output pin"), nominal=100.0),
+                 minimum=1.0, nominal=1e5, source=source, path="output_pin.stiffness", **pins),
+        local("output_pin.force", "N", "force of an output pin on its hole at the present angle",
+               **sizes.over("disc", "output pin"), nominal=100.0, **pins),
         state("output_gap_added", "m", "added to the clearance of the output pins"),
         state("output_constant", "1", "K of an output pin in N/m^n"),
         state("output_exponent", "1", "n of an output pin"),

@@ -16,11 +16,11 @@ warm_effects, before_effects, after_effects = effects.warm, effects.before, effe
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
-        output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9),
-        output("largest_pin_force", "N", "largest force between a disc and a pin at the present angle", nominal=100.0),
-        output("largest_roller_force", "N", "largest force on a roller at the present angle", nominal=100.0),
-        output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0),
-        output("power_loss", "W", "power lost: friction and drag, and in motion damping (mean of the last step)"),
+        output("contact_pressure", "Pa", "largest Hertz pressure p0 between disc and pins", nominal=1e9, path="mesh.contact_pressure"),
+        output("largest_pin_force", "N", "largest force between a disc and a pin at the present angle", nominal=100.0, path="mesh.largest_force"),
+        output("largest_roller_force", "N", "largest force on a roller at the present angle", nominal=100.0, path="roller.largest_force"),
+        output("reducer_temperature", "K", "temperature of the contacts", nominal=300.0, path="heat.contact_temperature"),
+        output("power_loss", "W", "power lost: friction and drag, and in motion damping (mean of the last step)", path="heat.power_loss"),
         state("grease_thinning", "1", "viscosity of the grease over that of new grease"),
         state("friction_power", "W", "power lost by friction and drag at the last equilibrium"),
     ]

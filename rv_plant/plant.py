@@ -9,7 +9,7 @@ import math
 
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
-from fmu_src.variables import Sizes, Variable, output, state
+from fmu_src.variables import Sizes, Variable, local, output, state
 from rv_plant.assembly import assemble
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
@@ -34,32 +34,32 @@ start_effects, advance_states, heat_effects = effects.start, effects.advance, ef
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
-        Variable("input_speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
+        Variable("input.speed", "input", "rad/s", "speed of the sun (of the cranks without a first stage)",
                  1.0, source=FILE),
-        Variable("input_torque", "input", "N.m", "torque on the sun if drive is torque", 0.0,
+        Variable("input.torque", "input", "N.m", "torque on the sun if drive is torque", 0.0,
                  source="as the system model has it"),
         Variable("load_torque", "input", "N.m", "torque on the carrier, positive against positive rotation",
-                 0.0, nominal=100.0, source=FILE),
+                 0.0, nominal=100.0, source=FILE, path="output.load_torque"),
         Variable("temperature", "input", "K", "temperature of the reducer's surroundings", 293.15,
-                 minimum=200.0, maximum=500.0, nominal=300.0, source="assumed: room temperature"),
+                 minimum=200.0, maximum=500.0, nominal=300.0, source="assumed: room temperature", path="heat.ambient_temperature"),
         Variable("fidelity", "parameter", "1", "equilibrium at each angle, or bodies in motion", 0,
                  choices=("quasi-static", "dynamic"), source="as the system model needs it"),
         Variable("drive", "parameter", "1", "what moves the input in motion", 0, choices=("speed", "torque"),
                  source="as the system model needs it"),
         Variable("largest_crank_step", "parameter", "rad", "a communication step is divided so that no crank"
                  " turns further between two equilibria", math.radians(5.0), minimum=1e-6, maximum=1.0,
-                 source="assumed: 72 positions a turn"),
-        output("input_angle", "rad", "angle of the sun"),
-        output("crank_angle", "rad", "angle of the cranks in the housing (mean of all cranks)"),
-        output("crank_speed", "rad/s", "speed of the cranks in the housing"),
-        output("output_angle", "rad", "angle of the output flange"),
-        output("output_speed", "rad/s", "speed of the output flange"),
-        output("drive_torque", "N.m", "torque that holds or drives the input"),
-        output("reaction_torque", "N.m", "torque with which the housing holds the pin ring"),
-        output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4),
+                 source="assumed: 72 positions a turn", path="numerics.largest_crank_step"),
+        output("input.angle", "rad", "angle of the sun"),
+        output("crank.angle", "rad", "angle of the cranks in the housing (mean of all cranks)"),
+        output("crank.speed", "rad/s", "speed of the cranks in the housing"),
+        output("output.angle", "rad", "angle of the output flange"),
+        output("output.speed", "rad/s", "speed of the output flange"),
+        output("drive_torque", "N.m", "torque that holds or drives the input", path="input.drive_torque"),
+        output("reaction_torque", "N.m", "torque with which the housing holds the pin ring", path="housing.reaction_torque"),
+        output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4, path="output.transmission_error"),
         output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
-               nominal=1e-4),
-        output("substeps", "1", "equilibria in the last communication step", integer=True),
+               nominal=1e-4, path="output.lag"),
+        local("substeps", "1", "equilibria in the last communication step", integer=True, path="numerics.substeps"),
         state("ideal_output", "rad", "output angle of ideal kinematics"),
         state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
         state("advance_before", "rad", "turning of the ideal output between z_before and z"),

@@ -10,15 +10,15 @@ from rv_plant.dimension import deviation, length
 def variables(sizes: Sizes) -> list[Variable]:
     bearing, crank = sizes.over("disc", "crank"), sizes.over("crank")
     return [
-        length("eccentricity", "throw of the cranks", 1e-6, 0.9e-3),
-        length("crank_circle_radius", "radius of the circle of the cranks' centres (0: one central eccentric)", 0.0, 28e-3),
-        deviation("crank_eccentricity_error", "throw of a crank's lobe above nominal", **bearing),
+        length("eccentricity", "throw of the cranks", 1e-6, 0.9e-3, path="crank.eccentricity"),
+        length("crank.circle_radius", "radius of the circle of the cranks' centres (0: one central eccentric)", 0.0, 28e-3),
+        deviation("crank_eccentricity_error", "throw of a crank's lobe above nominal", **bearing, path="errors.crank.eccentricity"),
         Variable("crank_phase_error", "parameter", "rad", "turning of a crank's lobe against nominal", 0.0, **bearing,
-                 minimum=-0.1, maximum=0.1, source="ideal part"),
-        deviation("disc_hole_error_radial", "hole in the disc outwards", **bearing),
-        deviation("disc_hole_error_tangential", "hole in the disc along its circle", **bearing),
-        deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", **crank),
-        deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", **crank),
+                 minimum=-0.1, maximum=0.1, source="ideal part", path="errors.crank.phase", display="arcmin"),
+        deviation("disc_hole_error_radial", "hole in the disc outwards", **bearing, path="errors.disc_hole.radial"),
+        deviation("disc_hole_error_tangential", "hole in the disc along its circle", **bearing, path="errors.disc_hole.tangential"),
+        deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", **crank, path="errors.carrier_hole.radial"),
+        deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", **crank, path="errors.carrier_hole.tangential"),
         # What effects add to the ideal parts.
         state("throw_added", "m", "added to a lobe's throw", **bearing),
         state("lobe_turn_added", "rad", "added to a lobe's direction", **bearing),

@@ -18,9 +18,9 @@ from rv_plant.faults import QUASI_STATIC
 def variables(sizes: Sizes) -> list[Variable]:
     contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
-        Variable("profile_angle", "input", "rad", "crank angle that the profile errors hold for; 0: wherever the cranks stand"),
-        Variable("mesh_profile_slope", "input", "m/rad", "change of mesh_profile_error as the cranks turn on", **contact, nominal=1e-4),
-        Variable("roller_profile_slope", "input", "m/rad", "change of roller_profile_error as the cranks turn on", **roller,
+        Variable("profile.angle", "input", "rad", "crank angle that the profile errors hold for; 0: wherever the cranks stand"),
+        Variable("mesh.profile_slope", "input", "m/rad", "change of mesh.profile_error as the cranks turn on", **contact, nominal=1e-4),
+        Variable("roller.profile_slope", "input", "m/rad", "change of roller.profile_error as the cranks turn on", **roller,
                  nominal=1e-4),
         state("mesh_error_start", "m", "profile error at the last communication point", **contact),
         state("roller_error_start", "m", "profile error at the last communication point", **roller),

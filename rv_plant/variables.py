@@ -23,6 +23,7 @@ from rv_plant import (
     profiles,
 )
 from rv_plant.effects import EFFECTS
+from rv_plant.terminals import TERMINALS
 from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
@@ -30,6 +31,10 @@ PIECES = (
     plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium,
     outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
+
+
+# Nothing has turned yet.
+STARTS_AT_ZERO = ("cage_angle", "crank_path", "mesh_force_path", "roller_force_path")
 
 
 def own_variables(topology: Topology = SMALLEST) -> list[Variable]:
@@ -43,4 +48,5 @@ def plant_table(topology: Topology) -> Table:
     require_sound_effects("rv_plant")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
     return Table("RvPlant", "RV reducer: equilibrium or motion of discs, pins, needle bearings and cranks",
-                 [*own_variables(topology), *effects, amplitude_memory(EFFECTS.values())])
+                 [v.within(vars(topology)) for v in [*own_variables(topology), *effects, amplitude_memory(EFFECTS.values())]],
+                 dict.fromkeys(STARTS_AT_ZERO, ()), terminals=TERMINALS)

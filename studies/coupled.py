@@ -56,10 +56,10 @@ def run_pair(plants, wears, steps, duration):
 
 
 @kernel
-def start_beside(p, similar, i):
-    """Start equilibrium i where the similar run found it, as far beside as one step earlier."""
+def start_beside(p, similar, i, alike):
+    """Start equilibrium i where the similar run found it, as far beside as one step earlier if the two steps are ``alike``."""
     for k in range(similar.shape[1]):
-        beside = p.z[k] - similar[i - 1, k] if i > 0 else 0.0
+        beside = p.z[k] - similar[i - 1, k] if alike and i > 0 else 0.0
         p.z[k] = similar[i, k] + beside
     p.advance_before = 0.0
 
@@ -71,7 +71,7 @@ def run_pair_beside(plants, wears, duration, accelerations, places, similar, gue
     for i in range(accelerations.shape[0]):
         wears[0].acceleration = accelerations[i]
         if guessed:
-            start_beside(p, similar, i)
+            start_beside(p, similar, i, True)
         plant_status, wear_status = step_pair(plants, wears, i * duration, duration)
         if plant_status != 0 or wear_status != 0:
             return plant_status, wear_status
@@ -90,7 +90,7 @@ def sweep(plants, wears, durations, series, worn, places, similar, guessed):
     p = plants[0]
     for i in range(durations.shape[0]):
         if guessed:
-            start_beside(p, similar, i)
+            start_beside(p, similar, i, True)
         plant_status, wear_status = 0, 0
         if worn:
             plant_status, wear_status = step_pair(plants, wears, 0.0, durations[i])
@@ -166,7 +166,8 @@ def torque_sweep(plants, torques, turning, places, similar, guessed):
     p = plants[0]
     for i in range(torques.shape[0]):
         if guessed:
-            start_beside(p, similar, i)
+            # Play and yielding turn with the torque.
+            start_beside(p, similar, i, i == 0 or torques[i] * torques[i - 1] > 0.0)
         p.load_torque = torques[i]
         status = step_plant(plants, 0.0, 1.0)
         if status != 0:

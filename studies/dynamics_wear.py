@@ -103,8 +103,8 @@ def passing_frequency(pair: Pair) -> float:
 def wearing_pair(reducer: Reducer, settings: list[Setting], speed: float, torque: float, moving: bool) -> Pair:
     """A new pair at factors of the set speed and torque."""
     first = make_pair(reducer, settings)
-    texts = [f"input_speed={speed * first.plant.get('input_speed')!r}",
-             f"load_torque={torque * first.plant.get('load_torque')!r}"]
+    texts = [f"input.speed={speed * first.plant.get('input_speed')!r}",
+             f"output.load_torque={torque * first.plant.get('load_torque')!r}"]
     texts += ["fidelity=dynamic"] if moving else []
     return make_pair(reducer, [*settings, *(parse_setting(text, [reducer.plant]) for text in texts)])
 

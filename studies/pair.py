@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 # Everything that the two units exchange.
 CONNECTIONS = [
-    *((f"plant.{source}", f"wear.{target}") for source, target in PLANT_TO_WEAR),
-    *((f"wear.{source}", f"plant.{target}") for source, target in WEAR_TO_PLANT),
+    *((f"plant.{name}", f"wear.{name}") for name in PLANT_TO_WEAR),
+    *((f"wear.{name}", f"plant.{name}") for name in WEAR_TO_PLANT),
 ]
 
 POSITIONS_PER_TURN = 72
@@ -66,13 +66,19 @@ def crank_turn_time(reducer: Reducer, plant: Component) -> float:
     """Duration of one crank turn in the housing [s] at the plant's input speed."""
     speed = plant.number("input_speed")
     if speed == 0.0:
-        raise InputFault("input_speed = 0 rad/s: the cranks must turn; set input_speed, for instance 2000rpm")
+        raise InputFault("input.speed = 0 rad/s: the cranks must turn; set input.speed, for instance 2000rpm")
     ratio = total_ratio(plant.get("first_stage_ratio"), reducer.topology.pins, reducer.topology.lobes)
     return float(2.0 * math.pi / (abs(speed / ratio) * reducer.topology.lobes))
 
 
 def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
     """An FMU has its sizes and start values from one reducer file: it must be this one."""
+    worn = fmu.specification().get("worn")
+    if worn is not None:
+        raise InputFault(
+            f"{fmu.path} is of a reducer that is delivered worn, after {worn['hours']:g} h: what is computed here begins with a new one;"
+            f" build it: rvwear build --reducer {reducer.name} --output DIR, and give that folder. rvwear run takes {fmu.path.name} as it is"
+        )
     if fmu.specification() != reducer.specification(unit):
         raise InputFault(
             f"{fmu.path} was built from another reducer file than {reducer.name} ({reducer.path.name});"
@@ -102,10 +108,12 @@ def make_pair(
             require_built_from(reducer, fmu, package)
         plant, wear = units
     components = {"plant": plant, "wear": wear}
-    connected = {target.partition(".")[2] for _, target in CONNECTIONS} - {"temperature"}
+    # A temperature that is set is the surroundings' too.
+    connected = {target.partition(".")[2] for _, target in CONNECTIONS} - {"heat.contact_temperature"}
     for setting in settings:
-        if setting.name.partition("[")[0] in connected:
-            raise InputFault(f"{setting.name} is exchanged by the two units; a setting of it would have no effect")
+        for name in {c.signal(setting.name).name for c in components.values() if c.has(setting.name)}:
+            if name.partition("[")[0] in connected:
+                raise InputFault(f"{name} is exchanged by the two units; a setting of it would have no effect")
     apply(settings, components)
     step = crank_turn_time(reducer, plant) / positions
     master = master_kind(components, CONNECTIONS, step, scheme=scheme)

@@ -42,7 +42,9 @@ WORN_HOURS = (2000.0, 5000.0, 10_000.0)
 CARRIES_SURFACES = ("wear_fmu", "rv_reducer")
 ACCELERATION = 1e6
 # Forces that the wear unit is tried with, alike at all contacts [N]: a third of rated ones, assumed.
-TRIAL_FORCES = {"mesh_force": 100.0, "roller_force": 50.0}
+TRIAL_FORCES = {"mesh.force": 100.0, "roller.force": 50.0}
+# Inputs of the plant.
+SPEED, TORQUE, SURROUNDINGS = "input.speed", "output.load_torque", "heat.ambient_temperature"
 EFFECTS = {"rv_plant": (PLANT_EFFECTS,), "wear_fmu": (WEAR_EFFECTS,), "rv_reducer": (PLANT_EFFECTS, WEAR_EFFECTS)}
 
 
@@ -94,18 +96,18 @@ def stimuli_of(kind: str, reducer: Reducer, unit: str, step: float) -> Series:
     count = TURN if kind == "smoke-test" else 3 * TURN
     plant = InProcess("plant", reducer.specification("rv_plant"))
     n: Floats = np.arange(count + 1.0)
-    speed, torque, temperature = (np.full(count + 1, plant.number(name)) for name in ("input_speed", "load_torque", "temperature"))
+    speed, torque, temperature = (np.full(count + 1, plant.number(name)) for name in (SPEED, TORQUE, SURROUNDINGS))
     if kind == "validation":
         torque[n >= TURN // 2] *= 0.6
         # Down to rest and up the other way within half a turn's time.
         speed *= np.clip(1.0 - (n - TURN) / (0.25 * TURN), -1.0, 1.0)
     time: Floats = step * n
-    stimuli = {"time": time, "input_speed": speed, "load_torque": torque, "temperature": temperature}
+    stimuli = {"time": time, SPEED: speed, TORQUE: torque, SURROUNDINGS: temperature}
     if unit != "wear_fmu":
         return stimuli
-    moved = ("crank_angle", "crank_speed", "output_angle", "cage_angle")
+    moved = ("crank.angle", "crank.speed", "output.angle", "cage.angle")
     driven = Carried(kind, step * count, step, TOLERANCE, [], stimuli, dict.fromkeys(moved, n))
-    return perform(plant, driven) | {"temperature": stimuli["temperature"]}
+    return perform(plant, driven) | {"heat.contact_temperature": stimuli[SURROUNDINGS]}
 
 
 def settings_of(kind: str, reducer: Reducer, unit: str) -> list[Parameter]:
@@ -113,7 +115,7 @@ def settings_of(kind: str, reducer: Reducer, unit: str) -> list[Parameter]:
     if kind == "validation" and unit in CARRIES_SURFACES:
         settings.append(Parameter("acceleration", "Real", repr(ACCELERATION)))
     if unit == "wear_fmu":
-        settings += [Parameter(name, "Real", repr(force), reducer.wear.by_name[name].unit) for name, force in TRIAL_FORCES.items()]
+        settings += [Parameter(name, "Real", repr(force), reducer.wear.by_path[name].unit) for name, force in TRIAL_FORCES.items()]
     return settings
 
 
@@ -122,7 +124,7 @@ def results_of(reducer: Reducer, unit: str, experiment: Carried) -> Series:
     runs = []
     for factor in (1.0, 1.0 + ROUNDING):
         component = InProcess(unit, reducer.specification(unit))
-        outputs = [v.name for v in component.table.of_role("output") if not v.shape and v.name not in OF_THE_SOLVER]
+        outputs = [v.path for v in component.table.of_role("output") if not v.shape and v.name not in OF_THE_SOLVER]
         stimuli = {name: values if name == "time" else factor * values for name, values in experiment.stimuli.items()}
         runs.append(perform(component, replace(experiment, stimuli=stimuli, references={name: np.zeros(1) for name in outputs})))
     exact, moved = runs

@@ -16,9 +16,11 @@ from studies.solve import SERIES, Turn
 
 
 def parameters_of(component: Component) -> dict[str, Any]:
-    """Present values of all parameters and inputs that are not exchanged arrays."""
+    """Present values of all parameters and inputs that are not exchanged arrays, by the names that kernels have for them."""
     values: dict[str, Any] = {}
-    for name, signal in component.signals.items():
+    field = {path: name for name, path in component.old_names().items()}
+    for path, signal in component.signals.items():
+        name = field.get(path, path)
         if signal.causality == "parameter" or (signal.causality == "input" and not signal.shape):
             value = component.get(name)
             if isinstance(value, np.ndarray):
@@ -32,7 +34,7 @@ def turn_variables(turns: list[Turn], pair: Pair, leading: str) -> dict[str, xr.
     """The recorded turns as variables with a leading dimension."""
     variables = {}
     for name in SERIES:
-        signal = pair.plant.signals[name]
+        signal = pair.plant.signal(name)
         axes = axes_of(pair, "plant", name)
         stack = np.stack([turn[name] for turn in turns])
         variables[name] = xr.Variable((leading, "position", *axes), stack, {"units": signal.unit})

@@ -34,7 +34,7 @@ FIGURES = (
     "outer_race_angle", "flank_volume", "pin_volume", "inner_race_volume", "outer_race_volume", "operating_time", "crank_travel",
 )  # fmt: skip
 # What is published at the start: the plant meets the worn surfaces in its first equilibrium.
-PUBLISHED = tuple(name for name, _ in WEAR_TO_PLANT)
+PUBLISHED = (*(name.replace(".", "_") for name in WEAR_TO_PLANT), "profile_lead", "profile_reach")
 # Of the unit of both: the last judgement, by what it was of.
 JUDGED = {
     "judged_time": "operating_time", "judged_flank_volume": "flank_volume", "judged_inner_volume": "inner_race_volume",

@@ -9,8 +9,8 @@ from wear_fmu import accumulator
 
 # What a plant without running totals gives, and what ours gives and gets (the temperature stays as it is).
 SHARED = ("crank_angle", "crank_speed", "output_angle", "cage_angle", "mesh_force", "roller_force")
-GIVEN = tuple(name for name, target in PLANT_TO_WEAR if name == target)
-BACK = tuple(name for name, _ in WEAR_TO_PLANT)
+GIVEN = tuple(name.replace(".", "_") for name in PLANT_TO_WEAR if not name.startswith("heat."))
+BACK = tuple(name.replace(".", "_") for name in WEAR_TO_PLANT)
 ARCSEC = np.degrees(1.0) * 3600.0
 
 

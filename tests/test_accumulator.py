@@ -225,3 +225,11 @@ def test_angles_that_are_none_or_not_of_one_reducer_are_a_fault(rv20e, name):
         if status:
             records[name] = 0.0
             assert records.tobytes() == before
+
+
+@pytest.mark.parametrize("sweep", [np.pi / 36, 1.0])
+def test_a_step_in_one_sweep_or_in_parts_takes_the_same_off(rv20e, sweep):
+    path = np.arange(1, 10) * np.pi / 9
+    whole, parts = (turned(rv20e, path, mesh_force=one_pin(300.0), largest_sweep=s, **CONSTANT) for s in (sweep, np.pi / 180))
+    assert whole.flank_volume == pytest.approx(parts.flank_volume, rel=1e-9, abs=0)
+    assert whole.disc_wear == pytest.approx(parts.disc_wear, rel=1e-9, abs=1e-20)

@@ -36,12 +36,12 @@ from discrepancy.model_file import every_effect  # noqa: E402
 from fmu_src.threads import Once  # noqa: E402
 
 SEED = 7
-# Half of the time goes into these: the stronger ones of laws that have a rival, and two whose shape takes long to find.
-DEAR = {27, 28, 30, 31, 33, 39, 40, 42, 43, 46, 47, 51}
+# More than half of the time goes into these: the stronger ones of some laws, two laws with rivals, two whose shape takes long to find.
+DEAR = {27, 28, 30, 31, 33, 38, 39, 40, 41, 42, 43, 46, 47, 51}
 PLANS = {"quick": [t for t in reduced_plan(SEED) if t.number not in DEAR], "reduced": reduced_plan(SEED)}
-LEAST = {"quick": 48, "reduced": 60}
+LEAST = {"quick": 46, "reduced": 60}
 # Shares of hidden effects that are found first, and that are in the set named; of outside laws that are not plainly named.
-FIRST, IN_SET, OUTSIDE_SEEN = ({"quick": a, "reduced": b} for a, b in ((0.8, 0.65), (0.9, 0.85), (0.75, 0.6)))
+FIRST, IN_SET, OUTSIDE_SEEN = ({"quick": a, "reduced": b} for a, b in ((0.9, 0.65), (0.9, 0.85), (0.75, 0.6)))
 FORBIDDEN = ("rv_plant.effects", "wear_fmu.effects", "discrepancy.effects", "discrepancy.prediction", "discrepancy.inference")
 
 
@@ -86,7 +86,7 @@ def test_false_alarms_are_rare(figures, results):
 
 
 def test_hidden_effects_are_found(kind, figures, results):
-    # Two of eight laws have a rival that these designs cannot separate.
+    # In the reduced trial two of eight laws have a rival that these designs cannot separate.
     assert figures["judged"]["first_from_10"]["share"] >= FIRST[kind], listed(results)
     assert figures["judged"]["set_holds_from_10"]["share"] >= IN_SET[kind], listed(results)
     assert figures["judged"]["set_size"]["share"] <= 2.2, listed(results)

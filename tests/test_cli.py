@@ -36,7 +36,7 @@ def test_solve_gives_the_promised_figures(capsys):
 
 @pytest.mark.parametrize("options, lag", [
     (("--bearing-clearance", "0"), 26.5), (("--bearing-clearance", "5"), 75.5), (("--bearing-clearance", "10"), 120.0),
-    (("--set", "bearing_clearance=10um"), 120.0),
+    (("--set", "bearing.clearance=10um"), 120.0),
 ])  # fmt: skip
 def test_solve_options_act(capsys, options, lag):
     assert json_of(capsys, "solve", *options)["mean_lag_arcsec"] == pytest.approx(lag, rel=0.005)
@@ -53,12 +53,12 @@ def test_stiffness_reading_and_contact_law(capsys):
 
 @pytest.mark.parametrize("arguments, said", [
     (("solve", "--reducer", "RV99"), "no reducer 'RV99'"),
-    (("solve", "--set", "pin_radus=2mm"), "did you mean pin_radius"),
-    (("solve", "--set", "pin_radius=2kg"), "'kg' does not fit"),
-    (("solve", "--set", "pin_radius=-2mm"), "out of range"),
-    (("solve", "--set", "pin_radius=big"), "not a number"),
-    (("solve", "--set", "pin_radius_error[41]=1um"), "do not fit the shape"),
-    (("solve", "--set", "input_speed=0"), "must turn"),
+    (("solve", "--set", "pin_radus=2mm"), "did you mean pin.radius"),
+    (("solve", "--set", "pin.radius=2kg"), "'kg' does not fit"),
+    (("solve", "--set", "pin.radius=-2mm"), "out of range"),
+    (("solve", "--set", "pin.radius=big"), "not a number"),
+    (("solve", "--set", "errors.pin.radius[41]=1um"), "do not fit the shape"),
+    (("solve", "--set", "input.speed=0"), "must turn"),
     (("solve", "--torque", "nan"), "not a finite number"),
     (("solve", "--contact-law", "glue"), "line, lankarani-nikravesh, palmgren"),
     (("solve", "--positions", "2"), "at least 8"),
@@ -69,7 +69,7 @@ def test_stiffness_reading_and_contact_law(capsys):
     (("life", "--fmus", "nowhere"), "rvwear build"),
     (("life", "--output", "x.html"), "ends in .nc"),
     (("life", "--set", "acceleration=3"), "chosen by the life run"),
-    (("life", "--set", "crank_angle=3"), "exchanged by the two units"),
+    (("life", "--set", "crank.angle=3"), "exchanged by the two units"),
     (("run", "--turns", "nan"), "turns = nan"),
     (("run", "examples/pair.toml", "--torque", "5"), "--torque with a system's file"),
     (("hysteresis", "--torque", "0"), "load_torque = 0"),
@@ -84,8 +84,8 @@ def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
 
 
 @pytest.mark.parametrize("setting, said", [
-    ("eccentricity=1.4mm", "the trochoid has loops"), ("eccentricity=1.25mm", "undercut"),
-    ("roller_radius=2mm", "rollers do not fit"),
+    ("crank.eccentricity=1.4mm", "the trochoid has loops"), ("crank.eccentricity=1.25mm", "undercut"),
+    ("roller.radius=2mm", "rollers do not fit"),
 ])  # fmt: skip
 def test_impossible_reducer_exits_with_2_and_says_why(capsys, setting, said):
     assert main(["solve", "--set", setting]) == 2
@@ -123,8 +123,8 @@ def test_run_records_the_pair(capsys, tmp_path):
     summary = json_of(capsys, "run", "--turns", "0.5", "--output", str(path))
     assert summary["steps"] == 36
     dataset = read(path)
-    assert dataset["plant.mesh_force"].shape == (36, 2, 40)
-    assert float(dataset["plant.mesh_force"].max()) > 200.0
+    assert dataset["plant.mesh.force"].shape == (36, 2, 40)
+    assert float(dataset["plant.mesh.force"].max()) > 200.0
     assert np.all(np.diff(dataset["time"]) > 0.0)
 
 

@@ -19,7 +19,7 @@ def turn(reducer, *texts, positions=72):
 def test_formulations_agree_where_joints_are_rigid(name, request):
     reducer = request.getfixturevalue(name)
     springs, _ = turn(reducer)
-    constraints, plant = turn(reducer, "joints=constrained")
+    constraints, plant = turn(reducer, "numerics.joints=constrained")
     # Springs of 1e12 N/m give way by a few nm: 0.05 % of the lag.
     assert constraints["lag"] == pytest.approx(springs["lag"], rel=0.005)
     assert constraints["largest_pin_force"] == pytest.approx(springs["largest_pin_force"], rel=0.01)
@@ -28,19 +28,19 @@ def test_formulations_agree_where_joints_are_rigid(name, request):
 
 
 def test_constraints_drift_less_than_a_nanometre(rv20e):
-    _, plant = turn(rv20e, "joints=constrained")
+    _, plant = turn(rv20e, "numerics.joints=constrained")
     assert 0.0 < plant.get("constraint_drift") < 1e-9
 
 
 def test_stabilisation_is_what_holds_the_drift(rv20e):
-    _, held = turn(rv20e, "joints=constrained")
-    _, free = turn(rv20e, "joints=constrained", "baumgarte_rate=0")
+    _, held = turn(rv20e, "numerics.joints=constrained")
+    _, free = turn(rv20e, "numerics.joints=constrained", "numerics.baumgarte_rate=0")
     assert held.get("constraint_drift") < free.get("constraint_drift")
 
 
 def test_multipliers_are_the_joints_forces(rv20e):
     """On average the seats carry the output torque (with the teeth's share), the ring T (1 - 1/121)."""
-    _, plant = turn(rv20e, "joints=constrained", "input_speed=50rpm")
+    _, plant = turn(rv20e, "numerics.joints=constrained", "input.speed=50rpm")
     multiplier = plant.record()["multiplier"][0]
     torque = 0.0
     record = plant.record()

@@ -10,11 +10,11 @@ from orchestrator.opening import open_fmu
 
 VERSIONS = ["fmi2", "fmi3"]
 # Outputs of plant and of the unit of both that show what loads do, and by what they are derived.
-OUTPUTS = ("output_angle", "output_speed", "crank_angle", "lag", "transmission_error", "drive_torque", "reaction_torque", "contact_pressure",
-           "largest_pin_force", "housing_force_x", "power_loss", "reducer_temperature")  # fmt: skip
-KNOWNS = ("load_torque", "input_speed", "temperature", "pin_ring_runout", "equidistant_added", "friction_coefficient", "thermal_expansion",
-          "crank_support_compliance")  # fmt: skip
-ON = {"friction_coefficient": 0.03, "thermal_expansion": 2e-6, "pin_ring_runout": 3e-6, "crank_support_compliance": 1e-9}
+OUTPUTS = ("output.angle", "output.speed", "crank.angle", "output.lag", "output.transmission_error", "input.drive_torque", "housing.reaction_torque", "mesh.contact_pressure",
+           "mesh.largest_force", "housing.force_x", "heat.power_loss", "heat.contact_temperature")  # fmt: skip
+KNOWNS = ("output.load_torque", "input.speed", "heat.ambient_temperature", "effects.pin_position_errors.ring_runout", "effects.profile_modification.equidistant_added", "effects.stribeck_friction.friction_coefficient", "effects.thermal_expansion.expansion",
+          "effects.support_compliance.crank_support_compliance")  # fmt: skip
+ON = {"effects.stribeck_friction.friction_coefficient": 0.03, "effects.thermal_expansion.expansion": 2e-6, "effects.pin_position_errors.ring_runout": 3e-6, "effects.support_compliance.crank_support_compliance": 1e-9}
 
 
 @pytest.fixture(scope="session")
@@ -94,17 +94,17 @@ def test_derivatives_are_those_of_differences(all_units, version, name):
 def test_derivatives_of_contacts_by_profile_errors(native_fmus, version):
     """A pin that lacks a micrometre more is relieved, its neighbours take over; the plant's tangent as a matrix is symmetric in this."""
     unit = started(native_fmus / version / "RvPlant.fmu")
-    force = unit.get("mesh_force")
+    force = unit.get("mesh.force")
     loaded = [tuple(int(i) for i in k) for k in np.argwhere(force > 0.3 * force.max())[:4]]
     matrix = np.zeros((4, 4))
     for column, (d, j) in enumerate(loaded):
         if version == "fmi2":
-            names = [f"mesh_force[{a + 1},{b + 1}]" for a, b in loaded]
-            matrix[:, column] = derivative(unit, names, f"mesh_profile_error[{d + 1},{j + 1}]")
+            names = [f"mesh.force[{a + 1},{b + 1}]" for a, b in loaded]
+            matrix[:, column] = derivative(unit, names, f"mesh.profile_error[{d + 1},{j + 1}]")
         else:
             seed = np.zeros(force.shape)
             seed[d, j] = 1.0
-            whole = derivative(unit, ["mesh_force"], "mesh_profile_error", seed.ravel(), [force.size]).reshape(force.shape)
+            whole = derivative(unit, ["mesh.force"], "mesh.profile_error", seed.ravel(), [force.size]).reshape(force.shape)
             matrix[:, column] = [whole[k] for k in loaded]
     assert np.all(np.diag(matrix) < -1e7)
     assert matrix == pytest.approx(matrix.T, rel=1e-4, abs=1e-3 * np.abs(matrix).max())
@@ -118,21 +118,21 @@ def test_derivatives_of_the_wear_unit_follow_its_surfaces(native_fmus, version):
     unit.exit_initialisation()
     unit.set("acceleration", 1e7)
     for i in range(1, 140):
-        unit.set("crank_angle", 0.1 * i)
-        unit.set("crank_speed", 100.0)
-        unit.set("mesh_force", 300.0)
-        unit.set("roller_force", 200.0)
+        unit.set("crank.angle", 0.1 * i)
+        unit.set("crank.speed", 100.0)
+        unit.set("mesh.force", 300.0)
+        unit.set("roller.force", 200.0)
         unit.step(1e-3 * i, 1e-3)
-    names = ["profile_angle", "mesh_profile_error[1,3]" if version == "fmi2" else "mesh_profile_error", "operating_time"]
+    names = ["profile.angle", "mesh.profile_error[1,3]" if version == "fmi2" else "mesh.profile_error", "wear.operating_time"]
     sizes = [1, 1 if version == "fmi2" else 80, 1]
-    found = derivative(unit, names, "crank_angle", sizes=None if version == "fmi2" else sizes)
+    found = derivative(unit, names, "crank.angle", sizes=None if version == "fmi2" else sizes)
     errors = []
     for turned in (1e-3, -1e-3):
         kept = unit.snapshot()
         unit.set("acceleration", 0.0)
-        unit.set("crank_angle", 13.9 + turned)
+        unit.set("crank.angle", 13.9 + turned)
         unit.step(0.14, 1e-12)
-        errors.append(np.ravel(unit.get("mesh_profile_error")))
+        errors.append(np.ravel(unit.get("mesh.profile_error")))
         unit.revert(kept)
     expected = (errors[0] - errors[1]) / 2e-3
     assert found[0] == pytest.approx(1.0, rel=1e-9) and found[-1] == 0.0
@@ -148,10 +148,10 @@ def test_at_a_bound_the_derivative_is_taken_on_its_inner_side(native_fmus, versi
     """An amplitude that is off and cannot be negative."""
     unit = started(native_fmus / version / "RvPlant.fmu")
     twice = started(native_fmus / version / "RvPlant.fmu", crank_support_compliance=1e-12)
-    outputs = ("lag", "drive_torque")
+    outputs = ("output.lag", "input.drive_torque")
     # Off, it makes unknowns of the cranks' shifts: small and off differ little.
-    assert derivative(unit, outputs, "crank_support_compliance") == pytest.approx(
-        derivative(twice, outputs, "crank_support_compliance"), rel=1e-3)
+    assert derivative(unit, outputs, "effects.support_compliance.crank_support_compliance") == pytest.approx(
+        derivative(twice, outputs, "effects.support_compliance.crank_support_compliance"), rel=1e-3)
     unit.close()
     twice.close()
 
@@ -159,17 +159,17 @@ def test_at_a_bound_the_derivative_is_taken_on_its_inner_side(native_fmus, versi
 @pytest.mark.parametrize("version", VERSIONS)
 def test_in_motion_places_are_held_and_forces_follow(native_fmus, version):
     unit = started(native_fmus / version / "RvPlant.fmu", fidelity=1)
-    assert derivative(unit, ["output_angle", "lag"], "load_torque") == pytest.approx([0.0, 0.0])
-    assert derivative(unit, ["largest_pin_force"], "equidistant_added")[0] < -1e6
+    assert derivative(unit, ["output.angle", "output.lag"], "output.load_torque") == pytest.approx([0.0, 0.0])
+    assert derivative(unit, ["mesh.largest_force"], "effects.profile_modification.equidistant_added")[0] < -1e6
     unit.close()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("unknown, known, text", [
-    ("output_angle", "pin_radius", "pin_radius cannot be a known: derivatives are by inputs and tunable parameters"),
-    ("load_torque", "temperature", "load_torque cannot be an unknown: only outputs have directional derivatives"),
-    ("substeps", "load_torque", "substeps is an integer"),
-    ("output_angle", "drive", "drive is an integer"),
+    ("output.angle", "pin.radius", "pin.radius cannot be a known: derivatives are by inputs and tunable parameters"),
+    ("output.load_torque", "heat.ambient_temperature", "output.load_torque cannot be an unknown: only outputs have directional derivatives"),
+    ("numerics.substeps", "output.load_torque", "numerics.substeps is an integer"),
+    ("output.angle", "drive", "drive is an integer"),
 ])  # fmt: skip
 def test_refusals(native_fmus, version, unknown, known, text):
     unit = started(native_fmus / version / "RvPlant.fmu", steps=1)
@@ -177,7 +177,7 @@ def test_refusals(native_fmus, version, unknown, known, text):
         derivative(unit, [unknown], known)
     assert text in unit.messages[-1]
     with pytest.raises(FMICallException):
-        derivative(unit, ["output_angle"], "load_torque", (float("nan"),))
+        derivative(unit, ["output.angle"], "output.load_torque", (float("nan"),))
     assert "not a finite number" in unit.messages[-1]
     unit.close()
 
@@ -186,6 +186,6 @@ def test_refusals(native_fmus, version, unknown, known, text):
 def test_not_before_the_unit_is_initialised(native_fmus, version):
     unit = open_fmu("unit", native_fmus / version / "RvPlant.fmu")
     with pytest.raises(FMICallException):
-        derivative(unit, ["output_angle"], "load_torque")
+        derivative(unit, ["output.angle"], "output.load_torque")
     assert "initialisation" in unit.messages[-1]
     unit.close()

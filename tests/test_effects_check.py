@@ -287,8 +287,8 @@ def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
         "print(repr(plant.get('lag')))\n"
         "for path in paths:\n"
         "    validate(path)\n"
-        "    seen = fmpy.simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3, start_values={'my_size': 1e-6}, output=['lag'])\n"
-        "    print(repr(float(seen['lag'][-1])))\n"
+        "    seen = fmpy.simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3, start_values={'effects.my_ring.size': 1e-6}, output=['output.lag'])\n"
+        "    print(repr(float(seen['output.lag'][-1])))\n"
     )
     done = subprocess.run([sys.executable, "-c", program, str(tmp_path / "fmus")], capture_output=True, text=True, timeout=300,
                           env={**os.environ, "RVWEAR_EFFECTS": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path)})

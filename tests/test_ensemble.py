@@ -9,12 +9,12 @@ import time
 
 import numpy as np
 import pytest
+from stand import BACK, exchange
 
 pytest.importorskip("SALib")
 
 from cli.main import main
 from fmu_src.faults import InputFault
-from rv_reducer.exchange import WEAR_TO_PLANT
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import load_ensemble
@@ -52,8 +52,7 @@ def test_compiled_steps_are_those_of_the_master(rv20e):
         pair.set_operation(-100.0, 50.0)
         pair.master.run(30)
     # The master hands profile errors over when the next step begins, the compiled loop when one ends.
-    for source, target in WEAR_TO_PLANT:
-        pairs[0].plant.records[target] = pairs[0].wear.records[source]
+    exchange(pairs[0].wear.records, pairs[0].plant.records, BACK)
     assert pairs[0].master.save() == pairs[1].master.save()
 
 

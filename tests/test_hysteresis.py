@@ -26,26 +26,26 @@ def test_turning_is_the_same_both_ways(rv20e):
 
 
 def test_clearance_makes_the_lost_motion(rv20e):
-    none, some = run(rv20e, "bearing_clearance=0um"), run(rv20e, "bearing_clearance=5um")
+    none, some = run(rv20e, "bearing.clearance=0um"), run(rv20e, "bearing.clearance=5um")
     assert none.lost_motion_arcmin < 0.05
     # About 20 arcsec per um at full load, both sides together; a little less at 3 %.
     assert some.lost_motion_arcmin == pytest.approx(5 * 20 / 60, rel=0.2)
 
 
 def test_frictionless_contacts_without_clearance_enclose_no_area(rv20e):
-    loop = run(rv20e, "bearing_clearance=0um")
+    loop = run(rv20e, "bearing.clearance=0um")
     assert loop.loop_area_Nm_arcmin < 1e-6 * 167.0
 
 
 def test_crank_supports_explain_the_catalogue_stiffness(rv20e):
     """Contacts alone are eight times stiffer than 49 N m/arcmin; 1.4e8 N/m per crank in series meets it."""
     assert run(rv20e).stiffness_Nm_per_arcmin > 350.0
-    softer = run(rv20e, "crank_support_compliance=7.14e-9m/N")
+    softer = run(rv20e, "effects.support_compliance.crank_support_compliance=7.14e-9m/N")
     assert softer.stiffness_Nm_per_arcmin == pytest.approx(49.0, rel=0.15)
 
 
 def test_housing_compliance_adds_in_series(rv20e):
-    stiff, soft = run(rv20e), run(rv20e, "housing_compliance=1e-6")
+    stiff, soft = run(rv20e), run(rv20e, "effects.support_compliance.housing_compliance=1e-6")
     # 1e-6 rad/(N m) of the ring's torque is 1/290.9 arcmin/(N m), as the carrier sees it.
     added = 1.0 / soft.stiffness_Nm_per_arcmin - 1.0 / stiff.stiffness_Nm_per_arcmin
     assert added == pytest.approx(1e-6 * 3437.75, rel=0.05)

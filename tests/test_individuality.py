@@ -22,14 +22,14 @@ def test_claims_stand():
 
 
 def test_another_proud_pin_marks_that_pin(context):
-    m = marks_of(context, "pin_radius_error[17]=3um")
+    m = marks_of(context, "errors.pin.radius[17]=3um")
     assert (m.pins.argmax(axis=1) == 16).all()
     assert m.pins[:, 16].min() > 5.0 * others(m.pins, (0, 16), (1, 16))
     assert spread(m.lobes) < 15.0 < m.pins.max()
 
 
 def test_pitch_error_of_the_other_disc_marks_that_lobe(context):
-    m = marks_of(context, "lobe_pitch_error[2,20]=-3um")
+    m = marks_of(context, "errors.lobe.pitch[2,20]=-3um")
     assert np.unravel_index(m.lobes.argmax(), m.lobes.shape) == (1, 19)
     assert m.lobes.max() > 5.0 * others(m.lobes, (1, 19)) and np.abs(m.pins).max() < 0.1 * m.lobes.max()
 
@@ -49,6 +49,6 @@ def test_the_four_marks_tell_the_errors_apart(context):
         return (spread(m.pins[0]) > 50.0, spread(m.lobes[0]) > 50.0, discs.min() > 10.0 and spread(m.races) > 50.0,
                 spread(m.races) > 5.0)
 
-    found = [signature(text) for text in ("pin_radius_error[3]=3um", "lobe_pitch_error[1,5]=-3um",
-             "crank_eccentricity_error[1,1]=3um", "crank_phase_error[1,1]=0.003")]
+    found = [signature(text) for text in ("errors.pin.radius[3]=3um", "errors.lobe.pitch[1,5]=-3um",
+             "errors.crank.eccentricity[1,1]=3um", "errors.crank.phase[1,1]=0.003")]
     assert len(set(found)) == 4

@@ -62,19 +62,22 @@ CASES = {
 DEMANDS = (0.1, 0.03, 0.01)
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case):
+# A duty's cycles cost twice as much.
+@pytest.mark.parametrize("case, demands", [
+    ("one way", DEMANDS), ("fast running-in", DEMANDS), ("reversing", DEMANDS[:2]), pytest.param("reversing", DEMANDS, marks=pytest.mark.campaign),
+])  # fmt: skip
+def test_error_is_below_the_demand_and_cost_falls_with_it(rv20e, case, demands):
     make = lambda: make_coarse(rv20e, master_kind=CoupledMaster, **CASES[case])
     exact, hours, jumps = make(), 3000.0, 24
     for i in range(jumps):
         run_cycle(exact, hours * (2 * i + 1) / jumps**2)
     cycles = []
-    for demand in DEMANDS:
+    for demand in demands:
         pair = make()
         cycles.append(live(pair, Life(LifeSettings(hours, demand)), nothing, nothing).cycles)
         assert np.max(np.abs(depths(pair) / depths(exact) - 1.0)) < demand, demand
     assert cycles == sorted(set(cycles)), "each tighter demand costs more"
-    assert cycles[0] * 3 <= cycles[2]
+    assert cycles[0] * 3 <= cycles[-1] or demands != DEMANDS
 
 
 @pytest.mark.parametrize("limits, jumps", [({}, 1), ({"first_jump": 100.0}, 10), ({"largest_jump": 2000.0}, 10)])

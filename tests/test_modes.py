@@ -15,7 +15,7 @@ def run(reducer, *texts):
 
 
 def test_load_on_a_soft_shaft_is_a_simple_oscillator(rv20e):
-    found = run(rv20e, "carrier_compliance=1e-4", "load_inertia=2")
+    found = run(rv20e, "effects.support_compliance.carrier_compliance=1e-4", "load.inertia=2")
     # The shaft is 150 times softer than the reducer behind it, which adds its own compliance.
     shaft = math.sqrt(1e4 / 2.0) / (2 * math.pi)
     assert found[0].frequency_Hz == pytest.approx(shaft, rel=0.01)
@@ -24,7 +24,7 @@ def test_load_on_a_soft_shaft_is_a_simple_oscillator(rv20e):
 
 
 def test_frequency_goes_with_the_root_of_the_load_inertia(rv20e):
-    light, heavy = run(rv20e, "load_inertia=5"), run(rv20e, "load_inertia=20")
+    light, heavy = run(rv20e, "load.inertia=5"), run(rv20e, "load.inertia=20")
     assert light[0].frequency_Hz == pytest.approx(2 * heavy[0].frequency_Hz, rel=1e-3)
 
 
@@ -44,5 +44,5 @@ def test_shares_add_up_and_damping_is_that_of_greased_contacts(rv20e):
 
 
 def test_without_damping_no_mode_is_damped(rv20e):
-    for mode in run(rv20e, "damping_law=none", "joint_damping_time=0"):
+    for mode in run(rv20e, "contact.damping_law=none", "contact.joint_damping_time=0"):
         assert mode.damping_ratio == pytest.approx(0.0, abs=1e-9)

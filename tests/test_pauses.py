@@ -60,7 +60,7 @@ class Slave:
 
 
 def limited(slave):
-    return slave.unit.getInt64([slave.numbers["limited_by"]])[0]
+    return slave.unit.getInt64([slave.numbers["life.limited_by"]])[0]
 
 
 def test_a_step_ends_where_the_judgement_changes(both, tmp_path):
@@ -77,18 +77,18 @@ def test_a_step_ends_where_the_judgement_changes(both, tmp_path):
         ends.append(reached)
     assert ends[-1] == LONG and len(ends) <= 5
     # Who does not let it return early gets the same, rounding of the times apart.
-    for name in ("worst_flank_depth", "worst_race_depth", "output_angle", "remaining_life", "operating_time"):
+    for name in ("life.worst_flank_depth", "life.worst_race_depth", "output.angle", "life.remaining", "wear.operating_time"):
         assert slave.get(name) == pytest.approx(whole.get(name), rel=1e-6), name
     assert limited(slave) == limited(whole)
 
 
 def test_the_end_of_a_life_is_met_within_a_step(both, tmp_path):
     """The flank's limit is reached within a second's step: the unit says when, to a turn of the cranks."""
-    slave = Slave(both, tmp_path / "end", earlyReturnAllowed=True).start(acceleration=1e7, flank_depth_limit=1e-6)
+    slave = Slave(both, tmp_path / "end", earlyReturnAllowed=True).start(acceleration=1e7, **{"life.flank_depth_limit": 1e-6})
     time, seen = 0.0, []
     while time < 1.0:
         early, time = slave.step(time, 1.0 - time)
-        seen.append((slave.get("remaining_life"), slave.get("worst_flank_depth"), time))
+        seen.append((slave.get("life.remaining"), slave.get("life.worst_flank_depth"), time))
     over = next(i for i, (life, _, _) in enumerate(seen) if life == 0.0)
     assert seen[over][1] >= 1e-6 and seen[over][2] < 1.0
     assert over == 0 or seen[over - 1][1] < 1e-6
@@ -101,7 +101,7 @@ def test_the_importer_is_asked_between_the_parts(both, tmp_path):
     def update(environment, time, may_set, may_get, finished, may_return, requested, until):
         assert (may_set, may_get, finished, may_return) == (False, True, True, False)
         times.append(time)
-        depths.append(held["slave"].get("worst_flank_depth"))
+        depths.append(held["slave"].get("life.worst_flank_depth"))
 
     slave = held["slave"] = Slave(both, tmp_path / "update", intermediateUpdate=update)
     slave.start(acceleration=FAST)
@@ -109,7 +109,7 @@ def test_the_importer_is_asked_between_the_parts(both, tmp_path):
     assert slave.step(0.0, 0.1) == (False, 0.1) and whole.step(0.0, 0.1) == (False, 0.1)
     assert len(times) == 78 and times[-1] == 0.1 and np.diff(times)[:-1] == pytest.approx(times[0], rel=1e-9)
     assert np.all(np.diff(depths) >= 0.0) and depths[-1] > 0.0
-    for name in ("worst_flank_depth", "worst_race_depth", "output_angle", "remaining_life"):
+    for name in ("life.worst_flank_depth", "life.worst_race_depth", "output.angle", "life.remaining"):
         assert slave.get(name) == pytest.approx(whole.get(name), rel=1e-9), name
 
 
@@ -137,9 +137,9 @@ def test_run_says_what_is_judged_otherwise_and_when(both):
     """What ``rvwear run`` shows at its end; steps, series and times stay those that were asked for."""
     system = connect({"reducer": both}, (), 0.1)
     system["reducer.acceleration"] = FAST
-    series = system.run(duration=0.4, record=["reducer.worst_flank_depth"])
+    series = system.run(duration=0.4, record=["reducer.life.worst_flank_depth"])
     assert series["time"] == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
-    said = [text for text in system.master.warnings if text.startswith("reducer.limited_by became")]
+    said = [text for text in system.master.warnings if text.startswith("reducer.life.limited_by became")]
     assert said and "(was none)" in said[0] and " at time 0.09" in said[0]
     system.close()
 

@@ -120,7 +120,7 @@ def test_a_setting_written_down_is_read_as_it_was(rv20e, data):
     tables = [rv20e.plant, rv20e.wear]
     table = data.draw(st.sampled_from(tables))
     variable = data.draw(st.sampled_from(table.of_role("parameter", "input")))
-    name = data.draw(st.sampled_from(sorted(variable.element_names())[:7])) if variable.shape else variable.name
+    name = data.draw(st.sampled_from(sorted(variable.element_names())[:7])) if variable.shape else variable.path
     if variable.choices:
         expected = data.draw(st.integers(0, len(variable.choices) - 1))
         text = variable.choices[expected]
@@ -130,10 +130,10 @@ def test_a_setting_written_down_is_read_as_it_was(rv20e, data):
     else:
         expected = data.draw(st.floats(variable.minimum, variable.maximum))
         text = repr(expected)
-    owners = [t.by_name[variable.name] for t in tables if variable.name in t.by_name]
+    owners = [t.by_name[variable.name] for t in tables if variable.path in t.by_path]
     assume(all(v.minimum <= expected <= v.maximum for v in owners))
     setting = parse_setting(f" {name} = {text} ", tables)
-    assert (setting.name, setting.value) == (name, expected)
+    assert (setting.name, setting.value) == (variable.name + name[len(variable.path) :], expected)
     assert type(setting.value) is (int if variable.is_integer else float)
 
 

@@ -26,21 +26,21 @@ def test_numbers_are_converted_to_si():
 
 
 @pytest.mark.parametrize("before, after, said", [
-    ("pin_radius = ", "pin_radus = ", r"\[cycloid\] pin_radus is not a parameter.*did you mean pin_radius"),
-    ('pin_radius = { value = 2.0, unit = "mm"', "pin_radius = { value = 2.0", "cycloid.pin_radius.unit"),
-    ('value = 2.0, unit = "mm"', 'value = -2.0, unit = "mm"', r"pin_radius = -2 mm.*out of range"),
-    ('value = 2.0, unit = "mm"', 'value = 2.0, unit = "kg"', r"pin_radius = 2 kg: unit 'kg' does not fit"),
+    ("[pin]\nradius = ", "[pin]\nradus = ", r"\[pin\] radus is not a parameter.*did you mean pin.radius"),
+    ('radius = { value = 2.0, unit = "mm"', "radius = { value = 2.0", "pin.radius.unit"),
+    ('value = 2.0, unit = "mm"', 'value = -2.0, unit = "mm"', r"\[pin\] radius = -2 mm.*out of range"),
+    ('value = 2.0, unit = "mm"', 'value = 2.0, unit = "kg"', r"\[pin\] radius = 2 kg: unit 'kg' does not fit"),
     ('value = 2.0, unit = "mm"', 'value = 2.0, unit = "mmm"', "unit 'mmm' is not known"),
     ('value = 2.0, unit = "mm"', 'value = nan, unit = "mm"', "not a finite number"),
     ('value = 2.0, unit = "mm"', 'value = "two", unit = "mm"', "is not a number"),
     ("pins = 40", "pins = 41", r"pins = 41, lobes = 39: the pins do not close the ring.*set pins = 40"),
-    ("load_torque =", "# load_torque =", "load_torque: missing"),
+    ("load_torque =", "# load_torque =", "output.load_torque: missing"),
     ('name = "RV20E-121"', 'name = "../x"', "reducer.name"),
     ("discs = 2", "discs = 0", "topology.discs = 0"),
     ("[topology]", "[topologie]", r"section \[topology\] is missing"),
-    ("[cycloid]", "[cycloid", "not a TOML file"),
-    ('pin_radius = { value = 2.0, unit = "mm", source = "document, table 1" }', "pin_radius = 2.0", "has no unit"),
-    ('source = "document, table 1" }\npin_circle', 'source = "" }\npin_circle', "cycloid.pin_radius.source"),
+    ("[pin]", "[pin", "not a TOML file"),
+    ('radius = { value = 2.0, unit = "mm", source = "document, table 1" }', "radius = 2.0", "has no unit"),
+    ('source = "document, table 1" }\ncircle', 'source = "" }\ncircle', "pin.radius.source"),
 ])  # fmt: skip
 def test_bad_file_is_told_file_key_value_and_remedy(tmp_path, before, after, said):
     text = load_reducer("RV20E-121").path.read_text(encoding="utf-8")

@@ -155,7 +155,7 @@ def test_experiment_that_cannot_be_read_is_told(unpacked, file, before, after, s
 
 
 @pytest.mark.parametrize("change, said", [
-    (lambda e: replace(e, references={"time": np.zeros(1), "lagg": np.zeros(1)}), "experiment 'smoke-test' names 'lagg', which plant does not have; did you mean lag"),
+    (lambda e: replace(e, references={"time": np.zeros(1), "lagg": np.zeros(1)}), "experiment 'smoke-test' names 'lagg', which plant does not have; did you mean output.lag"),
     (lambda e: replace(e, stimuli={"time": np.array([0.0, 0.01]), "load_torque": np.zeros(2)}), "its stimuli end at 0.01 s, the run at 0.0936 s"),
     (lambda e: replace(e, stimuli=e.stimuli | {"temperature": np.full(73, 1000.0)}), "temperature = 1000 K is out of range"),
     (lambda e: replace(e, stimuli=e.stimuli | {"torque_of_load": np.zeros(73)}), "names 'torque_of_load', which plant does not have"),

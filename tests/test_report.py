@@ -12,6 +12,7 @@ from fmu_src.faults import InputFault
 from orchestrator.netcdf import series_dataset
 from orchestrator.settings import parse_setting
 from pages.words import number
+from rv_plant.variables import plant_table
 from studies import results
 from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
@@ -21,7 +22,7 @@ from studies.report.result import Result
 from wear_fmu.kinematics import flank_arc_per_phase, sliding_per_crank_angle
 
 SECTIONS = ("parts", "turn", "growth", "orders-section", "inputs")
-NO_WEAR = ("mesh_wear_coefficient=0", "raceway_wear_law=constant", "raceway_wear_coefficient=0")
+NO_WEAR = ("wear.mesh_coefficient=0", "wear.race_law=constant", "wear.race_coefficient=0")
 
 
 def short_life(reducer, hours, *texts, positions=24):
@@ -41,7 +42,7 @@ def short_life(reducer, hours, *texts, positions=24):
 
 @pytest.fixture(scope="module")
 def dataset(rv20e):
-    return short_life(rv20e, 300.0, "load_torque=200")
+    return short_life(rv20e, 300.0, "output.load_torque=200")
 
 
 @pytest.fixture(scope="module")
@@ -180,12 +181,13 @@ def test_known_orders_follow_from_the_counts(result):
 
 def test_inputs_list_every_parameter_with_its_source(result, page):
     rows = {row["name"]: row for group in inputs.groups(result) for row in group["rows"]}
-    assert set(result.plant) <= set(rows)
-    assert {"hardness", "run_in_time", "pins"} <= set(rows)
-    assert rows["load_torque"]["chosen"] and rows["load_torque"]["value"] == "200"
-    assert (rows["input_speed"]["value"], rows["input_speed"]["unit"]) == ("2000", "rpm")
-    assert (rows["bearing_clearance"]["value"], rows["bearing_clearance"]["unit"]) == ("2.5", "µm")
-    assert rows["bearing_clearance"]["assumed"] and not rows["pin_radius"]["assumed"]
+    paths = plant_table(result.topology).renamed
+    assert {paths.get(name, name) for name in result.plant} <= set(rows)
+    assert {"material.hardness", "wear.run_in_time", "wear.pins"} <= set(rows)
+    assert rows["output.load_torque"]["chosen"] and rows["output.load_torque"]["value"] == "200"
+    assert (rows["input.speed"]["value"], rows["input.speed"]["unit"]) == ("2000", "rpm")
+    assert (rows["bearing.clearance"]["value"], rows["bearing.clearance"]["unit"]) == ("2.5", "µm")
+    assert rows["bearing.clearance"]["assumed"] and not rows["pin.radius"]["assumed"]
     assert result.dataset.attrs["source_hash"] in page and json.loads(result.dataset.attrs["software"])["numpy"] in page
 
 
@@ -217,7 +219,7 @@ def test_nothing_worn_still_makes_a_page(rv20e, hours, texts):
 
 
 def test_standing_pins_wear_where_they_are_touched(rv20e):
-    result = Result.of(short_life(rv20e, 100.0, "pins=stand", positions=12))
+    result = Result.of(short_life(rv20e, 100.0, "wear.pins=stand", positions=12))
     figure = circles.pin(result)
     contour = figure.data[len(result.shown)]
     x, y = np.array(contour["x"]), np.array(contour["y"])
@@ -228,6 +230,6 @@ def test_standing_pins_wear_where_they_are_touched(rv20e):
 
 
 def test_a_result_without_a_life_is_refused(tmp_path):
-    series = series_dataset({"time": np.arange(3.0), "plant.lag": np.zeros((3, 1))}, {"plant.lag": "rad"}, {})
+    series = series_dataset({"time": np.arange(3.0), "plant.output.lag": np.zeros((3, 1))}, {"plant.output.lag": "rad"}, {})
     with pytest.raises(InputFault, match="rvwear life"):
         write_report(series, tmp_path / "none.html")

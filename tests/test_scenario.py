@@ -15,22 +15,22 @@ duration = { value = 26, unit = "ms" }
 [components.plant]
 reducer = "RV20E-121"
 unit = "plant"
-parameters = { load_torque = "100 N.m", bearing_clearance = "4 um", contact_law = "line" }
-record = ["lag", "mesh_force", "mesh_force[1,3]"]
+parameters = { output.load_torque = "100 N.m", bearing.clearance = "4 um", contact.law = "line" }
+record = ["output.lag", "mesh.force", "mesh.force[1,3]"]
 
 [components.wear]
 reducer = "RV20E-121"
 unit = "wear"
 parameters = { acceleration = 1e6 }
-record = ["flank_depth"]
+record = ["flank.depth"]
 
 [[connections]]
-from = "plant.crank_angle"
-to = "wear.crank_angle"
+from = "plant.crank.angle"
+to = "wear.crank.angle"
 
 [[connections]]
-from = "plant.mesh_force"
-to = "wear.mesh_force"
+from = "plant.mesh.force"
+to = "wear.mesh.force"
 """
 
 
@@ -44,9 +44,9 @@ def test_pair_from_a_file_runs_and_records(tmp_path):
     scenario = load(write(tmp_path, PAIR))
     series = scenario.run()
     assert series["time"] == pytest.approx(1.3e-3 * np.arange(21))
-    assert series["plant.mesh_force"].shape == (21, 2, 40)
-    assert np.array_equal(series["plant.mesh_force[1,3]"], series["plant.mesh_force"][:, 0, 2])
-    assert series["wear.flank_depth"][-1].max() > 0.0
+    assert series["plant.mesh.force"].shape == (21, 2, 40)
+    assert np.array_equal(series["plant.mesh.force[1,3]"], series["plant.mesh.force"][:, 0, 2])
+    assert series["wear.flank.depth"][-1].max() > 0.0
     assert scenario.master.components["plant"].get("load_torque") == 100.0
     assert scenario.master.components["plant"].get("bearing_clearance") == pytest.approx(4e-6)
 
@@ -55,7 +55,7 @@ def test_fmu_from_a_file(tmp_path, fmus):
     text = PAIR.replace('reducer = "RV20E-121"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
     theirs = load(write(tmp_path, text)).run()
     ours = load(write(tmp_path, PAIR)).run()
-    assert theirs["wear.flank_depth"] == pytest.approx(ours["wear.flank_depth"], rel=1e-12)
+    assert theirs["wear.flank.depth"] == pytest.approx(ours["wear.flank.depth"], rel=1e-12)
 
 
 @pytest.mark.parametrize("before, after, said", [
@@ -64,12 +64,12 @@ def test_fmu_from_a_file(tmp_path, fmus):
     ("value = 1.3", "value = -1.3", "both positive"),
     ('unit = "plant"', 'unit = "plnt"', "components.plant.unit"),
     ('reducer = "RV20E-121"\nunit = "plant"', "", "give either fmu"),
-    ('"lag"', '"lagg"', "did you mean lag"),
-    ('"100 N.m"', '"100 kg"', r"load_torque = '100 kg'.*'kg' does not fit"),
+    ('"output.lag"', '"output.lagg"', "did you mean output.lag"),
+    ('"100 N.m"', '"100 kg"', r"output.load_torque = '100 kg'.*'kg' does not fit"),
     ('"100 N.m"', "nan", "not a finite number"),
-    ("contact_law =", "contact_lw =", "did you mean contact_law"),
-    ('"wear.mesh_force"', '"wear.roller_force"', "shapes"),
-    ('"wear.mesh_force"', '"wheel.mesh_force"', "no component 'wheel'"),
+    ("contact.law =", "contact.lw =", "did you mean contact.law"),
+    ('"wear.mesh.force"', '"wear.roller.force"', "shapes"),
+    ('"wear.mesh.force"', '"wheel.mesh.force"', "no component 'wheel'"),
 ])  # fmt: skip
 def test_bad_scenario_is_told_what_is_wrong(tmp_path, before, after, said):
     assert before in PAIR

@@ -105,6 +105,13 @@ def test_every_flavour_starts_worn(worn, tmp_path):
         unit.close()
 
 
+def test_what_begins_new_refuses_worn_units(worn, rv20e, tmp_path):
+    for name, unit in (("RvPlant", "rv_plant"), ("RvWear", "wear_fmu")):
+        build_native(name, worn.specification(unit), 1e-3, "rvwear test", tmp_path, ("3",))
+    with pytest.raises(InputFault, match=r"RvWear.fmu is of a reducer that is delivered worn, after 5000 h.*rvwear build --reducer RV20E-121"):
+        make_pair(rv20e, fmus=tmp_path / "fmi3")
+
+
 @pytest.mark.parametrize("text, hours", [("5000h", 5000.0), ("200 days", 4800.0), ("1800", 1800.0), ("7.2e6 s", 2000.0)])
 def test_hours_have_units(text, hours):
     assert hours_of(text) == pytest.approx(hours)

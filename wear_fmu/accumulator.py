@@ -36,47 +36,47 @@ UNDECIDED, ON_TIME, LATE = 0, 1, 2
 
 PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
 FAULTS = {
-    PRIMED: "the trochoid has loops: eccentricity {eccentricity:.6g} m times the number of pins must be less than"
-    " pin_circle_radius {pin_circle_radius:.6g} m. Reduce eccentricity or enlarge pin_circle_radius",
-    UNDERCUT: "the profile is undercut: pin_radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
-    " centre curve. Reduce pin_radius or eccentricity, or enlarge pin_circle_radius",
+    PRIMED: "the trochoid has loops: crank.eccentricity {eccentricity:.6g} m times the number of pins must be less than"
+    " pin.circle_radius {pin_circle_radius:.6g} m. Reduce crank.eccentricity or enlarge pin.circle_radius",
+    UNDERCUT: "the profile is undercut: pin.radius {pin_radius:.6g} m exceeds the smallest convex radius of the"
+    " centre curve. Reduce pin.radius or crank.eccentricity, or enlarge pin.circle_radius",
     LONG_STEP: "the cranks moved from {crank_angle_before:.6g} to {crank_angle:.6g} rad in one communication step,"
     " more than a unit can be meant to follow. Use a shorter communication step",
-    CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output_angle to"
-    " {output_angle:.6g} rad, cage_angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank_angle, output_angle and"
-    " cage_angle of the same reducer",
+    CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output.angle to"
+    " {output_angle:.6g} rad, cage.angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank.angle, output.angle and"
+    " cage.angle of the same reducer",
 }
 CAUTIONS = {
     "coarse_steps": "between two communication points the cranks turned by more than 20 degrees, or to and fro by more than 1: where the"
-    " wear was and under which forces is not known there, coarse_steps counts such steps. Use a shorter communication step",
+    " wear was and under which forces is not known there, numerics.coarse_steps counts such steps. Use a shorter communication step",
 }
 
 
 def variables(sizes: Sizes) -> list[Variable]:
     contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
-        Variable("crank_angle", "input", "rad", "angle of the cranks in the housing"),
-        Variable("crank_speed", "input", "rad/s", "speed of the cranks in the housing"),
-        Variable("output_angle", "input", "rad", "angle of the carrier"),
-        Variable("cage_angle", "input", "rad", "angle of the roller cages against the discs"),
+        Variable("crank.angle", "input", "rad", "angle of the cranks in the housing"),
+        Variable("crank.speed", "input", "rad/s", "speed of the cranks in the housing"),
+        Variable("output.angle", "input", "rad", "angle of the carrier"),
+        Variable("cage.angle", "input", "rad", "angle of the roller cages against the discs"),
         Variable("temperature", "input", "K", "temperature of the contacts", 293.15, minimum=200.0, maximum=500.0,
-                 nominal=300.0, source="assumed: room temperature"),
+                 nominal=300.0, source="assumed: room temperature", path="heat.contact_temperature"),
         parameter("pins", "1", "whether the pins turn in their grooves and wear all round, or stand", 0,
                   choices=("turn", "stand"), source="assumed: they turn, which agrees with ten times less wear than"
-                  " the disc"),
+                  " the disc", path="wear.pins"),
         parameter("pin_wear_share", "1", "wear of a pin over that of the flanks it meets; 0: pins do not wear", 1.0, 0.0, 100.0,
-                  source="assumed: as hard as the discs, either loses the same area"),
+                  source="assumed: as hard as the discs, either loses the same area", path="wear.pin_share"),
         parameter("acceleration", "1", "wear, time and distance count this many times", 1.0, 0.0, tunable=True,
                   source="chosen by the master"),
         parameter("largest_sweep", "rad", "a communication step is divided so that no crank turns further in a part", math.radians(5.0), 1e-6,
-                  1.0, source="assumed: 72 positions a turn"),
-        output("profile_angle", "rad", "crank angle that the profile errors hold for"),
-        output("mesh_profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
-        output("roller_profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
-        output("mesh_profile_slope", "m/rad", "change of mesh_profile_error as the cranks turn on", **contact, nominal=1e-4),
-        output("roller_profile_slope", "m/rad", "change of roller_profile_error as the cranks turn on", **roller, nominal=1e-4),
-        output("operating_time", "s", "time that the wear stands for", nominal=1e6),
-        output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9),
+                  1.0, source="assumed: 72 positions a turn", path="numerics.largest_sweep"),
+        output("profile.angle", "rad", "crank angle that the profile errors hold for"),
+        output("mesh.profile_error", "m", "what disc and pin lack at their contact", **contact, nominal=1e-6),
+        output("roller.profile_error", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
+        output("mesh.profile_slope", "m/rad", "change of mesh.profile_error as the cranks turn on", **contact, nominal=1e-4),
+        output("roller.profile_slope", "m/rad", "change of roller.profile_error as the cranks turn on", **roller, nominal=1e-4),
+        output("operating_time", "s", "time that the wear stands for", nominal=1e6, path="wear.operating_time"),
+        output("crank_travel", "rad", "turning of the cranks that the wear stands for", nominal=1e9, path="wear.crank_travel"),
         state("effects_on", "1", "whether any effect acts on the wear coefficient", integer=True, minimum=0, maximum=1),
         state("standing", "1", "share of a pin's wear that stays in place"),
         state("crank_angle_before", "rad", "crank angle at the last step"),

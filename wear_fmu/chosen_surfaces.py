@@ -28,5 +28,5 @@ def is_chosen(choice, surface_worn):
 
 def with_choice(name: str, effect: Effect) -> Effect:
     """The effect with its parameter."""
-    variable = Variable(f"{name}_{SUFFIX}", "parameter", "1", "surfaces that it acts on", 0, choices=CHOICES, source="assumed: all")
+    variable = Variable(f"{name}_{SUFFIX}", "parameter", "1", "surfaces that the effect acts on", 0, choices=CHOICES, source="assumed: all")
     return replace(effect, parameters=(*effect.parameters, EffectParameter(variable, "choice")))

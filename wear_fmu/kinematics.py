@@ -20,18 +20,18 @@ SLIDING_FORMS = ("exact", "printed")
 
 def variables(sizes: Sizes) -> list[Variable]:
     return [
-        parameter("pin_radius", "m", "radius of the pins", 2e-3, 1e-5, nominal=1e-3),
-        parameter("pin_circle_radius", "m", "radius of the circle of the pins' centres", 52e-3, 1e-4, nominal=1e-2),
-        parameter("eccentricity", "m", "throw of the cranks", 0.9e-3, 1e-6, nominal=1e-3),
-        parameter("mesh_width", "m", "width of one disc", 8.82e-3, 1e-5, nominal=1e-2),
-        parameter("inner_race_radius", "m", "radius of the crank's lobe", 10.25e-3, 1e-4, nominal=1e-2),
-        parameter("outer_race_radius", "m", "radius of the hole in the disc", 13.25e-3, 1e-4, nominal=1e-2),
-        parameter("roller_radius", "m", "radius of the needle rollers", 1.5e-3, 1e-5, nominal=1e-3),
-        parameter("roller_length", "m", "length of the needle rollers", 8e-3, 1e-5, nominal=1e-2),
+        parameter("pin.radius", "m", "radius of the pins", 2e-3, 1e-5, nominal=1e-3),
+        parameter("pin.circle_radius", "m", "radius of the circle of the pins' centres", 52e-3, 1e-4, nominal=1e-2),
+        parameter("eccentricity", "m", "throw of the cranks", 0.9e-3, 1e-6, nominal=1e-3, path="crank.eccentricity"),
+        parameter("mesh.width", "m", "width of one disc", 8.82e-3, 1e-5, nominal=1e-2),
+        parameter("inner_race.radius", "m", "radius of the crank's lobe", 10.25e-3, 1e-4, nominal=1e-2),
+        parameter("outer_race.radius", "m", "radius of the hole in the disc", 13.25e-3, 1e-4, nominal=1e-2),
+        parameter("roller.radius", "m", "radius of the needle rollers", 1.5e-3, 1e-5, nominal=1e-3),
+        parameter("roller.length", "m", "length of the needle rollers", 8e-3, 1e-5, nominal=1e-2),
         parameter("sliding_form", "1", "sliding of flank on pin", 0, choices=SLIDING_FORMS,
-                  source="exact kinematics; the printed form is garbled"),
-        parameter("slip_ratio_inner", "1", "slip of the rollers on the inner raceway", 0.05, 0.0, 1.0),
-        parameter("slip_ratio_outer", "1", "slip of the rollers on the outer raceway", 0.05, 0.0, 1.0),
+                  source="exact kinematics; the printed form is garbled", path="wear.sliding_form"),
+        parameter("slip_ratio_inner", "1", "slip of the rollers on the inner raceway", 0.05, 0.0, 1.0, path="wear.inner_slip_ratio"),
+        parameter("slip_ratio_outer", "1", "slip of the rollers on the outer raceway", 0.05, 0.0, 1.0, path="wear.outer_slip_ratio"),
     ]
 
 

@@ -9,7 +9,7 @@ shows from the totals: they have moved or they have not.
 import math
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, scratch, state
+from fmu_src.variables import Sizes, Variable, local, scratch, state
 
 # Beyond this turning of the cranks between two communication points forces that are only known there are guesswork:
 # 5 % of their mean at 20 degrees (docs/decisions.md) [rad].
@@ -19,17 +19,17 @@ COARSE = math.pi / 9.0
 def variables(sizes: Sizes) -> list[Variable]:
     contact, roller = sizes.over("disc", "pin"), sizes.over("disc", "crank", "roller")
     return [
-        Variable("crank_path", "input", "rad", "turning of the cranks, either way added up", nominal=10.0),
-        Variable("mesh_force_path", "input", "N.rad", "force between disc and pin added up along crank_path", **contact,
+        Variable("crank.path", "input", "rad", "turning of the cranks, either way added up", nominal=10.0),
+        Variable("mesh.force_path", "input", "N.rad", "force between disc and pin added up along crank.path", **contact,
                  nominal=1000.0),
-        Variable("roller_force_path", "input", "N.rad", "force on a roller added up along crank_path", **roller, nominal=1000.0),
-        Variable("mesh_force", "input", "N", "force between disc and pin, where there is no mesh_force_path", **contact,
+        Variable("roller.force_path", "input", "N.rad", "force on a roller added up along crank.path", **roller, nominal=1000.0),
+        Variable("mesh.force", "input", "N", "force between disc and pin, where there is no mesh.force_path", **contact,
                  nominal=100.0),
-        Variable("roller_force", "input", "N", "force on a roller, where there is no roller_force_path", **roller, nominal=100.0),
-        output("coarse_steps", "1", "communication steps that left open where the wear was: the cranks turned by more than 20"
-               " degrees, or to and fro by more than 1", integer=True),
-        state("crank_path_before", "rad", "crank_path at the last step"),
-        state("mesh_path_before", "N.rad", "mesh_force_path at the last step", **contact),
+        Variable("roller.force", "input", "N", "force on a roller, where there is no roller.force_path", **roller, nominal=100.0),
+        local("coarse_steps", "1", "communication steps that left open where the wear was: the cranks turned by more than 20"
+               " degrees, or to and fro by more than 1", integer=True, path="numerics.coarse_steps"),
+        state("crank_path_before", "rad", "crank.path at the last step"),
+        state("mesh_path_before", "N.rad", "mesh.force_path at the last step", **contact),
         state("roller_path_before", "N.rad", "roller_force_path at the last step", **roller),
         state("mesh_before", "N", "mesh_force at the last step", **contact),
         state("roller_before", "N", "roller_force at the last step", **roller),

@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from fmu_src.kernel import kernel
-from fmu_src.variables import Sizes, Variable, output, state
+from fmu_src.variables import Sizes, Variable, local, output, state
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -16,24 +16,24 @@ def variables(sizes: Sizes) -> list[Variable]:
     flank_bins, lobes = sizes["flank bin"], sizes["lobe"]
     race, lobe_bin = sizes.over("disc", "crank", bin=sizes["raceway bin"]), sizes.over(bin=flank_bins)
 
-    def surface(name: str, text: str, over: dict[str, Any]) -> Variable:
-        return state(name, "m", text, **over, nominal=1e-6, profile=True)
+    def surface(name: str, text: str, over: dict[str, Any], last_axes: tuple[tuple[str, int], ...] = ()) -> Variable:
+        return state(name, "m", text, **over, nominal=1e-6, profile=True, path=f"surface.{name}", last_axes=last_axes)
 
     return [
-        output("flank_depth", "m", "deepest wear on a disc's flanks", **disc, nominal=1e-6),
-        output("flank_phase", "rad", "its place: 0 root, pi tip, 2 pi next root", **disc),
-        output("flank_lobe", "1", "its lobe, from 1", **disc, integer=True),
-        output("pin_depth", "m", "deepest wear on a pin", **contact, nominal=1e-6),
-        output("inner_race_depth", "m", "deepest wear of the crank's raceway", **bearing, nominal=1e-6),
-        output("inner_race_angle", "rad", "its place, from the lobe's eccentric direction", **bearing),
-        output("outer_race_depth", "m", "deepest wear of the disc's raceway", **bearing, nominal=1e-6),
-        output("outer_race_angle", "rad", "its place, from the hole's outward radial", **bearing),
-        output("flank_volume", "m^3", "material lost by the flanks: integral of K F ds/H", nominal=1e-9),
-        output("pin_volume", "m^3", "material lost by the pins", nominal=1e-9),
-        output("inner_race_volume", "m^3", "material lost by the cranks' raceways", nominal=1e-9),
-        output("outer_race_volume", "m^3", "material lost by the discs' raceways", nominal=1e-9),
+        output("flank.depth", "m", "deepest wear on a disc's flanks", **disc, nominal=1e-6),
+        local("flank.phase", "rad", "place of the deepest wear on a tooth: 0 root, pi tip, 2 pi next root", **disc),
+        local("flank.lobe", "1", "lobe with the deepest wear, from 1", **disc, integer=True),
+        local("pin.depth", "m", "deepest wear on a pin", **contact, nominal=1e-6),
+        output("inner_race.depth", "m", "deepest wear of the crank's raceway", **bearing, nominal=1e-6),
+        local("inner_race.angle", "rad", "place of the deepest wear, from the lobe's eccentric direction", **bearing),
+        output("outer_race.depth", "m", "deepest wear of the disc's raceway", **bearing, nominal=1e-6),
+        local("outer_race.angle", "rad", "place of the deepest wear, from the hole's outward radial", **bearing),
+        output("flank.volume", "m^3", "material lost by the flanks: integral of K F ds/H", nominal=1e-9),
+        output("pin.volume", "m^3", "material lost by the pins", nominal=1e-9),
+        output("inner_race.volume", "m^3", "material lost by the cranks' raceways", nominal=1e-9),
+        output("outer_race.volume", "m^3", "material lost by the discs' raceways", nominal=1e-9),
         surface("disc_wear", "depth on a disc's circumference, lobe after lobe, each from root over tip to root",
-                sizes.over("disc", bin=lobes * flank_bins)),
+                sizes.over("disc", bin=lobes * flank_bins), last_axes=(("lobe", lobes), ("bin", flank_bins))),
         surface("pin_wear", "depth on a standing pin, from -90 to +90 degrees of its inward radial, per disc",
                 sizes.over("disc", "pin", bin=sizes["pin bin"])),
         surface("pin_even_wear", "depth all round a turning pin, per disc", contact),

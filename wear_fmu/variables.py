@@ -9,6 +9,7 @@ from fmu_src.effect_check import require_sound_effects
 from fmu_src.variables import Sizes, Table, Variable
 from wear_fmu import accumulator, kinematics, received, surfaces, sweeps, wear_laws
 from wear_fmu.effects import EFFECTS
+from wear_fmu.terminals import TERMINALS
 
 # In this order they stand in the table, within each role.
 PIECES = (kinematics, wear_laws, accumulator, received, sweeps, surfaces)
@@ -40,5 +41,7 @@ def wear_table(topology: Any, resolution: Resolution = Resolution()) -> Table:
     """The wear unit's variables for one topology."""
     require_sound_effects("wear_fmu")
     effects = [v for effect in EFFECTS.values() for v in effect.variables()]
-    return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways",
-                 [*own_variables(topology, resolution), *effects, amplitude_memory(EFFECTS.values())], starts_from_nothing=True)
+    variables = [*own_variables(topology, resolution), *effects, amplitude_memory(EFFECTS.values())]
+    # New surfaces are even, whatever is to wear them.
+    known = {v.name: () for v in variables if v.role == "output"}
+    return Table("RvWear", "RV reducer: wear of flanks, pins and needle-bearing raceways", variables, known, terminals=TERMINALS)

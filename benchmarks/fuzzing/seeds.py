@@ -55,16 +55,16 @@ record = ["lag", "mesh_force[1,2]"]
 reducer = "RV20E-121"
 unit = "wear"
 [[connections]]
-from = "plant.mesh_force_path"
-to = "wear.mesh_force_path"
+from = "plant.mesh.force_path"
+to = "wear.mesh.force_path"
 factor = 1.0
 [step_control]
 tolerance = 1e-4
 [loops]
 method = "newton"
 [[power_bonds]]
-effort = "plant.load_torque"
-flow = "plant.output_speed"
+effort = "plant.output.load_torque"
+flow = "plant.output.speed"
 """
 CAMPAIGN = b"""[campaign]
 name = "c"
@@ -320,7 +320,7 @@ SEEDS: dict[str, Callable[[], Iterator[bytes]]] = {
     "stamp": lambda: iter([b'{"source_hash": "x", "specification": {"unit": "rv_plant", "sizes": {}}}']),
     "reference_csv": lambda: iter([next(csv())]), "reference_netcdf": foreign_netcdf, "result": netcdf, "checkpoint": lambda: iter([checkpoint_content()]),
     "forged_checkpoint": lambda: iter([checkpoint_content()]), "lives": lives, "forged_lives": lambda: (line.split(b"\t")[0] for line in next(lives()).splitlines()),
-    "setting": lambda: iter([b"load_torque=150 N.m", b"pin_radius_error[3]=2um", b"contact_law=palmgren", b"bearing_clearance=3e-6", b"temperature=30degC"]),
+    "setting": lambda: iter([b"output.load_torque=150 N.m", b"errors.pin.radius[3]=2um", b"contact.law=palmgren", b"bearing.clearance=3e-6", b"heat.ambient_temperature=30degC"]),
     "message": lambda: iter([__import__("fmu_src.framing", fromlist=["encode"]).encode(("done", {"a": [1, 2.0, None, b"x", np.arange(3.0)]}))]),
 }  # fmt: skip
 

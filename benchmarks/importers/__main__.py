@@ -1,6 +1,6 @@
 """Run the units in the importers that this machine has, and write docs/importers.md.
 
-    python -m benchmarks.importers [--tool NAME=PATH ...] [--units DIR] [--output docs/importers.md] [--doubling]
+    python -m benchmarks.importers [--tool NAME=PATH ...] [--schemas DIR] [--units DIR] [--output docs/importers.md] [--doubling]
 
 Programs: fmusim, mastersim, omsimulator, openmcx, fmucheck, also as RVWEAR_FMUSIM and so on or on the search path; packages: fmpy, ecospy, libcosimpy.
 What is not there is said, with how to get it.
@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from benchmarks.importers import pair, single
+from benchmarks.importers import pair, schemas, single
 from benchmarks.importers.cases import ACCELERATION, STEP, STEPS, WATCHED, Outcome, make_bench
 from benchmarks.importers.doubling import END, LONGEST, Doubling, growth, measured
 from benchmarks.importers.tools import PROGRAMS, Tools
@@ -56,6 +56,7 @@ def page(outcomes: list[Outcome], doublings: list[Doubling]) -> str:
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="benchmarks.importers", description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--tool", action="append", default=[], metavar="NAME=PATH", help=f"a program: {', '.join(PROGRAMS)}")
+    parser.add_argument("--schemas", metavar="DIR", help="the schemas of SSP 2.0 (folder schema of modelica/ssp-standard): packages are held against them")
     parser.add_argument("--units", default="results/importers", metavar="DIR", help="where the FMUs are, or are built to (default results/importers)")
     parser.add_argument("--output", default="docs/importers.md", metavar="FILE", help="the page (default docs/importers.md)")
     parser.add_argument("--doubling", action="store_true", help="MasterSim's step doubling too: minutes")
@@ -68,6 +69,11 @@ def main(arguments: list[str]) -> int:
     with tempfile.TemporaryDirectory() as scratch:
         bench = make_bench(load_reducer("RV20E-121"), Path(options.units).resolve(), Path(scratch))
         found = [*single.outcomes(bench, tools), *pair.outcomes(bench, tools)]
+        try:
+            found += schemas.outcomes(bench, Path(options.schemas)) if options.schemas else []
+        except InputFault as fault:
+            print(f"benchmarks.importers: {fault}", file=sys.stderr)
+            return 2
         program = tools.path("mastersim")
         doublings = measured(bench, program) if options.doubling and program is not None else []
     for o in found:

@@ -27,8 +27,8 @@ STEP, STEPS = 1.25e-3, 80
 WORN = "worn-5000h.state"
 # Values at the end, by unit and element.
 WATCHED = (
-    "plant.lag", "plant.output_angle", "plant.drive_torque", "wear.flank_volume", "wear.inner_race_volume", "wear.flank_depth[1]",
-    "wear.flank_depth[2]", "wear.inner_race_depth[1,1]",
+    "plant.output.lag", "plant.output.angle", "plant.input.drive_torque", "wear.flank.volume", "wear.inner_race.volume", "wear.flank.depth[1]",
+    "wear.flank.depth[2]", "wear.inner_race.depth[1,1]",
 )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ EXAMPLES = {
     "five_lines.py": "the package of both FMUs, stepped from Python",
     "hidden_effect": "a campaign with data and an effect to find, with a guide: examples/hidden_effect/README.md",
     "load_fmu.c": "a native FMU, stepped from C",
+    "pair_master.c": "plant and wear unit of FMI 3.0, stepped together from C",
     "milling_wear": "a negative control: milling cutters, to which no effect may be added (docs/real_data.md)",
     "move_and_return.toml": "a table of speeds and torques: rvwear life --duty examples/move_and_return.toml",
     "pair.toml": "the FMUs of plant and wear, connected: rvwear build, rvwear run examples/pair.toml",

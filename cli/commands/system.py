@@ -25,7 +25,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer_options(drive)
     add_coupling_options(drive, None)
     add_system_options(drive)
-    drive.add_argument("--record", action="append", metavar="PATTERN", help="what to record of a system: plant.lag, wear.*")
+    drive.add_argument("--record", action="append", metavar="PATTERN", help="what to record of a system: plant.output.lag, wear.*")
     drive.add_argument("--turns", type=float, default=1.0, help="crank turns to simulate (default 1)")
     drive.add_argument("--acceleration", type=float, default=1.0, help="wear counts this many times (default 1)")
     drive.add_argument("--output", help="result file, .nc or of a system also .csv (default results/NAME_run.nc)")
@@ -41,7 +41,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="of the largest value of a variable, plus an absolute part; the last that matches (default 1e-6)",
     )  # fmt: skip
     judge.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
-    judge.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="--set plant.load_torque=150N.m")
+    judge.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="--set plant.output.load_torque=150N.m")
     judge.add_argument("--scheme", choices=SCHEMES, help="before the file's")
     add_system_options(judge)
     add_json(judge)
@@ -101,8 +101,8 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
     with task("steps", total=steps) as stepping:
         recorded = record_turn(pair, steps, stepping.advance).series
     step = pair.master.step_size
-    series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{k}": v for k, v in recorded.items()}
-    units = {f"plant.{k}": pair.plant.signal(k).unit for k in SERIES}
+    series = {"time": (np.arange(steps) + 1) * step} | {f"plant.{pair.plant.signal(k).name}": v for k, v in recorded.items()}
+    units = {f"plant.{s.name}": s.unit for k in SERIES for s in [pair.plant.signal(k)]}
     name = f"{reducer.name}_run"
     inputs = {"reducer": reducer.name, "settings": {s.name: s.value for s in settings},
               "turns": options.turns, "acceleration": options.acceleration, "scheme": options.scheme,
@@ -150,7 +150,7 @@ def open_system(options: argparse.Namespace) -> "System":
     for setting in options.set:
         path, equals, value = setting.partition("=")
         if not equals:
-            raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.load_torque=150N.m")
+            raise InputFault(f"--set {setting!r}: write component.variable=value, for instance plant.output.load_torque=150N.m")
         system[path.strip()] = value.strip()
     return system
 

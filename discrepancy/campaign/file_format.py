@@ -13,6 +13,7 @@ from pydantic import Field, ValidationInfo, field_validator
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
 from discrepancy.problem import FREE_ZERO
 from fmu_src.faults import InputFault
+from fmu_src.names import dotted
 from fmu_src.reading import parse_toml, quoted, read_text
 from fmu_src.strict_file import NAME, Strict, validated
 
@@ -171,6 +172,11 @@ class CampaignFile(Strict):
     rig: RigEntry | None = None
     orders: dict[str, list[float]] = {}
     quantities: dict[str, QuantityEntry] = {}
+
+    @field_validator("nuisances", mode="before")
+    @classmethod
+    def by_structured_name(cls, given: Any) -> Any:
+        return dotted(given, NuisanceEntry.model_fields) if isinstance(given, dict) else given
 
     @field_validator("quantities")
     @classmethod

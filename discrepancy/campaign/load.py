@@ -15,6 +15,7 @@ from discrepancy.campaign.series import Series, complete, series_of
 from discrepancy.problem import FREE_ZERO, Parameter, Record
 from fmu_src.faults import InputFault
 from fmu_src.units import parse, registry
+from reducers.reducer import kernels_name
 
 DIRECTIONS = {"forward": 1, "reverse": -1, 1: 1, -1: -1}
 
@@ -229,6 +230,7 @@ def tags_of(run: Run, condition: Condition, quantity: Quantity, scales: Scales, 
 
 def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> Nuisance:
     """In the unit of the parameter of that name, else in SI base units."""
+    name = kernels_name(name, place)
     tables = (scales.reducer.plant, scales.reducer.wear) if scales.reducer else ()
     unit = next((t.by_name[name].unit for t in tables if name in t.by_name), None)
     if unit is None:
@@ -242,7 +244,9 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
         )
     prior = None if entry.prior is None else factor * entry.prior
     lower, start, upper = (factor * number + offset for number in (entry.lower, entry.start, entry.upper))
-    parameter = Parameter(name, unit, start, lower, upper, prior or 0.1 * (upper - lower), 0, prior, entry.description)
+    # A range of decades says nothing about a step.
+    size = min(0.1 * (upper - lower), abs(start) or upper - lower)
+    parameter = Parameter(name, unit, start, lower, upper, prior or size, 0, prior, entry.description)
     return Nuisance(parameter, entry.per)
 
 

@@ -77,7 +77,8 @@ def before(r):
 ```
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
-anything is compiled. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
+anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
 for all effects before the next begins:
 
 STAGES
@@ -111,7 +112,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.name}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
+        (f"`{p.variable.path}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((

@@ -92,7 +92,7 @@ class Bench(Lives):
                 similar = self.running_places(condition, {}, angles)[1] if beside is None else beside
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
-                self.put_wear(self.worn(condition, values, condition.hours), plants)
+                self.put_wear(wears.copy(), plants)
             status = coupled.sweep(plants, wears, durations, series, condition.hours > 0.0, places, similar, bool(relevant))
             self.check(status, plants, wears)
             return series, places
@@ -158,13 +158,17 @@ class Bench(Lives):
                 similar = self.held_places(condition, {}, torques, positions, turns)[1] if beside is None else beside
             # What sticks remembers where it was: friction's springs must not see a start elsewhere.
             guessed = bool(relevant) and not self.remembers(values)
+            surfaces = self.worn(condition, values, condition.hours, turns).copy() if worn else None
+            plants = None
             for k in range(positions):
                 angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)
-                plants = self.new_plant(
-                    condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), **({"z": similar[k][0]} if guessed else {})
-                )
-                if worn:
-                    self.put_wear(self.worn(condition, values, condition.hours, turns), plants)
+                start = {"z": similar[k][0], "advance_before": 0.0} if guessed else {}
+                if plants is None or not guessed:
+                    plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), **start)
+                else:
+                    self.place(plants, angle, **start)
+                if surfaces is not None:
+                    self.put_wear(surfaces, plants)
                 turning = np.zeros(len(torques))
                 status = coupled.torque_sweep(plants, torques, turning, places[k], similar[k], guessed)
                 self.check((status, 0), plants, self.templates[1])
@@ -190,9 +194,8 @@ class Bench(Lives):
 
         return self.kept(key, run)
 
-    def put_wear(self, worn: np.ndarray, plants: np.ndarray) -> None:
-        """Profile errors of ``worn`` surfaces at the present angles."""
-        wears = worn.copy()
+    def put_wear(self, wears: np.ndarray, plants: np.ndarray) -> None:
+        """Profile errors of worn surfaces at the present angles, to which their unit is turned without wear."""
         for name in ("crank_angle", "output_angle", "cage_angle"):
             wears[name] = wears[f"{name}_before"] = plants[name]
         wears["acceleration"] = wears["crank_speed"] = 0.0

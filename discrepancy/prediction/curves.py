@@ -210,12 +210,18 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     return change
 
 
-def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats | None:
-    """What ``values`` change in the transmission error [rad] next to ``base`` at a few angles; None where these are not fewer."""
+def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:
+    """The few angles [rad] at which a glimpse of a transmission error is had; None where these are not fewer, or first order is not cheaper."""
     curve = OverAngle(bench, record, "transmission_error")
     nodes = curve.nodes(COARSEST)
-    if nodes is None or (first_order and curve.condition.hours > 0.0):
-        return None
+    return None if nodes is None or curve.condition.hours > 0.0 else nodes.angles
+
+
+def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats:
+    """What ``values`` change in the transmission error [rad] next to ``base`` at ``glimpsed_angles``."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = curve.nodes(COARSEST)
+    assert nodes is not None
     if first_order:
         high, low = (bench.error_beside(curve.condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
     else:

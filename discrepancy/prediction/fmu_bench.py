@@ -22,6 +22,7 @@ from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
 from discrepancy.prediction.units import TOLERANCE, Condition, within_turn
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.variables import SETTABLE
 from orchestrator.fmu import Fmu
 from orchestrator.master import Master
 from studies.coupled import COLUMNS
@@ -49,7 +50,7 @@ class FmuBench(Bench):
         """A new unit with the settings and then ``values``."""
         unit.attempt(unit.slave.reset)
         for name, value in {**self.settings, "tolerance": TOLERANCE, **values}.items():
-            if name in unit.signals and unit.signals[name].causality != "output":
+            if unit.has(name) and unit.signal(name).causality in SETTABLE:
                 unit.set(name, value)
 
     def renew_plant(self, condition: Condition, values: Mapping[str, float], load: float) -> None:

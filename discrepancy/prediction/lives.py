@@ -39,13 +39,14 @@ class Lives(Units):
         self.lives = Once(KEPT_LIVES)
         # Turns of the cycles in which wear is varied.
         self.cycle_turns = SHORT_CYCLE
-        # Hours [s] at which a life is looked at, by the condition when new.
+        # Hours [s] at which a life is looked at, by the condition when new: in fits, and besides in what was held out.
         self.planned: dict[Condition, set[float]] = {}
+        self.planned_beyond: dict[Condition, set[float]] = {}
 
-    def plan(self, conditions: Iterable[Condition]) -> None:
-        """Lives are looked at under these conditions: each is lived once for all its hours."""
+    def plan(self, conditions: Iterable[Condition], held_out: bool = False) -> None:
+        """Lives are looked at under these conditions: each is lived once for all its hours, those of unused runs only where they are asked for."""
         for condition in conditions:
-            self.planned.setdefault(fresh(condition), set()).add(condition.hours)
+            (self.planned_beyond if held_out else self.planned).setdefault(fresh(condition), set()).add(condition.hours)
 
     def wear_steps(self, condition: Condition, turns: int) -> tuple[float, int]:
         """Communication step [s] and their number in a wear cycle of ``turns``."""
@@ -75,7 +76,9 @@ class Lives(Units):
 
     def looked_at(self, new: Condition, hours: set[float]) -> list[float]:
         """Hours at which a life is looked at, ``hours`` among them."""
-        return sorted(hours | self.planned.get(new, set()))
+        planned = self.planned.get(new, set())
+        beyond = set() if hours <= planned else self.planned_beyond.get(new, set())
+        return sorted(hours | planned | beyond)
 
     def wear_to(
         self, condition: Condition, values: Mapping[str, float], inspections: list[float], turns: int

@@ -15,7 +15,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
-from discrepancy.prediction.curves import glimpsed_error, shifted_errors
+from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.model_error import with_error
@@ -59,7 +59,7 @@ class PhysicalModel:
         for record in self.records:
             rows = row_conditions(self.bench, record)
             # A held test looks at a life under the rated load.
-            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)])
+            self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)], record.held_out)
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
@@ -150,8 +150,10 @@ class PhysicalModel:
 
     def glimpsed(self, record: Record, high: Mapping[str, float], low: Mapping[str, float], first_order: bool) -> Floats:
         """``glimpse`` of one record."""
-        own, beside, found = self.for_record(record, high), self.for_record(record, low), None
-        if record.quantity == "transmission_error" and self.bench.relevant(own, True) != self.bench.relevant(beside, True):
+        own, beside = self.for_record(record, high), self.for_record(record, low)
+        places = glimpsed_angles(self.rough_bench, record) if record.quantity == "transmission_error" else None
+        found = None
+        if places is not None and self.bench.relevant(own, True) != self.bench.relevant(beside, True):
             try:
                 found = glimpsed_error(self.rough_bench, record, own, beside, first_order)
             except RunFault:
@@ -159,7 +161,9 @@ class PhysicalModel:
                 found = None
         if found is None:
             found = self.one(record, high, low if first_order else None, True) - self.one(record, low, low if first_order else None, True)
-        elif record.free_zero:
+            if places is not None:
+                found = found[np.linspace(0, len(found) - 1, len(places)).astype(np.intp)]
+        if record.free_zero:
             found = found - found.mean()
         allowed = self.rough_bench.allowed(record)
         return found * np.sqrt(len(record.values) / len(found)) / allowed if allowed > 0.0 else found

@@ -92,7 +92,7 @@ class Units:
             wears[name] = plants[name]
         fault = accumulator.initialise(wears)
         if fault:
-            raise RunFault(accumulator.FAULTS[fault].format(**scalars(self.tables[1], wears)))
+            raise RunFault(accumulator.FAULTS[fault].format(**self.tables[1].scalars(wears)))
         return plants, wears
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
@@ -110,18 +110,25 @@ class Units:
         plants = self.set_up(0, values, condition)
         plants["input_speed"] = self.input_speed(condition)
         plants["load_torque"] = condition.direction * condition.load
-        plants["ideal_output"] = first_angle
-        # Where the cages have rolled with the output from 0.
-        rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
-        plants["cage"] = rate * within_turn(first_angle) + cage
         if "grease_age" in self.tables[0].by_name:
             plants["grease_age"] = condition.hours
-        for name, value in plant_values.items():
-            plants[name] = value
+        self.place(plants, first_angle, cage, **plant_values)
         fault = plant.initialise(plants)
         if fault:
-            raise RunFault(FAULTS[fault].format(**scalars(self.tables[0], plants)))
+            raise RunFault(FAULTS[fault].format(**self.tables[0].scalars(plants)))
         return plants
+
+    def place(self, plants: np.ndarray, angle: float, cage: float = 0.0, **plant_values: float | Floats) -> None:
+        """Turn a plant's input to an output angle [rad], with the cages where they have rolled with the output from 0 and ``cage`` ahead."""
+        ahead = angle - float(plants["ideal_output"][0])
+        rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
+        plants["ideal_output"], plants["cage"] = angle, rate * within_turn(angle) + cage
+        # Until it is solved there: as ideal kinematics has it.
+        plants["crank_angle"] -= self.reducer.topology.lobes * ahead
+        plants["output_angle"] += ahead
+        plants["cage_angle"] = plants["cage"]
+        for name, value in plant_values.items():
+            plants[name] = value
 
     def input_speed(self, condition: Condition) -> float:
         """Speed of the sun [rad/s] with its sign."""
@@ -130,7 +137,7 @@ class Units:
     def check(self, status: tuple[int, int], plants: np.ndarray, wears: np.ndarray) -> None:
         for code, faults, table, records in zip(status, (FAULTS, accumulator.FAULTS), self.tables, (plants, wears)):
             if code:
-                raise RunFault(faults[code].format(**scalars(table, records)))
+                raise RunFault(faults[code].format(**table.scalars(records)))
 
     def turning_time(self, condition: Condition) -> float:
         """Time of one turn of the cranks in the housing [s]."""
@@ -140,7 +147,3 @@ class Units:
 def within_turn(angle: float) -> float:
     """The same place of the output by the shorter way from 0 [rad]."""
     return math.remainder(angle, 2.0 * math.pi)
-
-
-def scalars(table: Table, records: np.ndarray) -> dict[str, float]:
-    return {v.name: records[v.name][0] for v in table.variables if not v.shape}

@@ -1,4 +1,4 @@
-"""What hangs on the joint: gravity and friction of an arm; its inertia is the reducer's load_inertia."""
+"""What hangs on the joint: gravity and friction of an arm; its inertia is the reducer's load.inertia."""
 
 import math
 

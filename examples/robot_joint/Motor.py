@@ -1,4 +1,4 @@
-"""A permanent-magnet motor, seen as one winding; its rotor is part of the reducer's sun_inertia."""
+"""A permanent-magnet motor, seen as one winding; its rotor is part of the reducer's sun.inertia."""
 
 import math
 

@@ -25,11 +25,11 @@ HERE = Path(__file__).parent
 FMUS = {"controller": "Controller", "drive": "Drive", "motor": "Motor", "arm": "Arm"}
 CONNECTIONS = [
     ("controller.current", "drive.wanted"), ("drive.voltage", "motor.voltage"), ("motor.current", "drive.current"),
-    ("motor.torque", "joint.input_torque"), ("joint.input_angle", "motor.angle"),
-    ("joint.input_angle", "controller.motor_angle"), ("arm.torque", "joint.load_torque"),
-    ("joint.output_angle", "arm.angle"), ("joint.output_speed", "arm.speed"),
+    ("motor.torque", "joint.input.torque"), ("joint.input.angle", "motor.angle"),
+    ("joint.input.angle", "controller.motor_angle"), ("arm.torque", "joint.output.load_torque"),
+    ("joint.output.angle", "arm.angle"), ("joint.output.speed", "arm.speed"),
 ]  # fmt: skip
-RECORDED = ["controller.target", "joint.output_angle", "joint.input_angle", "motor.current"]
+RECORDED = ["controller.target", "joint.output.angle", "joint.input.angle", "motor.current"]
 STEP = 2e-4
 # Rotor and sun, seen at the sun [kg m^2].
 ROTOR_INERTIA = 1e-4
@@ -57,8 +57,8 @@ def worn_surfaces(reducer, hours: float) -> dict[str, np.ndarray]:
 def make_joint(reducer, surfaces: dict[str, np.ndarray]) -> InProcess:
     """The reducer in motion between motor and arm."""
     joint = InProcess("joint", reducer.specification("rv_reducer"))
-    for name, value in {"fidelity": 1, "drive": 1, "input_speed": 0.0, "load_torque": 0.0,
-                        "sun_inertia": ROTOR_INERTIA, "dynamic_tolerance": 0.03}.items():  # fmt: skip
+    for name, value in {"fidelity": 1, "drive": 1, "input.speed": 0.0, "output.load_torque": 0.0,
+                        "sun.inertia": ROTOR_INERTIA, "numerics.dynamic_tolerance": 0.03}.items():  # fmt: skip
         joint.set(name, value)
     for name, depth in surfaces.items():
         joint.records[name][0] = depth
@@ -72,11 +72,11 @@ def make_system(fmus: dict[str, Path], joint: InProcess) -> System:
 def move(system: System, duration: float) -> dict[str, np.ndarray]:
     """Time, target, position error of flange and motor (at the flange) and current."""
     series = system.run(duration, record=RECORDED)
-    target, flange = series["controller.target"], series["joint.output_angle"]
+    target, flange = series["controller.target"], series["joint.output.angle"]
     ratio = system["controller.ratio"]
     return {
         "time": series["time"], "target": target, "flange error": flange - target,
-        "motor error": series["joint.input_angle"] / ratio - target, "current": series["motor.current"],
+        "motor error": series["joint.input.angle"] / ratio - target, "current": series["motor.current"],
     }  # fmt: skip
 
 
@@ -129,7 +129,7 @@ def main(hours: float) -> None:
             move_time, pause = system["controller.move_time"], system["controller.pause"]
             runs[label] = move(system, 4.0 * (move_time + pause))
             found[label] = figures(runs[label], move_time, pause) | {
-                "lost motion of the reducer [arcsec]": joint.get("lost_motion") * ARCSEC
+                "lost motion of the reducer [arcsec]": joint.get("life.lost_motion") * ARCSEC
             }
             system.close()
     new, worn = found.values()

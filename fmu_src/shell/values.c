@@ -64,6 +64,24 @@ static enum status resolve(struct instance *i, const struct call *call, size_t k
     return OK;
 }
 
+/* Resolves references from number k on; how many of them the span stands for, 0 if there is no such variable.
+ * Elements of one variable in a row are one span: masters ask for hundreds of them in one call.
+ */
+static size_t resolve_span(struct instance *i, const struct call *call, size_t k, struct span *span)
+{
+    const uint32_t *references = call->references + k;
+    size_t left = call->reference_count - k, count = 1;
+    if (resolve(i, call, k, span))
+        return 0;
+    if (call->whole_variables || !span->variable)
+        return 1;
+    size_t most = span->variable->size - (span->cell - span->variable->first);
+    while (count < left && count < most && references[count] == references[0] + count)
+        count++;
+    span->size = (uint32_t)count;
+    return count;
+}
+
 /* Resolves all references: each must exist, and together they must have as many values as were given. */
 static enum status check_call(struct instance *i, const struct call *call, const void *values, int *has_outputs)
 {
@@ -71,8 +89,9 @@ static enum status check_call(struct instance *i, const struct call *call, const
     size_t total = 0;
     if ((call->reference_count && !call->references) || (call->value_count && !values))
         return report(i, ERROR, "%s: an array is missing (NULL)", call->function);
-    for (size_t k = 0; k < call->reference_count; k++) {
-        if (resolve(i, call, k, &span))
+    for (size_t k = 0, count; k < call->reference_count; k += count) {
+        count = resolve_span(i, call, k, &span);
+        if (!count)
             return ERROR;
         total += span.size;
         *has_outputs |= span.variable && span.variable->role == OUTPUT;
@@ -107,16 +126,17 @@ enum status get_values(struct instance *i, const struct call *call, void *values
     if (has_outputs && i->phase == INITIALISING && i->is_stale && refresh_outputs(i))
         return ERROR;
     struct span span = {0};
-    for (size_t k = 0, place = 0; k < call->reference_count; k++) {
-        resolve(i, call, k, &span);
+    for (size_t k = 0, place = 0; k < call->reference_count;) {
+        k += resolve_span(i, call, k, &span);
         const union cell *from = i->cells + span.cell;
         if (!span.variable)
             ((double *)values)[place++] = i->time;
-        else
+        else if (call->kind == REAL) {
+            memcpy((double *)values + place, from, span.size * sizeof *from);
+            place += span.size;
+        } else
             for (uint32_t e = 0; e < span.size; e++, place++)
-                if (call->kind == REAL)
-                    ((double *)values)[place] = from[e].real;
-                else if (call->kind == INTEGER_32)
+                if (call->kind == INTEGER_32)
                     ((int32_t *)values)[place] = (int32_t)from[e].integer;
                 else
                     ((int64_t *)values)[place] = from[e].integer;
@@ -149,11 +169,15 @@ static enum status check_settable(struct instance *i, const struct call *call, c
     return OK;
 }
 
-static enum status check_value(struct instance *i, const struct variable *v, uint32_t element, union cell value)
+static int is_within(const struct variable *v, union cell value)
 {
     double number = v->is_integer ? (double)value.integer : value.real;
-    if (number >= v->lowest && number <= v->highest) /* false for a NaN */
-        return OK;
+    return number >= v->lowest && number <= v->highest; /* false for a NaN */
+}
+
+static enum status refuse_value(struct instance *i, const struct variable *v, uint32_t element, union cell value)
+{
+    double number = v->is_integer ? (double)value.integer : value.real;
     char name[256];
     element_name(v, element, name, sizeof name);
     if (v->choices)
@@ -173,17 +197,19 @@ enum status set_values(struct instance *i, const struct call *call, const void *
         || check_call(i, call, values, &has_outputs))
         return ERROR;
     struct span span = {0};
-    for (size_t k = 0, place = 0; k < call->reference_count; k++) {
-        resolve(i, call, k, &span);
+    for (size_t k = 0, place = 0; k < call->reference_count;) {
+        k += resolve_span(i, call, k, &span);
         if (check_settable(i, call, &span))
             return ERROR;
-        for (uint32_t e = 0; e < span.size; e++, place++)
-            if (check_value(i, span.variable, span.cell - span.variable->first + e, value_at(call, values, place)))
-                return ERROR;
+        for (uint32_t e = 0; e < span.size; e++, place++) {
+            union cell value = value_at(call, values, place);
+            if (!is_within(span.variable, value))
+                return refuse_value(i, span.variable, span.cell - span.variable->first + e, value);
+        }
     }
     span.variable = NULL;
-    for (size_t k = 0, place = 0; k < call->reference_count; k++) {
-        resolve(i, call, k, &span);
+    for (size_t k = 0, place = 0; k < call->reference_count;) {
+        k += resolve_span(i, call, k, &span);
         for (uint32_t e = 0; e < span.size; e++, place++)
             i->cells[span.cell + e] = value_at(call, values, place);
     }

@@ -103,7 +103,7 @@ def resolve(components: dict[str, Component], path: str) -> tuple[str, Signal]:
     dot = path.find(".")
     while dot >= 0:
         if path[:dot] in components:
-            return path[:dot], components[path[:dot]].signal(path[dot + 1 :])
+            return path[:dot], components[path[:dot]].as_written(path[dot + 1 :])
         dot = path.find(".", dot + 1)
     raise InputFault(f"{path}: no component {path.partition('.')[0]!r}; there are {', '.join(components)}")
 

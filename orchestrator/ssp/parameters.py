@@ -87,7 +87,7 @@ def apply(parameter: Parameter, component: Component, variable: str) -> None:
     if parameter.kind == "String":
         component.set_text(variable, parameter.text)
         return
-    signal = component.signal(variable)
+    signal = component.as_written(variable)
     try:
         component.set(variable, value_of(parameter, signal))
     except (ValueError, UnitError) as problem:

@@ -15,6 +15,7 @@ that the plant has cleared, and reads none of them:
 """
 
 from fmu_src.effect import OWN_STATES, Effect, effect_modules
+from fmu_src.names import with_paths
 
 HOOKS = {
     "start": ("r", ""), "prepare": ("r", ""), "warm": ("r", ""), "before": ("r", ""), "hold": ("r", ""), "after": ("r", ""),
@@ -49,4 +50,4 @@ ALLOWED = {
     "advance": OWN_STATES,
     "heat": OWN_STATES | added("reducer_temperature"),
 }  # fmt: skip
-EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in effect_modules(__name__).items()}
+EFFECTS: dict[str, Effect] = {name: with_paths(name, module.EFFECT) for name, module in effect_modules(__name__).items()}

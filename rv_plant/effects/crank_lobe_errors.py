@@ -22,11 +22,13 @@ EFFECT = Effect(
             parameter
             for k in (1, 2, 3)
             for parameter in (
-                amplitude(f"lobe_throw_error_{k}", "m", f"throw of crank {k}'s lobe above nominal", 2 * UM, -30 * UM, 30 * UM, group=f"crank {k}"),
-                amplitude(f"lobe_phase_error_{k}", "rad", f"turning of crank {k}'s lobe", 5e-4, -1e-2, 1e-2, group=f"crank {k}"),
+                amplitude(f"lobe_throw_error_{k}", "m", f"throw of crank {k}'s lobe above nominal", 2 * UM, -30 * UM, 30 * UM,
+                          group=f"crank {k}", needs=("cranks", k)),
+                amplitude(f"lobe_phase_error_{k}", "rad", f"turning of crank {k}'s lobe", 5e-4, -1e-2, 1e-2,
+                          group=f"crank {k}", needs=("cranks", k)),
             )
         ),
-        choice("lobe_error_disc", "disc whose lobes they are", 1, 1, 3),
+        choice("lobe_error_disc", "disc at which the cranks' lobes have errors", 1, 1, 3),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

@@ -24,9 +24,11 @@ EFFECT = Effect(
     " the ring is clamped anew",
     (
         amplitude("disc_runout", "m", "profile of the discs off centre", 3 * UM, -50 * UM, 50 * UM, sign=1, group="runout"),
-        shape("disc_runout_angle", "rad", "direction of it", 0.0, -20.0, 20.0, "assumed", grid=(0.0, 1.5708, 3.1416, 4.7124), group="runout"),
+        shape("disc_runout_angle", "rad", "direction in which the discs' profile is off centre", 0.0, -20.0, 20.0, "assumed",
+              grid=(0.0, 1.5708, 3.1416, 4.7124), group="runout"),
         amplitude("disc_ovality", "m", "profile of the discs oval", 3 * UM, -50 * UM, 50 * UM, sign=1, group="ovality"),
-        shape("disc_ovality_angle", "rad", "direction of it", 0.0, -20.0, 20.0, "assumed", grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
+        shape("disc_ovality_angle", "rad", "direction of the long axis of the oval discs", 0.0, -20.0, 20.0, "assumed",
+              grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
         amplitude("lobe_pitch_scatter", "m", "scatter of the pitch, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
         shape("disc_pairing", "1", "0: both discs carry the same error, 1: opposed ones", 1.0, 0.0, 1.0, "assumed: unpaired"),
     ),

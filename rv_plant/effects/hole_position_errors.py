@@ -21,14 +21,16 @@ EFFECT = Effect(
             parameter
             for k in (1, 2, 3)
             for parameter in (
-                amplitude(f"disc_hole_shift_{k}", "m", f"hole {k} of a disc along its circle", 3 * UM, -30 * UM, 30 * UM, group=f"hole {k}"),
-                amplitude(f"disc_hole_radial_{k}", "m", f"hole {k} of a disc outwards", 3 * UM, -30 * UM, 30 * UM, group=f"hole {k}"),
+                amplitude(f"disc_hole_shift_{k}", "m", f"hole {k} of a disc along its circle", 3 * UM, -30 * UM, 30 * UM,
+                          group=f"hole {k}", needs=("cranks", k)),
+                amplitude(f"disc_hole_radial_{k}", "m", f"hole {k} of a disc outwards", 3 * UM, -30 * UM, 30 * UM,
+                          group=f"hole {k}", needs=("cranks", k)),
             )
         ),
-        choice("disc_hole_disc", "disc whose holes they are", 1, 1, 3),
+        choice("disc_hole_disc", "disc whose holes are out of place", 1, 1, 3),
         amplitude("carrier_seat_shift", "m", "one crank's seat in the carrier along its circle", 3 * UM, -30 * UM, 30 * UM, group="carrier"),
-        amplitude("carrier_seat_radial", "m", "the same seat outwards", 3 * UM, -30 * UM, 30 * UM, group="carrier"),
-        choice("carrier_seat_crank", "seat of which crank", 1, 1, 3),
+        amplitude("carrier_seat_radial", "m", "one crank's seat in the carrier outwards", 3 * UM, -30 * UM, 30 * UM, group="carrier"),
+        choice("carrier_seat_crank", "crank whose seat is out of place", 1, 1, 3),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

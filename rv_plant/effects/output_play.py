@@ -16,7 +16,7 @@ EFFECT = Effect(
     "hole radius = roller + eccentricity + clearance + p",
     "geometry; 5 to 50 um in steel, 50 to 500 um in printed parts",
     "lost motion 2 p/R at any torque; a loop with a step of that height at no torque, the same at every load",
-    (amplitude("output_play", "m", "p: radial clearance of the output pins beyond the file's", 100 * UM, 0.0, 1e-3, sign=1),),
+    (amplitude("output_play", "m", "p: radial clearance of the output pins beyond the file's", 100 * UM, 0.0, 1e-3, sign=1, needs=("output_pins", 1)),),
     signals=("hysteresis", "lost_motion", "transmission_error"),
     needs="output pins",
 )

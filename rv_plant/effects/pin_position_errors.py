@@ -26,13 +26,14 @@ EFFECT = Effect(
     " beats with 80 to order 2; independent of time, speed and temperature",
     (
         amplitude("pin_ring_runout", "m", "pin ring off centre", 3 * UM, -50 * UM, 50 * UM, sign=1, group="runout"),
-        shape("pin_ring_runout_angle", "rad", "direction of it", 0.0, -20.0, 20.0, "assumed",
+        shape("pin_ring_runout_angle", "rad", "direction in which the ring is off centre", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 1.5708, 3.1416, 4.7124), group="runout"),
         amplitude("pin_ring_ovality", "m", "pin ring oval, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="ovality"),
-        shape("pin_ring_ovality_angle", "rad", "direction of its long axis", 0.0, -20.0, 20.0, "assumed",
+        shape("pin_ring_ovality_angle", "rad", "direction of the long axis of the oval ring", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
         amplitude("pin_ring_trilobe", "m", "pin ring with three lobes, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="trilobe"),
-        shape("pin_ring_trilobe_angle", "rad", "direction of one", 0.0, -20.0, 20.0, "assumed", grid=(0.0, 0.5236, 1.0472, 1.5708), group="trilobe"),
+        shape("pin_ring_trilobe_angle", "rad", "direction of one of the three lobes", 0.0, -20.0, 20.0, "assumed",
+              grid=(0.0, 0.5236, 1.0472, 1.5708), group="trilobe"),
         *(
             amplitude(f"pin_ring_{wave}_{m}", "m", f"radial places of the pins, {name} of harmonic {m}", 2 * UM, -50 * UM, 50 * UM,
                       group="harmonics")

@@ -19,12 +19,12 @@ EFFECT = Effect(
     "bursts at the roller-passing orders 361 (inner race) or 279 (outer race), like a threshold; not in the mean",
     (
         amplitude("spall_depth", "m", "depth of the pit", 5 * UM, 0.0, 500 * UM, sign=1),
-        shape("spall_width", "rad", "its width", 0.1, 0.005, 2.0, "assumed: a roller's footprint and more", grid=(0.1, 0.25)),
-        shape("spall_angle", "rad", "its place: from the lobe's eccentric direction, or the hole's outward radial",
+        shape("spall_width", "rad", "width of the pit", 0.1, 0.005, 2.0, "assumed: a roller's footprint and more", grid=(0.1, 0.25)),
+        shape("spall_angle", "rad", "place of the pit, from the lobe's eccentric direction or the hole's outward radial",
               4.7124, -20.0, 20.0, "assumed: in the zone that positive load loads", grid=(1.5708, 4.7124)),
         shape("spall_race", "1", "0: inner race (crank), 1: outer race (disc)", 0.0, 0.0, 1.0, "assumed", grid=(0.0, 1.0)),
-        choice("spall_disc", "disc whose bearing it is", 1, 1, 3),
-        choice("spall_crank", "crank whose bearing it is", 1, 1, 3),
+        choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3),
+        choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3),
     ),
     signals=("vibration", "transmission_error"),
 )

@@ -19,7 +19,7 @@ EFFECT = Effect(
     "cage order below 17.4; raceways wear although the load is low",
     (
         amplitude("skid_share", "1", "s_0: share of rolling lost at no load", 0.05, 0.0, 0.9, sign=1),
-        shape("skid_load", "N", "F_s: load of a bearing at which it has fallen to 37 %", 500.0, 1.0, 1e6, "assumed",
+        shape("skid_load", "N", "F_s: load of a bearing at which skidding has fallen to 37 %", 500.0, 1.0, 1e6, "assumed",
               grid=(200.0, 500.0, 2000.0)),
     ),
     signals=("cage_speed", "wear_profile", "wear_depth", "mass_loss"),

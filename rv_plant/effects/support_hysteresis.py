@@ -31,7 +31,7 @@ EFFECT = Effect(
     (
         amplitude("support_slip_compliance", "rad/(N.m)", "c: turning of the pin ring per torque once its seat slips", 1e-7, 0.0, 1e-2,
                   sign=1, source="assumed: rigid, as in both sources"),
-        shape("support_slip_torque", "N.m", "F_s: torque at which it slips", 20.0, 1e-2, 5000.0, "assumed: a tenth of the rated torque",
+        shape("support_slip_torque", "N.m", "F_s: torque at which the ring's seat slips", 20.0, 1e-2, 5000.0, "assumed: a tenth of the rated torque",
               grid=(8.0, 40.0)),
         shape("support_stick_ratio", "1", "rho: stiffness of friction when stuck over that of the spring", 4.0, 0.1, 100.0,
               "assumed: stuck five times as stiff", grid=(2.0, 8.0)),

@@ -18,7 +18,7 @@ EFFECT = Effect(
     " independent of the load",
     (
         amplitude("unbalance", "kg.m", "mass times eccentricity that is not balanced", 1e-4, 0.0, 1.0, sign=1),
-        shape("unbalance_angle", "rad", "its direction, from the eccentric direction of disc 1", 0.0, -20.0, 20.0, "assumed",
+        shape("unbalance_angle", "rad", "direction of the unbalance, from the eccentric direction of disc 1", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 1.5708, 3.1416, 4.7124)),
     ),
     signals=("vibration",),

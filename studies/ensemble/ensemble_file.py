@@ -5,10 +5,10 @@
     hours = 10000
 
     [parameters]                # any parameter or input of plant or wear unit, with its unit
-    bearing_clearance = { distribution = "normal", mean = 2.5, deviation = 0.4, unit = "um" }
-    pin_radius_error = { distribution = "normal", mean = 0, deviation = 0.5, unit = "um" }     # every pin on its own
-    load_torque = { distribution = "uniform", low = 120, high = 200, unit = "N.m" }            # with a duty: duty_torque_factor
-    mesh_wear_coefficient = { distribution = "lognormal", median = 5e-9, factor = 1.5, unit = "1" }
+    bearing.clearance = { distribution = "normal", mean = 2.5, deviation = 0.4, unit = "um" }
+    errors.pin.radius = { distribution = "normal", mean = 0, deviation = 0.5, unit = "um" }     # every pin on its own
+    output.load_torque = { distribution = "uniform", low = 120, high = 200, unit = "N.m" }            # with a duty: duty_torque_factor
+    wear.mesh_coefficient = { distribution = "lognormal", median = 5e-9, factor = 1.5, unit = "1" }
 
     [limits]                    # the life of a reducer ends where the first is passed
     lost_motion_arcmin = 1.0
@@ -21,12 +21,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from fmu_src.faults import InputFault
+from fmu_src.names import dotted, found_by_name
 from fmu_src.reading import read_toml, reading
 from fmu_src.strict_file import Strict, validated
 from fmu_src.units import UnitError, conversion
+from fmu_src.variables import SETTABLE
 from orchestrator.settings import Setting, parse_setting
 from reducers.reducer import Reducer, load_reducer
 from studies.duty import Segment, load_duty
@@ -64,6 +66,11 @@ class Content(Strict):
     tolerance: float = Field(0.02, gt=0.0, le=0.5)
     settings: list[str] = []
     duty: str = ""
+
+    @field_validator("parameters", mode="before")
+    @classmethod
+    def by_structured_name(cls, given: Any) -> Any:
+        return dotted(given, Entry.model_fields) if isinstance(given, dict) else given
 
 
 @dataclass(frozen=True)
@@ -127,15 +134,16 @@ def scatter_of(reducer: Reducer, has_duty: bool, name: str, entry: Entry, place:
     unit, shape = "1", tuple[int, ...]()
     if name in DUTY_FACTORS:
         if not has_duty:
-            raise InputFault(f"{place}: there is no duty; scatter load_torque or input_speed, or give duty = FILE")
+            raise InputFault(f"{place}: there is no duty; scatter output.load_torque or input.speed, or give duty = FILE")
     else:
         # Refuses unknown names with a hint.
-        tables = [t for t in (reducer.plant, reducer.wear) if name in t.by_name and t.by_name[name].role in ("parameter", "input")]
-        if not tables:
+        found = found_by_name([reducer.plant, reducer.wear], name, place, SETTABLE)
+        if not found:
             parse_setting(f"{name}=0", [reducer.plant, reducer.wear])
-        variable = tables[0].by_name[name]
+        variable = found[0][1]
         if variable.is_integer:
             raise InputFault(f"{place}: {name} counts or chooses; only quantities scatter")
+        name = variable.name
         if has_duty and name in ("load_torque", "input_speed"):
             raise InputFault(f"{place}: the duty sets it; scatter {' or '.join(DUTY_FACTORS)}")
         unit, shape = variable.unit, variable.shape

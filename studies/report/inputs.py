@@ -60,7 +60,7 @@ def rows(
         chosen = name in settings
         source = "set for this run" if chosen else sources.get(name) or own_source(variable)
         made.append({
-            "name": name, "value": value, "unit": unit, "meaning": variable.description, "source": source,
+            "name": variable.path, "value": value, "unit": unit, "meaning": variable.description, "source": source,
             "assumed": source.startswith("assumed"), "chosen": chosen,
         })  # fmt: skip
     return made

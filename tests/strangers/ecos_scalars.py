@@ -18,9 +18,8 @@ EcosLib.set_log_level("err")
 with EcosSimulationStructure() as structure:
     structure.add_model("plant", str(folder / "RvPlant.fmu"))
     structure.add_model("wear", str(folder / "RvWear.fmu"))
-    for name in ("crank_angle", "crank_speed", "output_angle", "cage_angle"):
+    for name in ("crank.angle", "crank.speed", "output.angle", "cage.angle", "heat.contact_temperature"):
         structure.make_real_connection(f"plant::{name}", f"wear::{name}")
-    structure.make_real_connection("plant::reducer_temperature", "wear::temperature")
     with EcosSimulation(structure=structure, step_size=step) as simulation:
         simulation.init()
         simulation.step(steps)

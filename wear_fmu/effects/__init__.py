@@ -15,6 +15,7 @@ changes its own states, and reads none of what others change there.
 """
 
 from fmu_src.effect import OWN_STATES, Effect, effect_modules
+from fmu_src.names import with_paths
 from wear_fmu.chosen_surfaces import with_choice
 
 HOOKS = {
@@ -26,6 +27,6 @@ ALLOWED = {"prepare": OWN_STATES | {"effects_on": "+=", "standing": "+="}, "adva
 # A hook that is not called unless another has changed this field.
 NEEDS = {"factor": "effects_on"}
 EFFECTS: dict[str, Effect] = {
-    name: with_choice(name, module.EFFECT) if hasattr(module, "factor") else module.EFFECT
+    name: with_paths(name, with_choice(name, module.EFFECT) if hasattr(module, "factor") else module.EFFECT)
     for name, module in effect_modules(__name__).items()
 }

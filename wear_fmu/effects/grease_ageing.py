@@ -21,7 +21,7 @@ EFFECT = Effect(
     "slow growth of wear with the hours; restored when grease is changed",
     (
         amplitude("grease_starvation", "1", "a: growth of the wear coefficient with old grease", 1.0, -0.95, 50.0, sign=1),
-        shape("grease_life", "s", "t_a", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h",
+        shape("grease_life", "s", "t_a: time in which the grease ages", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h",
               grid=(2000 * HOUR, 10_000 * HOUR)),
     ),
     signals=WEAR,

@@ -26,7 +26,7 @@ EFFECT = Effect(
         amplitude("starvation_growth", "1", "a: growth of the wear coefficient once contacts starve", 2.0, 0.0, 200.0, sign=1),
         shape("starvation_onset", "s", "t_s: time at which half of the growth is there", 3000 * HOUR, 10 * HOUR, 1e6 * HOUR,
               "assumed: 1,000 to 10,000 h", grid=(500 * HOUR, 1500 * HOUR, 4000 * HOUR)),
-        shape("starvation_width", "s", "w: how long it takes", 200 * HOUR, HOUR, 1e5 * HOUR, "assumed: some weeks", grid=(200 * HOUR,)),
+        shape("starvation_width", "s", "w: how long starvation takes to come", 200 * HOUR, HOUR, 1e5 * HOUR, "assumed: some weeks", grid=(200 * HOUR,)),
     ),
     signals=WEAR,
 )  # fmt: skip

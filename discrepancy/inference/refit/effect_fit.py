@@ -4,7 +4,7 @@ Nuisances are close to linear around the base fit, so an effect is first fitted 
 sensitivities frozen, and the result is then polished with full predictions.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -17,6 +17,14 @@ from fmu_src.arrays import Floats
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
 JOINT_STEPS = 15
+# A reported fit of which a further step promises more than this chi-square is not one yet.
+UNSETTLED = 0.5
+# So many predictions it then may take.
+LAST_STEPS = 30
+# So often the sensitivities of a joint fit are taken anew in a search; between, its steps tell.
+EXACT_EVERY = 3
+# Shortenings of one step of a joint fit.
+MOST_DAMPED = 6
 # A fit that is reported is renewed so often, until its chi-square stands still by this.
 RENEWALS, STILL = 4, 2e-3
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
@@ -63,7 +71,19 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
         gain, fit = fit.chi2 - renewed.chi2, renewed
         if gain < STILL:
             break
+    if _promised(fit) > UNSETTLED:
+        # Along a bent valley single steps get stuck.
+        start = {p.name: fit.values[p.name] for p in fit.parameters}
+        fit = min(fit, _jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1), key=lambda f: f.chi2)
     return fit
+
+
+def _promised(fit: Fit) -> float:
+    """What another step would gain in chi-square if all were linear."""
+    box = Box(fit.parameters)
+    normal, gradient = fit.normal * np.outer(box.scale, box.scale), fit.gradient * box.scale
+    step = box.step(box.array(fit.values), normal + 1e-10 * np.diag(np.diag(normal) + 1e-300), gradient) / box.scale
+    return float(2.0 * gradient @ step - step @ normal @ step)
 
 
 class _Frozen:
@@ -249,10 +269,78 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
     return fit_of(parameters, box.named(x), r, columns, candidates, converged)
 
 
-def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...]) -> Fit:
-    """All parameters together, with new sensitivities at every step: dear, but from anywhere."""
+class _Secants:
+    """Columns that follow the residuals that were seen (Broyden), and are taken anew at every few places."""
+
+    def __init__(self, box: Box, exactly: Callable[[Floats], Floats], exact_every: int):
+        self.box, self.exactly, self.exact_every = box, exactly, exact_every
+        self.residuals: dict[bytes, Floats] = {}
+        self.last: tuple[Floats, Floats] | None = None
+        self.since = 0
+
+    @property
+    def exact(self) -> bool:
+        """Whether the last columns were no estimate."""
+        return self.since == 0
+
+    def seen(self, x: Floats, residual: Floats) -> None:
+        self.residuals[x.tobytes()] = residual
+
+    def forget(self) -> None:
+        """The next columns are taken anew."""
+        self.last = None
+
+    def columns(self, x: Floats) -> Floats:
+        """Minus the derivatives (N, p) of the residual at ``x`` (p,), whose residual was seen."""
+        if self.last is not None and np.array_equal(self.last[0], x):
+            return self.last[1]
+        if self.last is None or self.since >= self.exact_every - 1:
+            self.since, found = 0, self.exactly(x)
+        else:
+            before, known = self.last
+            move = (x - before) / self.box.scale
+            missed = self.residuals[before.tobytes()] - self.residuals[x.tobytes()] - known @ (x - before)
+            self.since, found = self.since + 1, known + np.outer(missed, move / (move @ move) / self.box.scale)
+        self.last = x.copy(), found
+        return found
+
+
+def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...],
+             evaluations: int = JOINT_STEPS, exact_every: int = EXACT_EVERY) -> Fit:  # fmt: skip
+    """All parameters together, with sensitivities that follow, after Levenberg and Marquardt: dear, but from anywhere and along bent valleys."""
     box = Box(parameters)
-    solution = box.minimise(lambda x: space.residual(box.named(x)), lambda x: space.columns(parameters, box.named(x)), box.array(start),
-                            inside=0.1, xtol=1e-5, ftol=1e-5, evaluations=JOINT_STEPS)  # fmt: skip
-    values = box.named(solution.x)
-    return fit_of(parameters, values, space.residual(values), space.columns(parameters, values), candidates, bool(solution.success))
+    secants = _Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
+
+    def cost_of(z: Floats) -> tuple[float, Floats]:
+        cost, r = _cost(space, box, box.named(z))
+        secants.seen(z, r)
+        return cost, r
+
+    x = np.clip(box.array(start), box.lower, box.upper)
+    cost, r = cost_of(x)
+    damping, spent, converged = 1e-3, 1, False
+    while spent < evaluations:
+        columns = secants.columns(x)
+        normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
+        gradient = box.scale * (columns.T @ r - box.prior_gradient(x))
+        shift = np.diag(np.maximum(np.diag(normal), 1e-9 * np.max(np.diag(normal)) + 1e-300))
+        for _ in range(MOST_DAMPED):
+            trial = np.clip(x + box.step(x, normal + damping * shift, gradient), box.lower, box.upper)
+            new, new_r = cost_of(trial)
+            spent += 1
+            if new < cost:
+                break
+            damping = max(8.0 * damping, 1e-3)
+        gain, move = cost - new, (trial - x) / box.scale
+        if gain > 0.0:
+            promised = float(2.0 * gradient @ move - move @ normal @ move)
+            damping *= 0.4 if gain > 0.75 * promised else 3.0 if gain < 0.25 * promised else 1.0
+            x, cost, r = trial, new, new_r
+        if gain < STILL:
+            if secants.exact:
+                converged = True
+                break
+            secants.forget()
+    if not secants.exact:
+        secants.forget()
+    return fit_of(parameters, box.named(x), r, secants.columns(x), candidates, converged)
