@@ -110,7 +110,7 @@ def test_ranges_of_a_reducer_file(tmp_path):
     assert reducer.ranges["roller_stiffness_lankarani"] == pytest.approx((0.9 * 5.26e6, 1.1 * 5.26e6))
     assert "mesh_width" not in reducer.ranges
     file = tmp_path / "own.toml"
-    for wrong, message in (("[5.2e5, 6e5]", "roller_stiffness.*outside"), ("[1e5, -1]", "roller_stiffness.*outside"), ("5", "roller_stiffness.range")):
+    for wrong, message in (("[5.2e5, 6e5]", "stiffness.*outside"), ("[1e5, -1]", "stiffness.*outside"), ("5", "stiffness.range")):
         file.write_text(text.replace("[4.7e5, 5.5e5]", wrong))
         with pytest.raises(InputFault, match=message):
             load_reducer(file)
