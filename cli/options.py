@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from reducers.reducer import Reducer
 
 USUAL_REDUCER = "RV20E-121"
+# Exit code of an extension that unused runs did not bear out: no failure of the program.
+DID_NOT_HELP_CODE = 3
 REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_REDUCER})"
 
 # Options that are shorthands of settings: option -> (variable, unit).

@@ -129,7 +129,5 @@ def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
     warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
     if not any(r.held_out for r in model.records):
-        # Said in more words than the diagnosis has for it.
-        warnings = [w for w in warnings if not w.startswith("no runs are held out")]
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

@@ -142,7 +142,8 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             " they do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
-        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}"
+        left = f"; {judged.after:.1f} times what noise leaves there is still left to explain" if judged.after > WITHIN_NOISE else ""
+        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}{left}"
     return DID_NOT_HELP, (
         f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
         " runs fell: the effect fits noise or stands for another one; the model stays as it was"

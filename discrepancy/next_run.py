@@ -121,7 +121,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
 
 def plainly(member: Refit) -> str:
     """Effects without their variants, numbers of the base model by their own names."""
-    return " + ".join(dict.fromkeys(f"the base's {c.amplitudes[0].name}" if c.part == BASE else c.name.partition(".")[0] for c in member.candidates))
+    pairs = (name.partition(".") for name in member.name.split(" + "))
+    return " + ".join(dict.fromkeys(f"the base's {variant}" if effect == BASE else effect for effect, _, variant in pairs))
 
 
 def open_questions(answer: Answer, campaign: Campaign) -> list[str]:

@@ -7,7 +7,9 @@ import pytest
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.extend import extend
+from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.diagnose import diagnose as inferred
+from discrepancy.inference.screening import screen
 from discrepancy.inference.verdict import BASE_OFF, NONE, ONE, UNKNOWN, Settings, decide
 from discrepancy.model_file import load_model, save_model
 from discrepancy.next_run import proposal_for
@@ -108,7 +110,7 @@ def test_ranges_of_a_reducer_file(tmp_path):
     assert reducer.ranges["roller_stiffness_lankarani"] == pytest.approx((0.9 * 5.26e6, 1.1 * 5.26e6))
     assert "mesh_width" not in reducer.ranges
     file = tmp_path / "own.toml"
-    for wrong, message in (("[5.2e5, 6e5]", "roller_stiffness.*outside"), ("[1e5, -1]", "roller_stiffness.*outside"), ("5", "roller_stiffness.range")):
+    for wrong, message in (("[5.2e5, 6e5]", "stiffness.*outside"), ("[1e5, -1]", "stiffness.*outside"), ("5", "stiffness.range")):
         file.write_text(text.replace("[4.7e5, 5.5e5]", wrong))
         with pytest.raises(InputFault, match=message):
             load_reducer(file)
@@ -119,6 +121,23 @@ def test_numbers_that_are_declared_set_or_an_effect_of_the_catalogue_are_no_cand
     names = {c.name for c in base_numbers(reducer, {"mesh_wear_coefficient"})}
     assert {"base.mesh_stiffness", "base.roller_stiffness", "base.raceway_wear_coefficient"} <= names
     assert not names & {"base.mesh_wear_coefficient", "base.bearing_clearance", "base.shift_modification", "base.pin_radius", "base.load_torque"}
+
+
+def test_number_at_an_end_of_its_range_goes_one_way():
+    numbers = {c.name: c.amplitudes[0] for c in base_numbers(load_reducer("RV20E-121"), ())}
+    assert numbers["base.pressure_viscosity"].sign == 1 and numbers["base.mesh_stiffness"].sign == 0
+
+
+def test_sizes_that_were_seen_at_other_places_are_computed_whole(monkeypatch):
+    model = bench({"stiffness": 0.95})
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    whole = doctor.screened().scores
+    glimpse = screen._glimpse
+    lengths = {screen.TYPICAL: 50, screen.SMALL: 40, -screen.TYPICAL: 30}
+    monkeypatch.setattr(screen, "_glimpse", lambda space, c, at, which, size: glimpse(space, c, at, which, size)[: lengths[size]])
+    again = doctor.screened().scores
+    assert {s.name: s.statistic for s in again} == pytest.approx({s.name: s.statistic for s in whole}, rel=0.05)
 
 
 def test_stiffer_contacts_of_the_reducer_are_the_base(tmp_path):

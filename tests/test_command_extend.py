@@ -78,7 +78,7 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
     target = str(tmp_path / "m.toml")
-    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 1
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 3
     assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --anyway"
 
 
@@ -87,4 +87,6 @@ def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, sai
     judged = HeldOut(28.0, 2.0, 1e-3, {"hysteresis": {"before": 10.0, "after": 1.0, "floor": floor}}, "held-out runs")
     verdict, reason = verdict_of(judged)
     assert verdict == HELPED and "28.00 to 2.00" in reason
+    assert "2.0 times what noise leaves there is still left" in reason
+    assert "still left" not in verdict_of(HeldOut(28.0, 1.1, 0.4, judged.rms, "held-out runs"))[1]
     assert ("times the noise" in reason) != said and ("less than their noise" in reason) == said

@@ -1,11 +1,14 @@
 """Effects of the measuring chain: what sensors add, by their formulas."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from discrepancy.catalogue.examples import Case
 from discrepancy.catalogue.signature import ARCSEC, amplitudes, changed, conditions, new_bench, turn
 from discrepancy.effects import MODULES, STAGES
+from discrepancy.prediction.candidates import candidates
 from discrepancy.problem import Record
 
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
@@ -50,3 +53,12 @@ def test_encoder_off_centre_is_order_1_at_any_load():
         assert added[1] == pytest.approx(41.25, rel=1e-3) and added[2] == pytest.approx(1e-5 * ARCSEC, rel=1e-6)
         assert np.delete(added, [1, 2]).max() < 1e-6
     assert np.array_equal(changed(bench, "encoder_eccentricity", case, "input_torque", at, series), series)
+
+
+def test_offset_is_looked_for_where_the_zero_is_known():
+    free = Record("free", "transmission_error", "rad", "a", 1, np.zeros(50), {"angle": ANGLE[:50]}, {})
+    names = {c.name for c in candidates([free], {}, set(), ["1"])}
+    assert "sensor_offset.transmission_error" not in names and "sensor_gain.transmission_error" in names
+    # One run that counts from a known zero is enough.
+    known = {c.name for c in candidates([free, replace(free, name="known", zero_known=True)], {}, set(), ["1"])}
+    assert "sensor_offset.transmission_error" in known

@@ -93,3 +93,21 @@ def test_numbers_with_proportional_noise_are_recognised():
             predictions.append(np.array([size]))
     stream = estimate(records, residuals, predictions).streams["wear"]
     assert stream.proportional and 0.02 < stream.scale < 0.1 and stream.dof["main"] == pytest.approx(10)
+
+
+def test_repetition_that_stands_out_makes_no_noise_and_counts_less():
+    rng = np.random.default_rng(5)
+    torque = np.concatenate([np.linspace(-1.0, 1.0, 60), np.linspace(1.0, -1.0, 60)])
+    records, residuals = [], []
+    for condition in ("a", "b"):
+        for k in range(5):
+            off = 4.0 if (condition, k) == ("b", 3) else 0.0
+            e = 0.05 * rng.standard_normal(120) + off * torque
+            records.append(Record(f"{condition}{k}", "hysteresis", "rad", condition, k, torque + e, {"torque": torque, "time": np.arange(120.0)}, {}))
+            residuals.append(e)
+    noise = estimate(records, residuals, [torque] * len(records))
+    stream = noise.streams["hysteresis"]
+    assert stream.scale == pytest.approx(0.05, rel=0.15) and sum(stream.patterns.values()) < 1.0
+    weights = {r.name: float(np.median(w.weight)) ** 2 for r, w in zip(records, noise.whiteners)}
+    assert weights["b3"] < 0.2 and all(w > 0.95 for name, w in weights.items() if name != "b3")
+    assert any("run b3 stands out" in text for text in noise.warnings)

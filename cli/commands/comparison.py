@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
-from cli.options import add_json, all_cores, folder
+from cli.ending import exit_code
+from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
 from fmu_src.progress import task
@@ -117,7 +118,7 @@ def run_localise(options: argparse.Namespace) -> int:
 
 
 def run_diagnose(options: argparse.Namespace) -> int:
-    """Exit code 130 if it was interrupted: then it shows what was known by then."""
+    """Exit code 130 if it was interrupted, 143 if terminated: then it shows what was known by then."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
@@ -127,12 +128,12 @@ def run_diagnose(options: argparse.Namespace) -> int:
     with task("diagnosing"):
         file, campaign = inputs(options)
         fmus = folder(options.fmus)
-        stopped = False
+        stopped = 0
         try:
             answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
         except AnswerSoFar as stop:
             # What is known so far is an answer, too.
-            answer, stopped = stop.answer, True
+            answer, stopped = stop.answer, exit_code(stop)
     write_html(options, answer)
     draft = None
     if options.draft:
@@ -145,11 +146,11 @@ def run_diagnose(options: argparse.Namespace) -> int:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
     if stopped:
         print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
-    return 130 if stopped else 0
+    return stopped
 
 
 def run_extend(options: argparse.Namespace) -> int:
-    """Exit code 1 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs."""
     file, campaign = inputs(options)
     if options.draft:
         return run_draft(options, file, campaign)
@@ -195,7 +196,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
         for path in fmus:
             print(f"FMU    {path}")
-    return 1 if extension.verdict == DID_NOT_HELP else 0
+    return DID_NOT_HELP_CODE if extension.verdict == DID_NOT_HELP else 0
 
 
 def refusal(options: argparse.Namespace, answer: "Answer") -> str:

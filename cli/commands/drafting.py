@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cli.options import all_cores
+from cli.options import DID_NOT_HELP_CODE, all_cores
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import task
 from fmu_src.source_hash import USER_EFFECTS
@@ -31,7 +31,7 @@ WORTH = 0.98
 
 
 def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign") -> int:
-    """Exit code 1 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs."""
     from cli.screen import json_text
     from cli.show.draft import show_draft, show_use
     from discrepancy.draft.choose import drafts_of, require_folder, write
@@ -55,7 +55,7 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
     if not options.json:
         show_draft(answer, draft, reasons)
     done = child(options, draft, [*given(options, ("output", "fmus", "html")), *(["--anyway"] if options.anyway else [])], options.json)
-    if done.returncode > 1 or (options.json and not done.stdout.strip()):
+    if done.returncode not in (0, DID_NOT_HELP_CODE) or (options.json and not done.stdout.strip()):
         # The fault was said on the way.
         return done.returncode
     target = options.output or (str(file.path) if file.path else f"{file.name}.toml")

@@ -93,7 +93,8 @@ def show_answer(answer: Answer) -> None:
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
         for name, number in effect["parameters"].items():
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
-            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}")
+            bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
+            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
         error = error_text(answer, effect)
         if error:
             out.print(f"  {error}")
@@ -106,13 +107,13 @@ def show_answer(answer: Answer) -> None:
         out.print(f"in place of {name} could stand: {', '.join(others)}")
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
+    show_warnings(out, answer.warnings)
     show_figures(answer.figures, out)
     rejected = answer.diagnosis.rejected[:6]
     if rejected:
         out.print("\nclosest rivals")
         for rival in rejected:
             out.print(f"  {rival['name']}: {rival['reason']}")
-    show_warnings(out, answer.warnings)
 
 
 def show_extension(extension: Extension) -> None:

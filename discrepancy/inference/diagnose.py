@@ -132,7 +132,7 @@ class Diagnostician:
             rivals = selection.singles()
             start = likeliest(rivals, settings.margin)
         self.doing = f"looking for what is missing beside {start.name}"
-        final = selection.several(start, len(start.candidates) if first else 0)
+        final = selection.simplified(selection.several(start, len(start.candidates) if first else 0))
         self.doing = f"looking for what could stand in place of {final.name}"
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)

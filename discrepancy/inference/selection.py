@@ -212,6 +212,19 @@ class Selection:
 
     def stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
         """Effects that could replace ``member`` beside the others."""
+        rivals = self.in_place_of(final, member)
+        return [r.candidates[-1].name for r in rivals if len(confusable_set([final, r], inflation, dof, self.settings.margin)) == 2]
+
+    def simplified(self, final: Refit) -> Refit:
+        """A joint fit in which no member has a shape of which nothing is known, if it is as good: such a member stands for a simpler one."""
+        if len(final.candidates) < 2 or not has_idle_shapes(final):
+            return final
+        rivals = [r for c in final.candidates if c.shapes for r in self.in_place_of(final, c)]
+        simple = sorted((r for r in rivals if not has_idle_shapes(r) and not newest_at_a_bound(r)), key=penalised)
+        return simple[0] if simple and penalised(simple[0]) - penalised(final) <= self.settings.margin else final
+
+    def in_place_of(self, final: Refit, member: Candidate) -> list[Refit]:
+        """Joint fits with other effects in place of ``member``; those that are near are fitted in earnest like ``final``."""
         rest = [c.name for c in final.candidates if c is not member]
         rest_fit = self.refits.fit(rest)
         more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
@@ -219,4 +232,5 @@ class Selection:
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
         rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s]), chosen)
-        return [s.name for s, rival in zip(chosen, rivals) if len(confusable_set([final, rival], inflation, dof, self.settings.margin)) == 2]
+        near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member)
+        return [self.refits.renewed(r) if r.fit.chi2 < near else r for r in rivals]

@@ -11,11 +11,31 @@ from discrepancy.inference.base_errors import UNLIKELY, base_errors
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.confusable import canonical_correlation
 from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
-from discrepancy.inference.verdict import BASE_OFF, Diagnosis, Effect, Fits
+from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits
 from discrepancy.problem import BASE, Candidate
+
+# What shows less of an effect than this share of what was measured says nothing of its size.
+SHOWN = 0.05
+
+
+def beyond(space: Workspace, member: Refit, candidate: Candidate) -> bool:
+    """Whether an effect changes every signal that shows it by more than the whole of what was measured: another makes up for it."""
+    own = {p.name for p in candidate.parameters}
+    which = [i for i in space.touched(candidate) if i in space.rows]
+    values = member.fit.values
+    changes = [a - b for a, b in zip(space.predictions(values, which), space.predictions({k: v for k, v in values.items() if k not in own}, which))]
+    ratios = []
+    for stream in {stream_of(space.records[i]) for i in which}:
+        members = [(space.records[i], change) for i, change in zip(which, changes) if stream_of(space.records[i]) == stream]
+        measured = np.concatenate([np.zeros(0 if any(r.free_zero for r, _ in members) else 1), *(r.values[np.isfinite(r.values)] for r, _ in members)])
+        change = np.concatenate([np.zeros(len(measured) - sum(np.isfinite(r.values).sum() for r, _ in members)), *(c for _, c in members)])
+        ratios.append(float(np.ptp(change)) / max(float(np.ptp(measured)), 1e-300))
+    shown = [ratio for ratio in ratios if ratio > SHOWN]
+    return bool(shown) and min(shown) > 1.0
 
 
 @dataclass(frozen=True)
@@ -49,15 +69,16 @@ class Teller:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
                 share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
                     captured * member.gain / max(members[0].gain, 1e-300)
-                effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() for p in c.parameters},
+                outside = verdict != STOPPED and beyond(self.space, member, c)
+                if outside:
+                    warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
+                effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() | {"bound": outside} for p in c.parameters},
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
                 if after > before:
                     warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
             effects.sort(key=lambda e: -e.gain)
-        if self.space.held_out == []:
-            warnings.append("no runs are held out: the errors given are by leaving out one condition at a time")
         names = {e.name for e in effects}
         rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)

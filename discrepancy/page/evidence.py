@@ -32,7 +32,7 @@ def effects(answer: Answer) -> Section:
         first = True
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
-            bound = "at a bound of its range" if entry.get("at_bound") else ""
+            bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
             rows.append([named(effect) if first else "", effect["part"] if first else "", name, value, interval, unit, bound])
             first = False
     table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4))

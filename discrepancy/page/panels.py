@@ -9,6 +9,8 @@ from pages import look
 
 MEASURED, PREDICTED, HELD, BAND = "#7d8894", look.NOW, "#d55e00", "rgba(11,79,148,0.14)"
 WORDS = ("measured", "predicted", "measured − predicted")
+# A way back by less than this share of the whole axis is noise of the axis.
+TURN = 0.02
 UPPER, LOWER = [0.40, 1.0], [0.0, 0.30]
 
 
@@ -28,13 +30,33 @@ def x_axis(title: str, **more: Any) -> dict[str, Any]:
     return look.axis(title, anchor="y2", **more)
 
 
+def ways(x: Floats) -> list[slice]:
+    """Stretches of an axis (n,) between the places where it turns back for good; each begins with the last point of the one before."""
+    turns, sense, furthest = [0], 0.0, 0
+    least = TURN * float(np.ptp(x)) if len(x) else 0.0
+    for i in range(len(x)):
+        off = float(x[i] - x[furthest])
+        if off * sense > 0.0 or (sense == 0.0 and abs(off) > least):
+            furthest, sense = i, sense or float(np.sign(off))
+        elif abs(off) > least:
+            turns.append(furthest)
+            furthest, sense = i, -sense
+    ends = [*turns[1:], len(x) - 1]
+    return [slice(a, b + 1) for a, b in zip(turns, ends) if b > a]
+
+
 def band(x: Floats, low: Floats, high: Floats, name: str, axis: str = "y") -> dict[str, Any]:
-    """A closed area between two lines."""
+    """A closed area between two lines; of a loop one for each way, for an area that crosses itself is half empty."""
+    xs: list[Floats] = []
+    ys: list[Floats] = []
+    for way in ways(x):
+        xs += [x[way], x[way][::-1], np.array([np.nan])]
+        ys += [high[way], low[way][::-1], np.array([np.nan])]
     return {
         "type": "scatter",
         "mode": "lines",
-        "x": look.short(np.concatenate([x, x[::-1]]), 5),
-        "y": look.short(np.concatenate([high, low[::-1]]), 4),
+        "x": look.short(np.concatenate(xs[:-1]), 5) if xs else [],
+        "y": look.short(np.concatenate(ys[:-1]), 4) if ys else [],
         "fill": "toself",
         "fillcolor": BAND,
         "line": {"width": 0},

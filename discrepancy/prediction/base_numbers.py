@@ -22,6 +22,8 @@ def base_numbers(reducer: Reducer, taken: Container[str]) -> list[Candidate]:
             continue
         deviation = SPREAD * (high - low)
         text = f"{variable.description} ({reducer.sources[name].partition(':')[0]})"
-        number = Parameter(name, variable.unit, reducer.starts[name], low, high, STEP * deviation, 0, deviation, text)
+        value = reducer.starts[name]
+        sign = 1 if value == low else -1 if value == high else 0
+        number = Parameter(name, variable.unit, value, low, high, STEP * deviation, sign, deviation, text)
         found.append(Candidate(f"{BASE}.{name}", f"{name} of the reducer file", (number,), part=BASE))
     return found

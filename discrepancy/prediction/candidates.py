@@ -73,7 +73,9 @@ def candidates(
         if (signals and not set(signals) & set(quantities)) or not there[effect.needs]:
             continue
         if part == "chain":
-            found += chain_candidates(name, effect, signals, quantities, mountings, present.keys() | excluded)
+            # Where nobody knows a zero an offset shows nothing.
+            measured = [q for q in quantities if any(not r.free_zero for r in records if r.quantity == q)] if name == "sensor_offset" else quantities
+            found += chain_candidates(name, effect, signals, measured, mountings, present.keys() | excluded)
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
@@ -96,9 +98,6 @@ def chain_candidates(
 ) -> list[Candidate]:
     per = MODULES[name].PER
     places = {"quantity": quantities, "mounting": mountings, "campaign": [""]}[per]
-    if per == "quantity" and name == "sensor_offset":
-        # Where an encoder's difference is counted from is free anyway.
-        places = [q for q in places if q not in ("transmission_error", "hysteresis")]
 
     def called(p: EffectParameter, place: str) -> str:
         return f"{p.variable.name}[{place}]" if place else p.variable.name

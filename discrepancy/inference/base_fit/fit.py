@@ -102,6 +102,8 @@ def fit_of(parameters: Sequence[Parameter], values: Mapping[str, float], residua
 
 
 def _bounded_step(normal: Floats, gradient: Floats, lower: Floats, upper: Floats) -> Floats:
+    if not gradient.size:
+        return gradient
     values, vectors = np.linalg.eigh(normal)
     keep = values > 1e-13 * max(values.max(), 1e-300)
     free: Floats = vectors[:, keep] @ ((vectors[:, keep].T @ gradient) / values[keep])

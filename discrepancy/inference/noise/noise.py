@@ -19,6 +19,7 @@ from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
 from discrepancy.problem import Record
+from discrepancy.repetitions import outlying
 from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats, Mask
 
@@ -49,6 +50,8 @@ class Noise:
 def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats]) -> Noise:
     """Noise from training records; held-out records get whiteners of the same noise."""
     masks = [usable(np.asarray(r.values)) & np.isfinite(e) for r, e in zip(records, residuals)]
+    # A run that stands out of its repetitions says nothing of the noise, and counts the less.
+    counts = {o.run: o.weight for o in outlying(records) if o.weight < 1.0}
     members: dict[str, list[int]] = defaultdict(list)
     for index, record in enumerate(records):
         members[noise_key(record)].append(index)
@@ -57,16 +60,21 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
     warnings = []
     for key, indices in members.items():
         training = [i for i in indices if not records[i].held_out] or indices
+        plain = [i for i in training if records[i].name not in counts] or training
         short = all(masks[i].sum() < SHORT for i in indices)
         fit = _numbers if short else _signals
-        stream, weights, note = fit(records, residuals, predictions, masks, training)
+        stream, weights, note = fit(records, residuals, predictions, masks, plain)
         streams[key] = stream
         if note:
             warnings.append(f"{key}: {note}")
-        held = [i for i in indices if i not in training]
+        held = [i for i in indices if i not in plain]
         if held and not short:
-            weights.update(_weights(stream, deviations_of(records, residuals, masks, held), records, residuals, masks, held))
+            repeated = [i for i in held if records[i].name not in counts]
+            weights.update(_weights(stream, deviations_of(records, residuals, masks, repeated), records, residuals, masks, held))
         for i in indices:
+            if records[i].name in counts:
+                weights[i] = weights.get(i, np.ones(int(masks[i].sum()))) * counts[records[i].name]
+                warnings.append(f"{key}: run {records[i].name} stands out of its repetitions and counts for {100.0 * counts[records[i].name]:.0f} % of one")
             whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i))
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:

@@ -53,22 +53,15 @@ def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndar
         return fit.chi2
     x = best.copy()
     x[k] = value
-    scale = box.scale[others]
-    normal = fit.normal[np.ix_(others, others)] * np.outer(scale, scale)
-    x[others] = box_step(box, x, others, normal, -scale * fit.normal[others, k] * (value - best[k]))
+    rest = Box([fit.parameters[j] for j in others])
+    normal = fit.normal[np.ix_(others, others)] * np.outer(rest.scale, rest.scale)
+    x[others] += rest.step(x[others], normal, -rest.scale * fit.normal[others, k] * (value - best[k]))
     with near(fit.values):
         residual = space.residual(box.named(x))
     first = float(residual @ residual) + box.prior_cost(x)
     # What the sensitivities did not foretell, the others follow once more.
     gradient = fit.jacobian[:, others].T @ residual - box.prior_gradient(x)[others]
-    x[others] = box_step(box, x, others, normal, scale * gradient)
+    x[others] += rest.step(x[others], normal, rest.scale * gradient)
     with near(fit.values):
         residual = space.residual(box.named(x))
     return min(first, float(residual @ residual) + box.prior_cost(x))
-
-
-def box_step(box: Box, x: Floats, others: np.ndarray, normal: Floats, gradient: Floats) -> Floats:
-    """The other parameters after a Newton step, within their bounds."""
-    step = np.linalg.pinv(normal, rcond=1e-11, hermitian=True) @ gradient
-    moved_to: Floats = np.clip(x[others] + box.scale[others] * step, box.lower[others], box.upper[others])
-    return moved_to

@@ -100,7 +100,8 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
         made[SMALL] = _block(space, candidate, at, which, SMALL)
         if not linear and any(p.sign == 0 for p in candidate.amplitudes):
             made[-TYPICAL] = _opposite(space, candidate, at, which, glimpses, made)
-        for size, block in made.items():
+        # The small one holds to both sides; what only repeats it is left out.
+        for size, block in sorted(made.items(), key=lambda one: abs(one[0])):
             if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for _, other, _ in found):
                 continue
             # a difference over a large amplitude of a curved effect is only valid on its own side
@@ -120,6 +121,9 @@ def _opposite(space: Workspace, candidate: Candidate, at: Mapping[str, float], w
               made: Mapping[float, Floats]) -> Floats:  # fmt: skip
     """Columns over a typical amplitude to the other side: from what is known where a glimpse shows that they follow from it."""
     other = _glimpse(space, candidate, at, which, -TYPICAL)
+    if {other.shape} != {glimpse.shape for glimpse in glimpses.values()}:
+        # Nothing was found there at one of the sizes, or there is no way to that side.
+        return _block(space, candidate, at, which, -TYPICAL)
 
     def combined(by_size: Mapping[float, Floats]) -> tuple[Floats, ...]:
         # Straight on this side only; even; curved.
@@ -170,7 +174,9 @@ def _glimpse(space: Workspace, candidate: Candidate, at: Mapping[str, float], wh
 
 
 def _alike(a: Floats, b: Floats) -> Floats:
-    """Cosines of the columns of two blocks; one for two columns of nothing."""
+    """Cosines of the columns of two blocks, one for two columns of nothing; zero where they were not seen at the same places."""
+    if a.shape != b.shape:
+        return np.zeros(a.shape[1])
     na, nb = np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0)
     found: Floats = np.where((na == 0) & (nb == 0), 1.0, np.sum(a * b, axis=0) / np.maximum(na * nb, 1e-300))
     return found
