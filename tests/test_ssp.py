@@ -308,7 +308,7 @@ def test_units_with_arrays_make_a_package_of_ssp_2(pair3, native_fmus):
     ('<ssc:Dimension size="40" />', '<ssc:Dimension size="41" />', "has the dimensions 2 x 41, its FMU's variable 2 x 40; write the FMU's"),
     ('<ssc:Dimension size="40" />', '<ssc:Dimension size="forty" />', "Dimension size = '2', 'forty': a whole number is needed"),
     ('version="2.0"', 'version="3.0"', "SSP version '3.0' is not known; versions 1 and 2 are"),
-    ('startConnector="crank_angle"', 'startConnector="crank_angle" startIndices="1"', "startIndices = '1' is not supported; connect whole arrays"),
+    ('startConnector="crank.angle"', 'startConnector="crank.angle" startIndices="1"', "startIndices = '1' is not supported; connect whole arrays"),
 ])
 def test_wrong_package_of_ssp_2_is_told(pair3, before, after, said):
     folder, text = pair3
