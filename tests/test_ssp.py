@@ -266,6 +266,13 @@ def test_connectors_have_their_place_on_the_picture(tmp_path, spring):
     assert root.find("ssd:System/ssd:SystemGeometry", SPACE) is None
 
 
+def test_values_that_seem_to_name_their_unit_again_are_left_at_the_units_own(rv20e, native_fmus, tmp_path):
+    """OMSimulator reads wear.run_in_time of the unit wear as its run_in_time, which is not there, and stops."""
+    with zipfile.ZipFile(export_pair(rv20e, native_fmus / "fmi2", 1e-3)) as archive:
+        names = etree.fromstring(archive.read("resources/wear.ssv")).xpath("//ssv:Parameter/@name", namespaces=SPACE)
+    assert len(names) > 20 and not [name for name in names if name.startswith("wear.")]
+
+
 def test_values_for_a_unit_that_is_not_there_are_refused(tmp_path, spring):
     with pytest.raises(InputFault, match="values for c, which is no unit of the system: it has a"):
         export_ssp(tmp_path / "x.ssp", "x", {"a": spring}, [], Experiment(0.1, 1.0), {"c": {"k": 1.0}})

@@ -90,7 +90,7 @@ class Bench:
         unit.restore(self.carried(version, WORN).read_bytes())
         for n in range(steps_of(test)):
             unit.step(n * test.step, test.step)
-        values = {name: unit.number(name) for name in ("lag", "worst_flank_depth")}
+        values = {name: unit.number(name) for name in ("output.lag", "life.worst_flank_depth")}
         unit.close()
         return values
 

@@ -30,7 +30,7 @@ def through_fmusim(bench: Bench, version: str, program: Path) -> list[Outcome]:
     found = []
     worn: list[str | Path] = ["--initial-fmu-state-file", bench.carried(version, WORN)]
     nothing: list[str | Path] = []
-    for what, outputs, more in (("unit", list(ends), nothing), ("worn", ["lag", "worst_flank_depth"], worn)):
+    for what, outputs, more in (("unit", list(ends), nothing), ("worn", ["output.lag", "life.worst_flank_depth"], worn)):
         file = bench.scratch / f"fmusim-{version}-{what}.csv"
         wanted = [part for output in outputs for part in ("--output-variable", output)]
         try:

@@ -191,6 +191,9 @@ def values(unit: Unit, settings: dict[str, float], driven: set[str]) -> Element:
     })  # fmt: skip
     parameters = SubElement(root, "ssv:Parameters")
     for name, signal in taken.items():
+        if name.startswith(f"{unit.name}.") and name not in settings:
+            # OMSimulator 3 takes the first part for the unit itself, finds no such variable and reads no further.
+            continue
         parameter = SubElement(parameters, "ssv:Parameter", name=name)
         value = repr(settings[name]) if name in settings else starts[name]
         kind = SubElement(parameter, f"ssv:{TYPES[unit.version][signal.dtype]}", value=value)
