@@ -4,22 +4,47 @@ import os
 import select
 import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
+# How long what runs may take to be left [s].
+GRACE = 5.0
 
 
 class Terminated(KeyboardInterrupt):
     """SIGTERM: what runs is left as for Ctrl-C, so that it takes away what it has unpacked and lets go of its processes."""
 
 
-def hear_termination() -> None:
-    """SIGTERM raises Terminated; where a signal cannot be heard, nothing changes."""
-    try:
-        signal.signal(signal.SIGTERM, terminate)
-    except ValueError:
-        # Not in the first thread: whoever calls the tool as a function has his own signals.
+@contextmanager
+def termination_heard() -> Iterator[None]:
+    """SIGTERM raises Terminated in the block; where a signal cannot be heard, nothing changes."""
+    if os.name != "posix" or threading.current_thread() is not threading.main_thread():
+        yield
         return
+    before = signal.signal(signal.SIGTERM, terminate)
+    reader, writer = os.pipe()
+    os.set_blocking(writer, False)
+    woken = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
+    threading.Thread(target=insist, args=(reader,), name="rvwear ending", daemon=True).start()
+    try:
+        yield
+    finally:
+        signal.set_wakeup_fd(woken)
+        signal.signal(signal.SIGTERM, before)
+        # The thread ends with it.
+        os.close(writer)
+
+
+def insist(signals: int) -> None:
+    """Ends a process that does not come to hear SIGTERM: one that hangs in a unit's own code."""
+    with os.fdopen(signals, "rb", buffering=0) as stream:
+        while heard := stream.read(1):
+            # In time, the block ends, and with it the stream.
+            if heard[0] == signal.SIGTERM and not select.select([stream], [], [], GRACE)[0]:
+                os._exit(TERMINATED)
 
 
 def terminate(_: int, __: FrameType | None) -> None:

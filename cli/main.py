@@ -13,7 +13,7 @@ from typing import Any
 
 from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, life, reducer, reproduce, system
 from cli.completion import answer_shell
-from cli.ending import INTERRUPTED, exit_code, hear_termination, reader_is_gone, silence
+from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
 from cli.progress import new_screen
 from fmu_src.checked_file import OF_THE_DISK
 from fmu_src.faults import InputFault, OldName, RunFault
@@ -38,12 +38,11 @@ class PrintVersion(argparse.Action):
 
 def main(arguments: list[str] | None = None) -> int:
     print_whatever_the_console_can()
-    hear_termination()
     top = parser()
     answer_shell(top)
     options = top.parse_args(arguments)
     try:
-        with told_to(new_screen()), warnings.catch_warnings():
+        with termination_heard(), told_to(new_screen()), warnings.catch_warnings():
             say_old_names()
             code = int(options.run(options))
         sys.stdout.flush()

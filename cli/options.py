@@ -100,6 +100,10 @@ def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)
         if len(endings) > 1:
             raise InputFault(f"--output {path}: the name must end in {' or '.join(endings)}")
         raise InputFault(f"--output {path}: a result is a NetCDF file; give a name that ends in .nc")
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise InputFault(f"--output {path}: the NetCDF library takes names in UTF-8 alone; give another one") from None
     if path.is_dir():
         raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
     path.parent.mkdir(parents=True, exist_ok=True)

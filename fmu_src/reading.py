@@ -22,6 +22,8 @@ MOST_MEMBERS, MOST_UNPACKED, MOST_FOLDERS = 20_000, 4_000_000_000, 40
 BLOCK = 1 << 20
 # How much of a value or message stands in a fault.
 SHOWN = 200
+# Signs of a whole fault.
+LONGEST = 2500
 
 
 @contextlib.contextmanager
@@ -30,11 +32,12 @@ def reading(path: Path, what: str, remedy: str = "check the file, or get it anew
     try:
         yield
     except (InputFault, RunFault) as fault:
-        if path.name in str(fault) or isinstance(fault, MissingPart):
+        text = str(fault)
+        if isinstance(fault, MissingPart) or (path.name in text and len(text) <= LONGEST):
             raise
-        # Said deeper down, where the file was not known.
         kind = next(kind for kind in (Damaged, InputFault, RunFault) if isinstance(fault, kind))
-        raise kind(f"{path}: {fault}") from None
+        # Said deeper down, where the file was not known; and what a file holds may be long.
+        raise kind((text if path.name in text else f"{path}: {text}")[:LONGEST]) from None
     except ModuleNotFoundError:
         # A part of the installation that is missing is no fault of the file.
         raise

@@ -58,7 +58,7 @@ def write(dataset: xr.Dataset, path: Path) -> Path:
 def read(path: Path) -> xr.Dataset:
     """A result file in memory; Damaged if it is not what was written, InputFault if it is none.  Others' NetCDF files have no checksum."""
     if not path.is_file():
-        raise InputFault(f"no result file at {path}")
+        raise InputFault(f"no result file at {path}; rvwear life and rvwear run write one")
     with reading(path, "a NetCDF file"):
         require_size(path, MOST)
         if SEALED.encode() in path.read_bytes():
@@ -78,6 +78,7 @@ def opened(path: Path) -> xr.Dataset:
 
 def read_plain(path: Path) -> dict[str, Any]:
     """A NetCDF file as data: {"variables": {name: (dimensions, values)}, "attributes": {name: text}}."""
-    dataset = opened(path)
+    with reading(path, "a NetCDF file"):
+        dataset = opened(path)
     variables = {str(name): [[str(d) for d in v.dims], plain(np.asarray(v.values))] for name, v in dataset.variables.items()}
     return {"variables": variables, "attributes": {str(name): str(value) for name, value in dataset.attrs.items()}}

@@ -108,6 +108,17 @@ def test_second_holder_is_told_who_holds_it(tmp_path):
     assert files(tmp_path) == []
 
 
+def test_two_builds_and_two_extensions_of_one_place_are_kept_apart(tmp_path, capsys):
+    from cli.main import main
+
+    with held(tmp_path / "FMUs"), held(tmp_path / "better.toml"):
+        assert main(["build", "--output", str(tmp_path)]) == 2
+        assert f"FMUs is in the hands of process {os.getpid()}" in capsys.readouterr().err
+        campaign = str(ROOT / "examples" / "raceway_depths")
+        assert main(["extend", "RV20E-121", campaign, "--effect", "x", "--output", str(tmp_path / "better.toml")]) == 2
+        assert "better.toml is in the hands of process" in capsys.readouterr().err
+
+
 @pytest.fixture(scope="module")
 def result(tmp_path_factory):
     time = np.linspace(0.0, 1.0, 50)

@@ -73,6 +73,7 @@ def test_stiffness_reading_and_contact_law(capsys):
     (("run", "--turns", "nan"), "turns = nan"),
     (("run", "examples/pair.toml", "--torque", "5"), "--torque with a system's file"),
     (("hysteresis", "--torque", "0"), "load_torque = 0"),
+    (("run", "--output", "a\udcff.nc"), "takes names in UTF-8 alone"),
     (("run", "examples/pair.toml", "--step", "0"), "step = 0 s: a positive number of seconds"),
     (("run", "--step", "0"), "--step without a system's file"),
     (("life", "--tolerance", "1e-300"), "5e-06 is the smallest"),

@@ -252,6 +252,23 @@ def test_no_unit_outlives_a_master_that_is_killed(sleeper, tmp_path, function):
     assert gone(unit)
 
 
+@pytest.mark.parametrize("hangs", [False, True])
+def test_termination_leaves_nothing_unpacked_and_ends_what_hangs(sleeper, tmp_path, hangs):
+    """In this process: the unit is unpacked beside it; one that hangs in its own code hears nothing, and is ended all the same."""
+    (tmp_path / "temporary").mkdir()
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).resolve().parents[1]), "TMPDIR": str(tmp_path / "temporary")}
+    environment |= {"HANG_IN": "fmi2DoStep"} if hangs else {}
+    words = ["run", str(sleeper), "--step", "1e-3", "--duration", "5e3", "--output", str(tmp_path / "x.nc")]
+    with subprocess.Popen([sys.executable, "-m", "cli", *words], env=environment, stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None and not list((tmp_path / "temporary").glob("*/binaries/*/*")):
+            time.sleep(0.05)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGTERM)
+        assert "Traceback" not in process.communicate(timeout=30)[1]
+    assert process.returncode == 143
+    assert hangs or not list((tmp_path / "temporary").iterdir())
+
+
 VALUES = [None, True, False, 0, -(2**63), 1.5, float("inf"), "", "\u00e4\ud800", b"\0\xff", (), ((1, "a"), {"k": (b"", None)}), {}]
 
 

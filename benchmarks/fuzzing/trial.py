@@ -21,7 +21,7 @@ from pathlib import Path
 
 from benchmarks.fuzzing.mutations import mutant
 from benchmarks.fuzzing.readers import READERS
-from benchmarks.fuzzing.seeds import copy_beside, seeds_of
+from benchmarks.fuzzing.seeds import SEEDS, copy_beside, seeds_of
 from fmu_src.faults import InputFault, RunFault
 
 CPU_SECONDS, WALL_SECONDS, MEMORY = 10.0, 120.0, 1 << 30
@@ -105,7 +105,8 @@ def main(reader: str, seed: int, seconds: float, count: int, folder: Path) -> No
     kinds: set[str] = set()
     found: set[str] = set()
     started, done, refused = time.monotonic(), 0, 0
-    grown = list(seeds)
+    # What once failed is read as it is: its neighbours would crash the libraries again and again.
+    grown = list(SEEDS[reader]())
     while done < count and time.monotonic() - started < seconds:
         # All seeds as they are come first.
         data = seeds[done] if done < len(seeds) else mutant(chance.choice(grown), seeds, chance)

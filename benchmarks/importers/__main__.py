@@ -24,7 +24,7 @@ Made by `python -m benchmarks.importers --doubling` with the native units of RV2
 scalar outputs at its end. *worn*: the state after 5,000 h that it carries, restored by the importer before the first step, then the same. *pair*: plant and wear unit from
 `RvReducer.ssp` (MasterSim and the C program: connected by their own means) through {steps} steps of {step:g} ms, wear counted {acceleration:g} times, {count} values at the end:
 {watched}. *Digits* are decimal digits in which the worst of the values agrees with this project's own master; tools that add up time instead of multiplying
-find angles that differ in the last ones.
+find angles that differ in the last ones. OMSimulator 3 knows neither `Float64` nor arrays in a package, so it takes the pair of FMI 2.0 alone; OpenMCx takes the package with values inline.
 
 | importer | version | flavour | what | values | agreement |
 |---|---|---|---|---|---|

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.campaign.amount import split, to_si
-from discrepancy.campaign.file_format import FILE, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
+from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
 from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
 from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
 from discrepancy.campaign.readers import Options, read_columns
@@ -14,6 +14,7 @@ from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
 from discrepancy.problem import FREE_ZERO, Parameter, Record
 from fmu_src.faults import InputFault
+from fmu_src.reading import reading
 from fmu_src.units import parse, registry
 from reducers.reducer import kernels_name
 
@@ -23,6 +24,11 @@ DIRECTIONS = {"forward": 1, "reverse": -1, 1: 1, -1: -1}
 def load_campaign(folder: str | Path, data: str | Path | None = None) -> Campaign:
     """Read a campaign; ``data`` is where its files are if not where the file says."""
     folder = Path(folder)
+    with reading(folder / FILE, "a campaign", REMEDY):
+        return campaign_of(folder, data)
+
+
+def campaign_of(folder: Path, data: str | Path | None) -> Campaign:
     path = folder / FILE
     content, text = read_campaign_file(path)
     scales = make_scales(content.campaign, folder, path)

@@ -5,6 +5,7 @@ column of a matrix, counted from 1 (``data[2]``).
 """
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +46,11 @@ def scipy_arrays(path: Path) -> dict[str, np.ndarray]:
         else:
             found[name] = np.asarray(item)
 
-    for name, item in scipy.io.loadmat(path, struct_as_record=False, squeeze_me=True).items():
+    with warnings.catch_warnings():
+        # "Returned data may be corrupt", or two variables of one name.
+        warnings.simplefilter("error", UserWarning)
+        content = scipy.io.loadmat(path, struct_as_record=False, squeeze_me=True)
+    for name, item in content.items():
         if not name.startswith("__"):
             add(name, item)
     return found
