@@ -29,7 +29,7 @@ from fmu_src.faults import InputFault, nearest
 from fmu_src.names import dotted, last_part, warn_of_old_name
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
-from fmu_src.strict_file import NAME, Strict, described, validated
+from fmu_src.strict_file import Strict, described, validated
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import ValueFault
 from orchestrator.settings import parse_setting
@@ -40,9 +40,12 @@ from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
 
 REMEDY = "docs/diagnosis.md shows a model file"
 
+# Goes into names of files, in whatever language: no folder, nothing that a system refuses there.
+FILE_NAME = r'^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$'
+
 
 class Head(Strict):
-    name: str = Field(pattern=NAME)
+    name: str = Field(pattern=FILE_NAME)
     reducer: str = Field(min_length=1)
 
 
