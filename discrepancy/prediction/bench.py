@@ -85,7 +85,7 @@ class Bench(Lives):
                     wears[name] = wears[f"{name}_before"] = plants[name]
                 wears["acceleration"] = 0.0
             out_speed = condition.speed / abs(self.ratio)
-            durations = np.abs(np.diff(angles, prepend=angles[0])) / out_speed
+            durations = np.maximum(np.abs(np.diff(angles, prepend=angles[0])) / out_speed, MOMENT)
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
             places = np.zeros((len(angles), plants["z"].shape[1]))
             similar = places
@@ -198,6 +198,7 @@ class Bench(Lives):
 
     def put_wear(self, wears: np.ndarray, plants: np.ndarray) -> None:
         """Profile errors of worn surfaces at the present angles, to which their unit is turned without wear."""
+        wears = wears.copy()
         for name in ("crank_angle", "output_angle", "cage_angle"):
             wears[name] = wears[f"{name}_before"] = plants[name]
         wears["acceleration"] = wears["crank_speed"] = 0.0
