@@ -1,0 +1,104 @@
+"""``rvwear reducer new``: a reducer of which little is known, completed by design rules."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.options import add_json
+from fmu_src.faults import InputFault
+from fmu_src.progress import task
+
+if TYPE_CHECKING:
+    from reducers.completion.complete import Completion
+    from reducers.completion.given import Given
+    from reducers.reducer import Reducer
+
+
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    group = sub.add_parser("reducer", help="reducer files: complete a new one from what a catalogue says")
+    actions = group.add_subparsers(dest="action", required=True, metavar="ACTION")
+
+    new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
+    new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
+    new.add_argument("--pins", type=int, required=True, help="pins in the ring: one more than a disc has lobes")
+    new.add_argument("--rated", type=float, required=True, metavar="NM", help="rated output torque [N m]")
+    new.add_argument("--lobes", type=int, help="lobes of a disc, where somebody counted them: one less than pins")
+    new.add_argument("--diameter", type=float, metavar="MM", help="outer diameter of the housing [mm] (default: the ring follows from the torque)")
+    new.add_argument("--speed", type=float, default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues of RV reducers)")
+    new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
+    new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
+    new.add_argument("--lost-motion", type=float, default=1.0, metavar="ARCMIN", help="lost motion of the catalogue [arcmin] (default 1)")
+    new.add_argument(
+        "--known", action="append", default=[], metavar="NAME=VALUE",
+        help="a number that was measured, with its unit: --known pin.radius=3mm; what hangs on it follows",
+    )  # fmt: skip
+    new.add_argument("--name", help="name of the reducer (default: of ratio and torque)")
+    new.add_argument("--output", metavar="FILE", help="the reducer file (default NAME.toml)")
+    new.add_argument("--overwrite", action="store_true", help="write over a file that is there")
+    add_json(new, "print numbers, ranges and rules as JSON, nothing else")
+    new.set_defaults(run=run_new)
+
+
+def run_new(options: argparse.Namespace) -> int:
+    """The file is written after it was read and checked as any other."""
+    from cli.screen import json_text
+    from cli.show.new_reducer import show
+    from fmu_src.checked_file import write_text
+    from reducers.completion.complete import complete
+    from reducers.completion.file import text_of
+
+    given = given_by(options)
+    name = options.name or f"ratio-{given.ratio:g}-{given.rated:g}Nm"
+    target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
+    with task("completing and checking"):
+        completion = complete(given)
+        text = text_of(completion, name)
+        checked(text, target)
+    write_text(target, text)
+    if options.json:
+        json_text({"file": str(target)} | as_json(completion))
+    else:
+        show(completion, name, target)
+    return 0
+
+
+def given_by(options: argparse.Namespace) -> "Given":
+    from reducers.completion.given import Given
+    from reducers.completion.known import known_numbers
+
+    return Given(
+        ratio=options.ratio, pins=options.pins, rated=options.rated, lobes=options.lobes, diameter=options.diameter, speed=options.speed,
+        cranks=options.cranks, rollers=options.rollers, lost_motion=options.lost_motion, known=known_numbers(options.known),
+    )  # fmt: skip
+
+
+def target_of(text: str, option: str, ending: str, overwrite: bool) -> Path:
+    """Where a file goes, checked before the work."""
+    path = Path(text)
+    if path.suffix != ending:
+        raise InputFault(f"{option} {path}: the name must end in {ending}")
+    if path.is_dir():
+        raise InputFault(f"{option} {path} is a folder; give a file name in it that ends in {ending}")
+    if path.exists() and not overwrite:
+        raise InputFault(f"{option} {path} exists already and is not overwritten; give another name, or --overwrite")
+    return path
+
+
+def checked(text: str, path: Path) -> "Reducer":
+    """The reducer of the text, read as a file of that name would be."""
+    import tomllib
+
+    from reducers.reducer import reducer_of
+
+    return reducer_of(tomllib.loads(text), path)
+
+
+def as_json(completion: "Completion") -> dict[str, object]:
+    return {
+        "numbers": [
+            {"name": n.name, "unit": n.unit, "value": n.value, "range": [n.low, n.high], "source": n.source, "dials": list(n.dials)}
+            for n in completion.numbers.values()
+        ],
+        "dials": [vars(dial) for dial in completion.dials],
+        "doubts": completion.doubts,
+    }  # fmt: skip

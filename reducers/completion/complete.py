@@ -1,0 +1,183 @@
+"""From what is given to every number of a reducer file, by the design rules of the field; each with the range that the dials leave it."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from reducers.completion.dials import ASSUMED, Dial, dials_of
+from reducers.completion.geometry import check_geometry
+from reducers.completion.given import Given
+
+# In the order of the file; all that is computed here is in these units.
+UNITS = {
+    "pin.circle_radius": "mm", "pin.radius": "mm", "crank.eccentricity": "mm", "crank.circle_radius": "mm", "mesh.width": "mm",
+    "mesh.stiffness": "N", "mesh.stiffness_lankarani": "N", "disc.equidistant_modification": "um", "disc.shift_modification": "um",
+    "inner_race.radius": "mm", "outer_race.radius": "mm", "roller.radius": "mm", "roller.length": "mm", "roller.stiffness": "N",
+    "roller.stiffness_lankarani": "N", "first_stage.ratio": "1", "first_stage.sun_teeth": "1", "input.speed": "rpm", "output.load_torque": "N.m",
+    "wear.run_in_crank_speed": "rpm",
+} | {dial.name: dial.unit for dial in ASSUMED}  # fmt: skip
+# By which rule a number comes, and the dial of its own that the rule has.
+RULES = {
+    "pin.radius": ("R_p sin(pi/z_p) / K2", "K2"), "crank.eccentricity": ("K1 R_p / z_p", "K1"),
+    "crank.circle_radius": ("sun and planets fill the ring of pins", "first_stage_share"), "mesh.width": ("share of the pin circle radius", "width_share"),
+    "mesh.stiffness": ("share of 8.06e4 N L^(8/9) at 1 mm", "mesh_contact"),
+    "mesh.stiffness_lankarani": ("same penetration as the line contact at the largest pin force", ""),
+    "disc.equidistant_modification": ("flank gap times e z_c", "gap"), "disc.shift_modification": ("further flank gap times e z_c", "shift"),
+    "inner_race.radius": ("inside the rollers", ""), "outer_race.radius": ("share of the room from hole centre to roots", "hole_share"),
+    "roller.radius": ("so many side by side", "fill"), "roller.length": ("share of the disc's width", "roller_share"),
+    "roller.stiffness": ("share of 8.06e4 N L^(8/9) at 1 mm", "roller_contact"),
+    "roller.stiffness_lankarani": ("same approach as the line contact at the largest roller force", ""),
+    "input.speed": ("ratio times output speed", ""), "first_stage.ratio": ("ratio = 1 + pins z2/z1", ""),
+    "first_stage.sun_teeth": ("fewest whole teeth from 10 on", ""), "wear.run_in_crank_speed": ("output speed times lobes", ""),
+}  # fmt: skip
+# None of these may move alone: races and rollers fit each other, teeth are whole.
+NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_stage.sun_teeth")
+COMPLETED, GIVEN = "completed", "given"
+PALMGREN = 8.06e4
+# By so many teeth a sun may have more than the fewest (assumed).
+SUN_MORE = 10
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of the file in its unit, with [low, high] and the dials that move it."""
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    source: str
+    dials: tuple[str, ...] = ()
+
+    @property
+    def is_given(self) -> bool:
+        return self.source.startswith(GIVEN)
+
+
+@dataclass(frozen=True)
+class Completion:
+    """All numbers by name, what was given, the dials, and what is doubtful about what was given."""
+
+    given: Given
+    dials: list[Dial]
+    numbers: dict[str, Number]
+    doubts: list[str]
+
+
+def complete(given: Given) -> Completion:
+    """Every number with its range; InputFault if what is given makes no reducer.
+
+    A range is the number's value and the root of the sum of squares of what each dial, at either end of its range, adds or takes away.
+    """
+    dials = dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion)
+    middle = {dial.name: dial.value for dial in dials}
+    values = numbers_of(given, middle)
+    check_geometry(given, values)
+    up, down = dict.fromkeys(values, 0.0), dict.fromkeys(values, 0.0)
+    signed = dict.fromkeys(values, False)
+    moved: dict[str, list[str]] = {name: [] for name in values}
+    for dial in dials:
+        ends = [numbers_of(given, middle | {dial.name: end}) for end in (dial.low, dial.high)]
+        for name, value in values.items():
+            changes = [end[name] - value for end in ends]
+            signed[name] = signed[name] or min(end[name] for end in ends) < 0.0
+            up[name] += max(0.0, *changes) ** 2
+            down[name] += min(0.0, *changes) ** 2
+            if any(changes):
+                moved[name].append(dial.name)
+    numbers = {}
+    for name, value in values.items():
+        low, high = value - math.sqrt(down[name]), value + math.sqrt(up[name])
+        if not signed[name]:
+            # Changes that add up must not turn a length or gap around that no dial turns around.
+            low = max(low, 0.0)
+        if name == "first_stage.sun_teeth" and name not in given.known:
+            low, high = value, value + SUN_MORE
+        numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, {d.name: d for d in dials}), tuple(moved[name]))
+    return Completion(given, dials, numbers, doubts_of(given, values))
+
+
+def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
+    if name in given.known:
+        return f"{GIVEN}: measured"
+    if name == "output.load_torque":
+        return f"{GIVEN}: rated torque"
+    if name in dials:
+        return f"{COMPLETED}: {dials[name].source}"
+    if name == "pin.circle_radius":
+        return f"{COMPLETED}: {own_dial(dials['ring_torque' if given.diameter is None else 'ring_share'])}"
+    rule, own = RULES[name]
+    return f"{COMPLETED}: {rule}" + (f", {own_dial(dials[own])}" if own else "")
+
+
+def own_dial(dial: Dial) -> str:
+    return f"{dial.meaning} {dial.low:.3g} to {dial.high:.3g}{'' if dial.unit == '1' else f' {dial.unit}'} ({dial.source})"
+
+
+def numbers_of(given: Given, dial: Mapping[str, float]) -> dict[str, float]:
+    """Every number in the units of ``UNITS`` at one setting of all dials; what is known stays as it is and carries on to what builds on it."""
+    found: dict[str, float] = {}
+
+    def take(name: str, value: float) -> float:
+        found[name] = given.known.get(name, value)
+        return found[name]
+
+    pins, lobes, cranks = given.pins, given.pins - 1, given.crank_count
+    planet, sun = given.teeth
+    stage = take("first_stage.ratio", planet / sun)
+    take("first_stage.sun_teeth", sun)
+    torque = take("output.load_torque", given.rated)
+    ring = take("pin.circle_radius", dial["ring_torque"] * math.cbrt(1e3 * torque) if given.diameter is None else dial["ring_share"] * given.diameter)
+    pin = take("pin.radius", ring * math.sin(math.pi / pins) / dial["K2"])
+    eccentricity = take("crank.eccentricity", dial["K1"] * ring / pins)
+    # Pitch diameters of sun and two planets make first_stage_share of 2 (R_p + r_rp); the axes stand half of sun and planet apart.
+    axis = take("crank.circle_radius", dial["first_stage_share"] * (ring + pin) * (1.0 + stage) / (1.0 + 2.0 * stage))
+    width = take("mesh.width", dial["width_share"] * ring)
+    # Arcmin at the flank: the normal's lever arm is e z_c where the flank is steepest.
+    arc = math.radians(1.0 / 60.0) * eccentricity * lobes * 1e3
+    take("disc.equidistant_modification", dial["gap"] * arc)
+    take("disc.shift_modification", 0.0 - dial["shift"] * arc)
+    hole, roller = races(given, dial, ring - eccentricity - pin - axis)
+    take("outer_race.radius", hole)
+    take("roller.radius", roller)
+    take("inner_race.radius", hole - 2.0 * roller)
+    length = take("roller.length", dial["roller_share"] * width)
+    # Sum of sin^2 over the loaded half of the pins: z_p/4; Stribeck's 4 for line contacts without clearance.
+    resultant = 0.5e3 * torque / (eccentricity * lobes)
+    pin_force = 4.0 * resultant / pins
+    roller_force = 4.0 / given.rollers * (resultant + 0.5e3 * torque / axis) / cranks
+    for part, contact, reach, force in (("mesh", "mesh_contact", width, pin_force), ("roller", "roller_contact", length, roller_force)):
+        stiffness = take(f"{part}.stiffness", dial[contact] * PALMGREN * reach ** (8.0 / 9.0))
+        take(f"{part}.stiffness_lankarani", force / (force / stiffness) ** (0.9 * 1.5))
+    take("input.speed", given.ratio * given.speed)
+    take("wear.run_in_crank_speed", given.speed * lobes)
+    for one in ASSUMED:
+        take(one.name, dial[one.name])
+    return {name: found[name] for name in UNITS}
+
+
+def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, float]:
+    """Radii of hole and rollers [mm]: of two of races and rollers the third follows."""
+    inner, hole, roller = (given.known.get(name) for name in ("inner_race.radius", "outer_race.radius", "roller.radius"))
+    per_pitch = dial["fill"] * math.pi / given.rollers
+    if hole is None:
+        if inner is None:
+            hole = dial["hole_share"] * room
+        else:
+            hole = inner + 2.0 * (inner * per_pitch / (1.0 - per_pitch) if roller is None else roller)
+    if roller is None:
+        roller = hole * per_pitch / (1.0 + per_pitch) if inner is None else 0.5 * (hole - inner)
+    return hole, roller
+
+
+def doubts_of(given: Given, values: Mapping[str, float]) -> list[str]:
+    """What does not fit the rules and yet may be so."""
+    found = []
+    share = values["pin.circle_radius"] / math.cbrt(1e3 * given.rated)
+    if not 0.85 <= share <= 1.3:
+        found.append(
+            f"pin circle radius {values['pin.circle_radius']:.4g} mm is {share:.3g} times the cube root of {given.rated:g} N m in N mm, where 0.85 to 1.3 is"
+            " usual: look at rated torque and diameter, and their units"
+        )
+    return found

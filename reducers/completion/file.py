@@ -1,0 +1,45 @@
+"""A completed reducer as the text of a reducer file."""
+
+import json
+
+from reducers.completion.complete import NOT_ALONE, Completion, Number
+
+
+def text_of(completion: Completion, name: str) -> str:
+    """The file; it is read and checked as any other by ``reducers.reducer.reducer_of``."""
+    given = completion.given
+    lines = [
+        f"# {name}: completed from ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m rated"
+        + (f" and {given.diameter:g} mm outer diameter" if given.diameter is not None else "") + ".",
+        '# Every number: value, unit, source. "completed": by a design rule, with the range that the rules leave; "given": known.',
+        "# Replace what you measure by value and \"measured\" as source, or complete again with --known.",
+        "", "[reducer]", f"name = {json.dumps(name)}",
+        f'description = "ratio {given.ratio:g}, rated {given.rated:g} N m at {given.speed:g} rpm, completed by design rules"',
+        "", "[topology]", "discs = 2", f"cranks = {given.crank_count}" + ("" if given.cranks else "  # completed: three from 1000 N m on (assumed)"),
+        f"pins = {given.pins}", f"lobes = {given.pins - 1}", f"rollers = {given.rollers}  # of a bearing; assumed where nobody counted them",
+    ]  # fmt: skip
+    sections: dict[str, list[str]] = {}
+    for number in completion.numbers.values():
+        group, _, key = number.name.rpartition(".")
+        sections.setdefault(group, ["", f"[{group}]"]).append(f"{key} = {entry(number)}")
+    lines += [line for section in sections.values() for line in section]
+    return "\n".join(lines) + "\n"
+
+
+def entry(number: Number) -> str:
+    parts = [f"value = {figure(number.value)}", f"unit = {json.dumps(number.unit)}"]
+    note = ""
+    if number.name in NOT_ALONE and not number.is_given:
+        parts.append(f"range = [{figure(number.value)}, {figure(number.value)}]")
+        note = f"  # may be {figure(number.low)} to {figure(number.high)}, but not alone: " + (
+            "teeth are whole" if number.name == "first_stage.sun_teeth" else "races and rollers fit each other"
+        )
+    elif number.low < number.high:
+        parts.append(f"range = [{figure(number.low)}, {figure(number.high)}]")
+    return f"{{ {', '.join([*parts, f'source = {json.dumps(number.source)}'])} }}{note}"
+
+
+def figure(value: float) -> str:
+    """Whole digits, always a TOML float."""
+    text = repr(float(f"{value:.9g}"))
+    return text if any(sign in text for sign in ".en") else f"{text}.0"

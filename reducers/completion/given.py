@@ -1,0 +1,77 @@
+"""What is known of a reducer, checked: catalogue numbers, tooth numbers, and measures of parts that somebody has held in hands."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from fmu_src.faults import InputFault
+
+# Teeth of a sun, and of planet over sun, that one may expect (assumed: suns of RV reducers have 10 to 40 teeth).
+SUN_TEETH = range(10, 41)
+FIRST_STAGE = (0.5, 8.0)
+# From this rated torque on three cranks are usual (assumed: the RV-E series changes between its sizes 80 and 110 to 160).
+THREE_CRANKS = 1000.0
+
+
+@dataclass(frozen=True)
+class Given:
+    """Task and outer measures: rated output torque [N m] and speed [rpm], outer diameter [mm], lost motion of the catalogue [arcmin].
+
+    ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.
+    """
+
+    ratio: float
+    pins: int
+    rated: float
+    diameter: float | None = None
+    speed: float = 15.0
+    cranks: int | None = None
+    rollers: int = 16
+    lost_motion: float = 1.0
+    lobes: int | None = None
+    known: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.check_numbers()
+        if self.lobes is not None and self.lobes != self.pins - 1:
+            raise InputFault(
+                f"--pins {self.pins} and --lobes {self.lobes}: the pins do not close the ring; a cycloid disc needs one pin more than it has"
+                f" lobes: give --pins {self.lobes + 1} or --lobes {self.pins - 1}"
+            )
+
+    def check_numbers(self) -> None:
+        """InputFault that names option, value, unit and remedy."""
+        for option, value, unit, low, high in (
+            ("ratio", self.ratio, "", 2.0, 1000.0), ("pins", self.pins, "", 8, 200), ("rated", self.rated, " N m", 1.0, 1e5),
+            ("diameter", self.diameter, " mm", 20.0, 2000.0), ("speed", self.speed, " rpm", 0.01, 1000.0),
+            ("cranks", self.cranks, "", 2, 3), ("rollers", self.rollers, "", 6, 60), ("lost-motion", self.lost_motion, " arcmin", 0.0, 10.0),
+        ):  # fmt: skip
+            if value is not None and not (math.isfinite(value) and low <= value <= high):
+                raise InputFault(f"--{option} {value:g}{unit}: must lie from {low:g} to {high:g}{unit}; look at name plate and unit")
+
+    @property
+    def crank_count(self) -> int:
+        return self.cranks or (3 if self.rated >= THREE_CRANKS else 2)
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Teeth (planet, sun) of a first stage that makes the ratio 1 + pins z2/z1, as few as possible; InputFault where none does."""
+        wanted = (self.ratio - 1.0) / self.pins
+        # A ratio that a catalogue rounds, 127.7, is met within its last digit.
+        allowed = 0.051 / self.pins if self.ratio % 1.0 else 1e-9
+        if FIRST_STAGE[0] <= wanted <= FIRST_STAGE[1]:
+            for sun in SUN_TEETH:
+                planet = round(wanted * sun)
+                if abs(planet / sun - wanted) <= allowed:
+                    return planet, sun
+        raise InputFault(
+            f"--ratio {self.ratio:g} with --pins {self.pins}: the first stage would need {wanted:.4g} = planet over sun teeth, which no sun of"
+            f" {SUN_TEETH[0]} to {SUN_TEETH[-1]} teeth and no stage from {FIRST_STAGE[0]:g} to {FIRST_STAGE[1]:g} has; the ratio with the carrier as"
+            f" output is 1 + pins z2/z1: with {self.pins} pins the nearest is {self.nearest():g}; count the pins, or give the ratio of shaft rotation"
+        )
+
+    def nearest(self) -> float:
+        """The ratio nearest to the one given that whole teeth make."""
+        low, high = FIRST_STAGE
+        found = (1.0 + self.pins * planet / sun for sun in SUN_TEETH for planet in range(math.ceil(low * sun), math.floor(high * sun) + 1))
+        return min(found, key=lambda ratio: abs(ratio - self.ratio))

@@ -1,0 +1,111 @@
+"""``rvwear reducer new``: completed by design rules, checked as any other file, told what makes no reducer."""
+
+import json
+import math
+
+import pytest
+
+from cli.main import main
+from fmu_src.faults import InputFault
+from reducers.completion.complete import NOT_ALONE, UNITS, complete
+from reducers.completion.geometry import largest_pin
+from reducers.completion.given import Given
+from reducers.completion.known import known_numbers
+from reducers.reducer import load_reducer
+
+RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
+
+
+def test_a_completed_file_is_a_reducer_file_and_marks_every_number(tmp_path, capsys):
+    path = tmp_path / "rig.toml"
+    assert main([*RIG, "--name", "rig", "--output", str(path), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    reducer = load_reducer(path)
+    assert reducer.name == "rig" and reducer.topology.lobes == 39 and reducer.topology.cranks == 3
+    assert reducer.starts["first_stage_ratio"] == 2.0 and reducer.starts["load_torque"] == 1600.0
+    assert {n["name"] for n in told["numbers"]} == set(UNITS)
+    assert all(s.startswith(("completed: ", "given: ")) for s in reducer.sources.values())
+    for n in told["numbers"]:
+        assert n["range"][0] <= n["value"] <= n["range"][1], n["name"]
+    # Whatever may move alone is held in the file to lie in its range; races and rollers fit each other and teeth are whole.
+    free = {n["name"] for n in told["numbers"] if n["range"][0] < n["range"][1]} - set(NOT_ALONE)
+    assert len(reducer.ranges) == len(free)
+    assert reducer.ranges["pin_radius"][0] < reducer.starts["pin_radius"] < reducer.ranges["pin_radius"][1]
+
+
+def test_rules_hold_in_what_is_completed():
+    values = {k: n.value for k, n in complete(Given(121, 40, 412.0, 190.0)).numbers.items()}
+    ring, pin = values["pin.circle_radius"], values["pin.radius"]
+    assert 0.33 * 190.0 < ring < 0.40 * 190.0
+    assert 0.65 < 40 * values["crank.eccentricity"] / ring < 0.9
+    assert 1.15 < ring * math.sin(math.pi / 40) / pin < 2.0
+    assert values["inner_race.radius"] + 2.0 * values["roller.radius"] == pytest.approx(values["outer_race.radius"])
+    # Sun (d1) and two planets (3 d1) with their axes half of both apart fill 0.8 to 1.1 of the ring of pins.
+    assert 0.8 < 7.0 * values["crank.circle_radius"] / 2.0 / (2.0 * (ring + pin)) < 1.1
+
+
+def test_what_is_known_stays_and_carries_on():
+    plain, known = complete(Given(81, 40, 1600.0)), complete(Given(81, 40, 1600.0, known=known_numbers(["pin.circle_radius=0.11 m", "outer_race.radius=25mm"])))
+    assert known.numbers["pin.circle_radius"].value == pytest.approx(110.0) and known.numbers["pin.circle_radius"].is_given
+    assert known.numbers["pin.circle_radius"].low == known.numbers["pin.circle_radius"].high
+    # With the ring known, its share of the pins' uncertainty is gone.
+    assert known.numbers["pin.radius"].high / known.numbers["pin.radius"].value < plain.numbers["pin.radius"].high / plain.numbers["pin.radius"].value
+    assert known.numbers["inner_race.radius"].value + 2.0 * known.numbers["roller.radius"].value == pytest.approx(25.0)
+
+
+def test_undercut_begins_where_the_published_condition_says():
+    # r/R < sqrt(27 z_c (1 - K1^2)) / (z_c + 2)^1.5 while the sharpest point lies on the flank.
+    for k1 in (0.65, 0.75, 0.9):
+        published = math.sqrt(27.0 * 39.0 * (1.0 - k1 * k1)) / 41.0**1.5
+        assert largest_pin(1.0, k1 / 40.0, 40) == pytest.approx(published, rel=1e-4)
+
+
+@pytest.mark.parametrize("change, said", [
+    ({"ratio": 80.33}, r"--ratio 80.33 with --pins 40: the first stage would need 1.983.*nearest is 80;"),
+    ({"ratio": 5.0}, r"--ratio 5 with --pins 40.*nearest is 21"),
+    ({"lobes": 40}, r"--pins 40 and --lobes 40: the pins do not close the ring.*--pins 41 or --lobes 39"),
+    ({"rated": -1.0}, r"--rated -1 N m: must lie from 1"),
+    ({"ratio": math.nan}, r"--ratio nan: must lie"),
+    ({"cranks": 4}, r"--cranks 4: must lie from 2 to 3"),
+    ({"known": {"pin.radius": 12.0}}, r"pin.radius = 12 mm: 40 pins on a circle of 122.9 mm radius overlap.*below 9.646 mm"),
+    ({"known": {"pin.radius": 9.5, "crank.eccentricity": 2.5}}, r"pin.radius = 9.5 mm: the flank is undercut.*below 8\.\d+ mm"),
+    ({"known": {"crank.eccentricity": 4.0}}, r"crank.eccentricity = 4 mm: K1 = e z_p / R_p = 1.3 makes loops.*below 3.074 mm"),
+    ({"known": {"outer_race.radius": 60.0}}, r"outer_race.radius = 60 mm: .*the disc's roots"),
+    ({"known": {"crank.circle_radius": 26.0, "outer_race.radius": 24.0}, "cranks": 3}, r"outer_race.radius = 24 mm: the holes of 3 cranks .* overlap"),
+    ({"known": {"inner_race.radius": 20.0, "roller.radius": 3.0, "outer_race.radius": 27.0}}, r"do not fit each other.*make 26 mm"),
+    ({"known": {"roller.radius": 6.0}}, r"roller.radius = 6 mm: 16 rollers do not fit"),
+    ({"known": {"roller.length": 30.0}}, r"roller.length = 30 mm: longer than the disc is wide \(mesh.width = 17.39 mm\)"),
+    ({"diameter": 150.0, "known": {"pin.circle_radius": 80.0}}, r"--diameter 150 mm: a ring of pins of \d+.* mm does not fit inside"),
+])  # fmt: skip
+def test_what_makes_no_reducer_is_told_option_value_unit_and_remedy(change, said):
+    with pytest.raises(InputFault, match=said):
+        complete(Given(**{"ratio": 81.0, "pins": 40, "rated": 1600.0} | change))
+
+
+@pytest.mark.parametrize("text, said", [
+    ("pin.radius", "write NAME=VALUE with a unit"),
+    ("pin.radus=3mm", r"no number 'pin.radus' to complete; did you mean pin.radius"),
+    ("pin.radius=3", r"give a number with its unit, for instance --known pin.radius=3mm"),
+    ("pin.radius=3kg", "unit 'kg' does not fit"),
+    ("pin.radius=-3mm", "must be a finite number above 0 mm"),
+    ("first_stage.ratio=2", "follows from --ratio and --pins"),
+])  # fmt: skip
+def test_a_measure_that_cannot_be_used_is_told(text, said):
+    with pytest.raises(InputFault, match=f"--known {text}.*{said}"):
+        known_numbers([text])
+
+
+def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
+    path = tmp_path / "rig.toml"
+    path.write_text("mine", encoding="utf-8")
+    assert main([*RIG, "--output", str(path)]) == 2
+    assert "exists already and is not overwritten" in capsys.readouterr().err and path.read_text(encoding="utf-8") == "mine"
+    assert main([*RIG, "--output", str(path), "--overwrite"]) == 0
+    assert load_reducer(path).name == "ratio-81-1600Nm"
+    assert main([*RIG, "--output", str(tmp_path / "rig.txt")]) == 2
+    assert "must end in .toml" in capsys.readouterr().err
+
+
+def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
+    assert "usual: look at rated torque and diameter" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    assert complete(Given(81, 40, 1600.0)).doubts == []
