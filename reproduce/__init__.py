@@ -17,6 +17,7 @@ from pages.render import written
 from reproduce import (  # noqa: F401  each registers its claims
     bearing_claims,
     coefficient_claims,
+    completion_claims,
     flank_wear_claims,
     force_claims,
     geometry_claims,

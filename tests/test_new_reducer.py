@@ -109,3 +109,20 @@ def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
 def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
     assert "usual: look at rated torque and diameter" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
     assert complete(Given(81, 40, 1600.0)).doubts == []
+
+
+@pytest.mark.parametrize("reducer, rated, tested, outside", [("RV20E-121", "167", 8, {"pin.radius"}), ("BX-40E", "412", 4, set())])
+def test_the_librarys_reducers_from_catalogue_numbers_alone(tmp_path, capsys, reducer, rated, tested, outside):
+    path = tmp_path / "new.toml"
+    words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", rated, "--output", str(path), "--overwrite", "--against", reducer]
+    assert main([*words, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["against"]
+    held = [row for row in rows if row["tests"]]
+    assert len(held) == tested and {row["name"] for row in held if not row["inside"]} == outside
+    # Neither what the file assumes itself nor what was assumed with it in sight counts.
+    assert not any(row["source"].startswith("assumed") or row["name"].startswith(("outer_race", "wear.")) for row in held)
+    (ring,) = [row for row in rows if row["name"] == "pin.circle_radius"]
+    full = load_reducer(reducer)
+    assert ring["in_file"] == pytest.approx(1e3 * full.starts["pin_circle_radius"])
+    assert main(words) == 0
+    assert f"of {tested} numbers that {reducer} has from its source" in " ".join(capsys.readouterr().out.split())

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cli.completion import completed_by, reducer_completions
 from cli.options import add_json
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
@@ -35,6 +36,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--name", help="name of the reducer (default: of ratio and torque)")
     new.add_argument("--output", metavar="FILE", help="the reducer file (default NAME.toml)")
     new.add_argument("--overwrite", action="store_true", help="write over a file that is there")
+    completed_by(
+        new.add_argument("--against", metavar="REDUCER", help="hold what is completed against a full file of the same reducer, of the library or one's own"),
+        reducer_completions,
+    )
     add_json(new, "print numbers, ranges and rules as JSON, nothing else")
     new.set_defaults(run=run_new)
 
@@ -42,10 +47,12 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_new(options: argparse.Namespace) -> int:
     """The file is written after it was read and checked as any other."""
     from cli.screen import json_text
-    from cli.show.new_reducer import show
+    from cli.show.new_reducer import show, show_against
     from fmu_src.checked_file import write_text
+    from reducers.completion.compare import against
     from reducers.completion.complete import complete
     from reducers.completion.file import text_of
+    from reducers.reducer import load_reducer
 
     given = given_by(options)
     name = options.name or f"ratio-{given.ratio:g}-{given.rated:g}Nm"
@@ -55,10 +62,14 @@ def run_new(options: argparse.Namespace) -> int:
         text = text_of(completion, name)
         checked(text, target)
     write_text(target, text)
+    rows = against(completion, load_reducer(options.against)) if options.against else []
     if options.json:
-        json_text({"file": str(target)} | as_json(completion))
+        compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}
+        json_text({"file": str(target)} | as_json(completion) | compared)
     else:
         show(completion, name, target)
+        if options.against:
+            show_against(rows, name, options.against)
     return 0
 
 

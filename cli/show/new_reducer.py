@@ -5,6 +5,7 @@ from pathlib import Path
 from rich.table import Table
 
 from cli.screen import console, styled
+from reducers.completion.compare import Row
 from reducers.completion.complete import Completion
 
 
@@ -20,3 +21,21 @@ def show(completion: Completion, name: str, file: Path) -> None:
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
     console().print(f"written: {file}; read and checked as any other reducer file")
+
+
+def show_against(rows: list[Row], name: str, full: str) -> None:
+    """Number by number, and how many of those that the full file has from its source lie inside."""
+    table = Table(title=f"{name} against {full}", title_justify="left")
+    for head in ("number", "completed", "range", "in the file", "unit", "inside?", "the file has it from"):
+        table.add_column(head, justify="right" if head in ("completed", "range", "in the file") else "left", overflow="fold")
+    for row in rows:
+        span = f"{row.low:.4g} to {row.high:.4g}" if row.low < row.high else ""
+        inside = "yes" if row.inside else ("no", "red")
+        unit = "" if row.unit == "1" else row.unit
+        table.add_row(row.name, f"{row.completed:.4g}", span, f"{row.in_file:.4g}", unit, styled(inside), row.source)
+    console(160).print(table)
+    known = [row for row in rows if row.tests]
+    console().print(
+        f"{sum(row.inside for row in known)} of {len(known)} numbers that {full} has from its source, and that come by a published rule, lie inside;"
+        f" {sum(row.inside for row in rows)} of {len(rows)} of all"
+    )

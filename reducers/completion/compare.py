@@ -1,0 +1,54 @@
+"""A completed reducer against a full file of the same one: is what the file says inside the range?"""
+
+from dataclasses import dataclass
+
+from fmu_src.names import found_by_name
+from fmu_src.units import conversion
+from reducers.completion.complete import RULES, Completion, Number
+from reducers.reducer import Reducer
+
+
+@dataclass(frozen=True)
+class Row:
+    """One number in its unit: completed, its range, what the full file says and where it has that from."""
+
+    name: str
+    unit: str
+    completed: float
+    low: float
+    high: float
+    in_file: float
+    source: str
+    by_published_rule: bool
+
+    @property
+    def inside(self) -> bool:
+        spare = 1e-9 * max(abs(self.low), abs(self.high))
+        return self.low - spare <= self.in_file <= self.high + spare
+
+    @property
+    def tests(self) -> bool:
+        """Whether it tests a rule: the file has the number from its source, and the completion has it by a rule that was published.
+
+        Ranges that are assumed were so with the library's reducers in sight: that these lie inside says nothing.
+        """
+        return not self.source.startswith("assumed") and self.by_published_rule
+
+
+def against(completion: Completion, full: Reducer) -> list[Row]:
+    """A row for every completed number that the full file has too."""
+    rows = []
+    for number in completion.numbers.values():
+        (_, variable), *_ = found_by_name((full.plant, full.wear), number.name)
+        if variable.name not in full.starts:
+            continue
+        factor, offset = conversion(variable.unit, number.unit)
+        value = factor * full.starts[variable.name] + offset
+        rows.append(Row(number.name, number.unit, number.value, number.low, number.high, value, full.sources[variable.name], published(number)))
+    return rows
+
+
+def published(number: Number) -> bool:
+    """Whether the number has a dial of its own, and that one a range that is not assumed."""
+    own = "pin.circle_radius" == number.name or RULES.get(number.name, ("", ""))[1] != ""
+    return own and not number.is_given and "assumed: " not in number.source
