@@ -6,8 +6,10 @@ from reducers.completion.given import Given
 from reproduce.claim import CATALOGUE, CONDITIONAL, Finding, Number, states
 from reproduce.context import BX, RV, Context
 
-SAYS = "Design rules of the field (pin circle by torque, K1, K2, width, first stage inside the ring of pins) fix the parts of a reducer" \
+SAYS = (
+    "Design rules of the field (pin circle by torque, K1, K2, width, first stage inside the ring of pins) fix the parts of a reducer"
     " whose ratio, pins and rated torque a catalogue gives."
+)
 
 
 def held_against(context: Context, name: str, rated: float) -> list[Row]:
