@@ -3,15 +3,21 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 from cli.main import main
 from fmu_src.faults import InputFault
+from pages.render import rendered_sections
 from reducers.completion.complete import NOT_ALONE, UNITS, complete
+from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
 from reducers.completion.given import Given
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
+from studies.completed_ranges import Influence, influences, what_matters
+from studies.report.assembly import contact_points, outline, pin_forces, pin_places
+from studies.report.completed import page_of
 
 RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
 
@@ -126,3 +132,49 @@ def test_the_librarys_reducers_from_catalogue_numbers_alone(tmp_path, capsys, re
     assert ring["in_file"] == pytest.approx(1e3 * full.starts["pin_circle_radius"])
     assert main(words) == 0
     assert f"of {tested} numbers that {reducer} has from its source" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.fixture(scope="module")
+def rig():
+    return complete(Given(81, 40, 1600.0))
+
+
+def test_the_drawing_is_to_scale_and_every_pin_touches_both_discs(rig):
+    reducer = reducer_at(rig, {})
+    radius = 1e3 * reducer.starts["pin_radius"]
+    for d in range(2):
+        drawn, pins = outline(reducer, d), pin_places(reducer)
+        nearest = np.abs(pins[:, None] - drawn[None, :]).min(axis=1)
+        # An unmodified disc touches all pins; the drawn points lie some tenths of a millimetre apart.
+        assert nearest == pytest.approx(radius, abs=0.02)
+        points, normals = contact_points(reducer, d)
+        assert np.abs(points - pins) == pytest.approx(radius) and np.abs(normals) == pytest.approx(1.0)
+        assert np.abs(points[:, None] - drawn[None, :]).min(axis=1).max() < 0.51 * np.abs(np.diff(drawn)).max()
+    # Together the forces carry the torque about the ring's centre.
+    force = pin_forces(reducer)
+    moments = [float(np.sum(force[d] * np.imag(np.conj(contact_points(reducer, d)[0]) * contact_points(reducer, d)[1]))) for d in range(2)]
+    assert abs(sum(moments)) * 1e-3 == pytest.approx(1600.0, rel=0.03)
+
+
+def test_page_shows_parts_numbers_and_influences(rig):
+    found = [Influence("K1", "lost_motion_arcmin", 0.5, 1.0, 1.3), Influence("gap", "lost_motion_arcmin", 1.0, 1.0, 1.001)]
+    page = page_of(rig, reducer_at(rig, {}), found)
+    html = rendered_sections(page)
+    assert "completed reducer" in html and "rigid unless set" in html and "eccentricity times pins" in html
+    (table,) = page.sections[1].tables
+    assert [row[0] for row in table.rows] == ["lost motion"] and table.rows[0][-1] == "40"
+    assert len(page_of(rig, reducer_at(rig, {}), []).sections) == 2
+
+
+def test_ranges_move_the_signals_that_they_must():
+    found = {(one.dial, one.signal): one for one in influences(complete(Given(121, 40, 167.0)), ("gap", "wear.mesh_coefficient"))}
+    lost, stiffness = "lost_motion_arcmin", "torsional_stiffness_Nm_per_arcmin"
+    gap = found["gap", lost]
+    # From no gap to half an arcmin on either flank.
+    assert gap.high - gap.low == pytest.approx(1.0, abs=0.1)
+    wear = found["wear.mesh_coefficient", "disc_flank_um"]
+    # A flank wears with its coefficient, and less the more it has spread the load by then.
+    assert 2.0 < wear.high / wear.middle < 5.0 and 2.0 < wear.middle / wear.low <= 5.0
+    assert found["wear.mesh_coefficient", stiffness].share == 0.0 and found["wear.mesh_coefficient", lost].share == 0.0
+    strongest = what_matters(list(found.values()))
+    assert strongest[lost][0].dial == "gap" and strongest["disc_flank_um"][0].dial == "wear.mesh_coefficient"

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from reducers.completion.complete import Completion
     from reducers.completion.given import Given
     from reducers.reducer import Reducer
+    from studies.completed_ranges import Influence
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -40,6 +41,11 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         new.add_argument("--against", metavar="REDUCER", help="hold what is completed against a full file of the same reducer, of the library or one's own"),
         reducer_completions,
     )
+    new.add_argument(
+        "--sensitivity", action="store_true",
+        help="also say which ranges matter for which signal: the bench at both ends of each (a minute)",
+    )
+    new.add_argument("--html", metavar="FILE", help="write a page with the parts to scale, and what else is asked for")
     add_json(new, "print numbers, ranges and rules as JSON, nothing else")
     new.set_defaults(run=run_new)
 
@@ -47,7 +53,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_new(options: argparse.Namespace) -> int:
     """The file is written after it was read and checked as any other."""
     from cli.screen import json_text
-    from cli.show.new_reducer import show, show_against
+    from cli.show.new_reducer import show, show_against, show_influences
     from fmu_src.checked_file import write_text
     from reducers.completion.compare import against
     from reducers.completion.complete import complete
@@ -57,20 +63,42 @@ def run_new(options: argparse.Namespace) -> int:
     given = given_by(options)
     name = options.name or f"ratio-{given.ratio:g}-{given.rated:g}Nm"
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
+    page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
         completion = complete(given)
         text = text_of(completion, name)
-        checked(text, target)
+        reducer = checked(text, target)
     write_text(target, text)
+    found = sensitivity(completion) if options.sensitivity else []
+    if page is not None:
+        write_page(completion, reducer, found, page)
     rows = against(completion, load_reducer(options.against)) if options.against else []
     if options.json:
         compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}
-        json_text({"file": str(target)} | as_json(completion) | compared)
+        moved = {"sensitivity": [vars(one) | {"share": one.share} for one in found]} if options.sensitivity else {}
+        json_text({"file": str(target)} | as_json(completion) | compared | moved)
     else:
         show(completion, name, target)
         if options.against:
             show_against(rows, name, options.against)
+        if options.sensitivity:
+            show_influences(completion, found)
     return 0
+
+
+def sensitivity(completion: "Completion") -> "list[Influence]":
+    from studies.completed_ranges import influences
+
+    with task("running the bench at the ends of each range", total=2 * len(completion.dials) + 1) as running:
+        return influences(completion, advance=running.advance)
+
+
+def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influence]", path: Path) -> None:
+    from pages.render import rendered_sections, written
+    from studies.report.completed import page_of
+
+    with task("drawing"):
+        written(rendered_sections(page_of(completion, reducer, found)), path)
 
 
 def given_by(options: argparse.Namespace) -> "Given":

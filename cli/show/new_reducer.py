@@ -7,6 +7,7 @@ from rich.table import Table
 from cli.screen import console, styled
 from reducers.completion.compare import Row
 from reducers.completion.complete import Completion
+from studies.completed_ranges import Influence, what_matters
 
 
 def show(completion: Completion, name: str, file: Path) -> None:
@@ -39,3 +40,16 @@ def show_against(rows: list[Row], name: str, full: str) -> None:
         f"{sum(row.inside for row in known)} of {len(known)} numbers that {full} has from its source, and that come by a published rule, lie inside;"
         f" {sum(row.inside for row in rows)} of {len(rows)} of all"
     )
+
+
+def show_influences(completion: Completion, found: list[Influence]) -> None:
+    """For each signal the dials whose ranges move it most."""
+    meaning = {dial.name: dial.meaning for dial in completion.dials}
+    table = Table(title="which ranges matter: the signal with a dial at either end of its range", title_justify="left")
+    for head in ("signal", "dial", "lower end", "middle", "upper end", "± %"):
+        table.add_column(head, justify="left" if head in ("signal", "dial") else "right", overflow="fold")
+    for signal, strongest in what_matters(found).items():
+        for k, one in enumerate(strongest):
+            values = [f"{value:.4g}" for value in (one.low, one.middle, one.high)]
+            table.add_row("" if k else signal, meaning[one.dial], *values, f"{100.0 * one.share:.0f}", end_section=one is strongest[-1])
+    console(160).print(table)

@@ -1,8 +1,13 @@
 """A completed reducer as the text of a reducer file."""
 
 import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
 
-from reducers.completion.complete import NOT_ALONE, Completion, Number
+from reducers.completion.complete import NOT_ALONE, Completion, Number, numbers_of
+from reducers.reducer import Reducer, reducer_of
 
 
 def text_of(completion: Completion, name: str) -> str:
@@ -43,3 +48,10 @@ def figure(value: float) -> str:
     """Whole digits, always a TOML float."""
     text = repr(float(f"{value:.9g}"))
     return text if any(sign in text for sign in ".en") else f"{text}.0"
+
+
+def reducer_at(completion: Completion, moved: Mapping[str, float], name: str = "completed") -> Reducer:
+    """The reducer that some dials elsewhere than in the middle make, read and checked as any other; without ranges."""
+    values = numbers_of(completion.given, {dial.name: dial.value for dial in completion.dials} | dict(moved))
+    numbers = {key: replace(number, value=values[key], low=values[key], high=values[key]) for key, number in completion.numbers.items()}
+    return reducer_of(tomllib.loads(text_of(replace(completion, numbers=numbers), name)), Path(f"{name}.toml"))
