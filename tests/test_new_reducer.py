@@ -72,6 +72,7 @@ def test_undercut_begins_where_the_published_condition_says():
     ({"lobes": 40}, r"--pins 40 and --lobes 40: the pins do not close the ring.*--pins 41 or --lobes 39"),
     ({"rated": -1.0}, r"--rated -1 N m: must lie from 1"),
     ({"ratio": math.nan}, r"--ratio nan: must lie"),
+    ({"ratio": 281.0}, r"--ratio 281 with --pins 40 and 3 cranks: planets of 70 teeth around a sun of 10 overlap; give --cranks 2"),
     ({"cranks": 4}, r"--cranks 4: must lie from 2 to 3"),
     ({"known": {"pin.radius": 12.0}}, r"pin.radius = 12 mm: 40 pins on a circle of 122.9 mm radius overlap.*below 9.646 mm"),
     ({"known": {"pin.radius": 9.5, "crank.eccentricity": 2.5}}, r"pin.radius = 9.5 mm: the flank is undercut.*below 8\.\d+ mm"),

@@ -27,6 +27,12 @@ def check_geometry(given: Given, values: Mapping[str, float]) -> None:
     ring, pin, eccentricity = values["pin.circle_radius"], values["pin.radius"], values["crank.eccentricity"]
     axis, hole, inner, roller = (values[k] for k in ("crank.circle_radius", "outer_race.radius", "inner_race.radius", "roller.radius"))
     pins, cranks = given.pins, given.crank_count
+    planet, sun = given.teeth
+    if (sun + planet) * math.sin(math.pi / cranks) <= planet + 2:
+        raise InputFault(
+            f"--ratio {given.ratio:g} with --pins {pins} and {cranks} cranks: planets of {planet} teeth around a sun of {sun} overlap;"
+            f" give --cranks {cranks - 1}, or look at ratio and pins"
+        )
     room = ring * math.sin(math.pi / pins)
     if given.diameter is not None and ring + pin >= 0.5 * given.diameter:
         raise InputFault(

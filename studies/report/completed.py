@@ -28,7 +28,7 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) ->
     ]  # fmt: skip
     return Page(
         "completed reducer", reducer.name, f"ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m at {given.speed:g} rpm",
-        f"{known} numbers given, {len(completion.numbers) - known} completed by design rules", cards, sections, [*completion.doubts, RIGID],
+        f"{known} number{'s' * (known > 1)} given, {len(completion.numbers) - known} completed by design rules", cards, sections, [*completion.doubts, RIGID],
     )  # fmt: skip
 
 
