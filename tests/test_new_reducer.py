@@ -179,3 +179,17 @@ def test_ranges_move_the_signals_that_they_must():
     assert found["wear.mesh_coefficient", stiffness].share == 0.0 and found["wear.mesh_coefficient", lost].share == 0.0
     strongest = what_matters(list(found.values()))
     assert strongest[lost][0].dial == "gap" and strongest["disc_flank_um"][0].dial == "wear.mesh_coefficient"
+
+
+def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch):
+    one = Influence("K1", "lost_motion_arcmin", 0.5, 1.0, 1.3)
+    monkeypatch.setattr("studies.completed_ranges.influences", lambda completion, advance: advance() or [one])
+    page, words = tmp_path / "rig.html", [*RIG, "--output", str(tmp_path / "rig.toml"), "--overwrite", "--sensitivity"]
+    assert main([*words, "--html", str(page), "--json"]) == 0
+    (told,) = json.loads(capsys.readouterr().out)["sensitivity"]
+    assert told["dial"] == "K1" and told["share"] == pytest.approx(0.4)
+    assert "The parts to scale" in page.read_text(encoding="utf-8")
+    assert main(words) == 0
+    assert "eccentricity times pins over pin circle radius" in capsys.readouterr().out
+    assert main([*RIG, "--output", str(tmp_path / "other.toml"), "--html", str(tmp_path / "rig.pdf")]) == 2
+    assert "must end in .html" in capsys.readouterr().err and not (tmp_path / "other.toml").exists()
