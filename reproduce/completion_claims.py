@@ -30,10 +30,10 @@ def outside(rows: list[Row]) -> set[str]:
 def small(context: Context) -> Finding:
     rows = held_against(context, RV, 167.0)
     return Finding(
-        CONDITIONAL, f"{sum(row.inside for row in rows)} of {len(rows)} numbers of the document lie in the completed ranges; its pins are 3 % thinner"
-        " than the lower end. Ranges are wide, 20 to 40 % to either side: rules fix a reducer of this kind, not this one.",
-        numbers_of(rows), [("only the pins' radius lies outside, by less than 5 %", outside(rows) == {"pin.radius"}
-                            and all(row.in_file > 0.95 * row.low for row in rows)),
+        CONDITIONAL, f"{sum(row.inside for row in rows)} of {len(rows)} numbers of the document lie in the completed ranges; its pins are 5 % thinner"
+        " than the lower end. Ranges are wide, a fifth to a half of the number to either side: rules fix a reducer of this kind, not this one.",
+        numbers_of(rows), [("only the pins' radius lies outside, by less than a tenth", outside(rows) == {"pin.radius"}
+                            and all(row.in_file > 0.9 * row.low for row in rows)),
                            ("eight numbers are tested", len(rows) == 8)],
         "for a design, within wide ranges; the pins of this one are thinner than the rule has them",
     )  # fmt: skip

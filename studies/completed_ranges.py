@@ -46,12 +46,14 @@ class Influence:
 
 
 def influences(completion: Completion, dials: Container[str] | None = None, advance: Callable[[], None] = lambda: None) -> list[Influence]:
-    """One for each dial (of some names) and signal, the strongest first within a signal; ``advance`` is called after each of two benches a dial, and one."""
+    """One for each dial (of some names) and signal, the strongest first within a signal; ``advance`` is called after each bench."""
+    # Equilibria know no masses.
+    moving = {dial for number in completion.numbers.values() if not number.name.endswith((".mass", ".inertia")) for dial in number.dials}
     middle = signals_of(reducer_at(completion, {}))
     advance()
     found = []
     for dial in completion.dials:
-        if dials is not None and dial.name not in dials:
+        if dial.name not in moving or (dials is not None and dial.name not in dials):
             continue
         ends = []
         for end in (dial.low, dial.high):

@@ -50,6 +50,18 @@ def test_rules_hold_in_what_is_completed():
     assert 0.8 < 7.0 * values["crank.circle_radius"] / 2.0 / (2.0 * (ring + pin)) < 1.1
 
 
+def test_masses_are_those_reckoned_for_reducers_of_that_size():
+    # Reckoned from the geometry of the parts of an RV-40E: disc, crank with planet, carrier.
+    known = known_numbers([
+        "pin.circle_radius=69.5mm", "pin.radius=3mm", "crank.circle_radius=37mm", "mesh.width=15mm", "outer_race.radius=19mm", "roller.radius=2.5mm",
+        "crank.eccentricity=1.3mm", "roller.length=12mm",
+    ])  # fmt: skip
+    numbers = complete(Given(121, 40, 412.0, known=known)).numbers
+    for name, reckoned in (("disc.mass", 1.106), ("disc.inertia", 2.94e-3), ("crank.mass", 0.407), ("crank.inertia", 6.9e-5),
+                           ("carrier.mass", 2.18), ("carrier.inertia", 4.2e-3)):
+        assert numbers[name].value == pytest.approx(reckoned, rel=0.03), name
+
+
 def test_what_is_known_stays_and_carries_on():
     plain, known = complete(Given(81, 40, 1600.0)), complete(Given(81, 40, 1600.0, known=known_numbers(["pin.circle_radius=0.11 m", "outer_race.radius=25mm"])))
     assert known.numbers["pin.circle_radius"].value == pytest.approx(110.0) and known.numbers["pin.circle_radius"].is_given

@@ -1,7 +1,7 @@
 """From what is given to every number of a reducer file, by the design rules of the field; each with the range that the dials leave it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reducers.completion.dials import ASSUMED, Dial, dials_of
@@ -14,7 +14,8 @@ UNITS = {
     "mesh.stiffness": "N", "mesh.stiffness_lankarani": "N", "disc.equidistant_modification": "um", "disc.shift_modification": "um",
     "inner_race.radius": "mm", "outer_race.radius": "mm", "roller.radius": "mm", "roller.length": "mm", "roller.stiffness": "N",
     "roller.stiffness_lankarani": "N", "first_stage.ratio": "1", "first_stage.sun_teeth": "1", "input.speed": "rpm", "output.load_torque": "N.m",
-    "wear.run_in_crank_speed": "rpm",
+    "wear.run_in_crank_speed": "rpm", "disc.mass": "kg", "disc.inertia": "kg.m^2", "crank.mass": "kg", "crank.inertia": "kg.m^2",
+    "carrier.mass": "kg", "carrier.inertia": "kg.m^2", "sun.inertia": "kg.m^2",
 } | {dial.name: dial.unit for dial in ASSUMED}  # fmt: skip
 # By which rule a number comes, and the dial of its own that the rule has.
 RULES = {
@@ -29,11 +30,17 @@ RULES = {
     "roller.stiffness_lankarani": ("same approach as the line contact at the largest roller force", ""),
     "input.speed": ("ratio times output speed", ""), "first_stage.ratio": ("ratio = 1 + pins z2/z1", ""),
     "first_stage.sun_teeth": ("fewest whole teeth from 10 on", ""), "wear.run_in_crank_speed": ("output speed times lobes", ""),
+    "disc.mass": ("a steel plate with holes", "disc_solid"), "disc.inertia": ("radius of inertia 0.77 of the plate's", ""),
+    "crank.mass": ("two steel lobes and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the lobe's", ""),
+    "carrier.mass": ("a steel plate", "carrier_bulk"), "carrier.inertia": ("radius of inertia 0.63 of the pin circle's", ""),
+    "sun.inertia": ("a steel shaft as thick as the sun", "sun_length"),
 }  # fmt: skip
 # None of these may move alone: races and rollers fit each other, teeth are whole.
 NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_stage.sun_teeth")
 COMPLETED, GIVEN = "completed", "given"
 PALMGREN = 8.06e4
+# kg/mm^3
+STEEL = 7.85e-6
 # By so many teeth a sun may have more than the fewest (assumed).
 SUN_MORE = 10
 
@@ -68,34 +75,37 @@ class Completion:
 def complete(given: Given) -> Completion:
     """Every number with its range; InputFault if what is given makes no reducer.
 
-    A range is the number's value and the root of the sum of squares of what each dial, at either end of its range, adds or takes away.
+    A number's range adds what each dial, at either end of its own range, makes of it, see ``span``.
     """
     dials = dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion)
     middle = {dial.name: dial.value for dial in dials}
     values = numbers_of(given, middle)
     check_geometry(given, values)
-    up, down = dict.fromkeys(values, 0.0), dict.fromkeys(values, 0.0)
-    signed = dict.fromkeys(values, False)
-    moved: dict[str, list[str]] = {name: [] for name in values}
-    for dial in dials:
-        ends = [numbers_of(given, middle | {dial.name: end}) for end in (dial.low, dial.high)]
-        for name, value in values.items():
-            changes = [end[name] - value for end in ends]
-            signed[name] = signed[name] or min(end[name] for end in ends) < 0.0
-            up[name] += max(0.0, *changes) ** 2
-            down[name] += min(0.0, *changes) ** 2
-            if any(changes):
-                moved[name].append(dial.name)
-    numbers = {}
+    ends = {dial.name: [numbers_of(given, middle | {dial.name: end}) for end in (dial.low, dial.high)] for dial in dials}
+    numbers, by_name = {}, {dial.name: dial for dial in dials}
     for name, value in values.items():
-        low, high = value - math.sqrt(down[name]), value + math.sqrt(up[name])
-        if not signed[name]:
-            # Changes that add up must not turn a length or gap around that no dial turns around.
-            low = max(low, 0.0)
+        reached = {dial: [end[name] for end in both] for dial, both in ends.items() if any(end[name] != value for end in both)}
+        low, high = span(value, list(reached.values()))
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
-        numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, {d.name: d for d in dials}), tuple(moved[name]))
+        numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
     return Completion(given, dials, numbers, doubts_of(given, values))
+
+
+def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
+    """[low, high] of a number that dials, each for itself, take from ``value`` to the ends ``reached``.
+
+    Changes add up as squares: of logarithms, as numbers are products, unless one of them is 0 or turns around.
+    """
+    products = min([value, *(end for ends in reached for end in ends)]) > 0.0
+    there, back = (math.log, math.exp) if products else (float, float)
+    changes = [[there(end) - there(value) for end in ends] for ends in reached]
+    up, down = (math.sqrt(sum(max(0.0, *(sign * change for change in both)) ** 2 for both in changes)) for sign in (1.0, -1.0))
+    low, high = back(there(value) - down), back(there(value) + up)
+    if min([value, *(end for ends in reached for end in ends)]) >= 0.0:
+        # What no dial turns around stays on its side.
+        low = max(low, 0.0)
+    return (low, high) if reached else (value, value)
 
 
 def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
@@ -152,9 +162,29 @@ def numbers_of(given: Given, dial: Mapping[str, float]) -> dict[str, float]:
         take(f"{part}.stiffness_lankarani", force / (force / stiffness) ** (0.9 * 1.5))
     take("input.speed", given.ratio * given.speed)
     take("wear.run_in_crank_speed", given.speed * lobes)
+    masses(take, dial, ring, pin, axis, width, stage, hole, found["inner_race.radius"], cranks)
     for one in ASSUMED:
         take(one.name, dial[one.name])
     return {name: found[name] for name in UNITS}
+
+
+def masses(
+    take: Callable[[str, float], float], dial: Mapping[str, float], ring: float, pin: float, axis: float, width: float, stage: float, hole: float, lobe: float,
+    cranks: int,
+) -> None:
+    """Masses [kg] and inertias [kg m^2] of bodies from radii and width [mm]; radii of inertia as of an RV-20E (assumed)."""
+    def cylinder(radius: float, length: float) -> float:
+        return STEEL * math.pi * radius**2 * length
+
+    plate = ring - pin
+    disc = take("disc.mass", dial["disc_solid"] * (cylinder(plate, width) - cranks * cylinder(hole, width)))
+    take("disc.inertia", disc * (0.77e-3 * plate) ** 2)
+    crank = take("crank.mass", dial["crank_bulk"] * cylinder(lobe, 2.0 * width))
+    take("crank.inertia", crank * (0.94e-3 * lobe) ** 2)
+    carrier = take("carrier.mass", dial["carrier_bulk"] * cylinder(ring, 2.0 * width))
+    take("carrier.inertia", carrier * (0.63e-3 * ring) ** 2)
+    sun = axis / (1.0 + stage)
+    take("sun.inertia", 0.5e-6 * cylinder(sun, dial["sun_length"] * ring) * sun**2)
 
 
 def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, float]:

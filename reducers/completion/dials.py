@@ -19,6 +19,7 @@ PROGRAMS = "constraint of public programs for the optimal design of RV reducers"
 # One line contact of steel: F = 8.06e4 L^(8/9) d^(10/9), N and mm (Palmgren); two of them in series are as stiff as this share of one.
 IN_SERIES = 2.0 ** (-10.0 / 9.0)
 
+BULK = "assumed: around what was reckoned from drawings of an RV-20E and an RV-40E"
 # Rollers stand at least so far apart [deg], see [RV programs].
 ROLLERS_APART = 1.0
 
@@ -84,6 +85,10 @@ def dials_of(pins: int, rollers: int, diameter: bool, lost_motion: float) -> lis
                 "arcmin", 0.25 * lost_motion),
         between("shift", "further gap by shift modification", 0.0, 0.5 * lost_motion, "assumed: at most the lost motion of the catalogue, both flanks",
                 "arcmin", 0.0),
+        between("disc_solid", "mass of a disc over that of a plate with the cranks' holes", 0.7, 0.95, BULK),
+        between("crank_bulk", "mass of crank with planet over that of its two lobes", 2.0, 4.0, BULK),
+        between("carrier_bulk", "mass of the carrier over that of a plate of the ring's size, as thick as the discs", 0.4, 0.9, BULK),
+        between("sun_length", "length of sun and shaft over pin circle radius", 1.5, 3.5, BULK),
         *ASSUMED,
     ]  # fmt: skip
 

@@ -44,6 +44,6 @@ def number(text: str, name: str, value: str) -> float:
     except UnitError as problem:
         raise InputFault(f"--known {text}: {problem}") from None
     given = factor * float(match[1]) + offset
-    if not math.isfinite(given) or (unit in ("mm", "N") and given <= 0.0):
+    if not math.isfinite(given) or (unit in ("mm", "N", "kg", "kg.m^2") and given <= 0.0):
         raise InputFault(f"--known {text}: {name} must be a finite number above 0 {unit}")
     return given

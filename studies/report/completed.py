@@ -23,7 +23,7 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) ->
     sections = [
         Section("parts", "Parts", "Drawn from the completed file.", [whole, zoom(whole, reducer)]),
         *([signals(completion, found)] if found else []),
-        Section("numbers", "Numbers", "Ranges add up, as root of the sum of squares, what each dial at either end of its own range makes of the number.",
+        Section("numbers", "Numbers", "Ranges add up, as squares of logarithms, what each dial at either end of its own range makes of the number.",
                 tables=[numbers(completion), dials(completion)]),
     ]  # fmt: skip
     return Page(
