@@ -130,6 +130,15 @@ def test_a_gap_is_refused():
         measured_orders(angle, error(angle), [1], "none", None, "x")
 
 
+def test_numbers_stand_by_order_with_what_their_row_states(record):
+    """Real part before imaginary part, whatever the order of the rows; a condition's column goes with them."""
+    rows = TABLE.replace("[0, 1, 39, 78]", "[0, 78, 1, 39]") + 'table.temperature = { values = [20, 21, 22, 23], unit = "degC" }\nzero = "absolute"'
+    found = record(rows)
+    assert list(found.axes["order"]) == [0, 1, 1, 39, 39, 78, 78]
+    assert list(found.axes["part"]) == [0, 0, 1, 0, 1, 0, 1]
+    assert found.axes["temperature"] - 273.15 == pytest.approx([20, 22, 22, 23, 23, 21, 21])
+
+
 def test_a_table_is_two_numbers_an_order(record):
     """Without the mean as long as the zero is free."""
     found = complex_of(record(TABLE))

@@ -134,15 +134,20 @@ def measured_orders(angle: Floats, values: Floats, orders: Sequence[float], wind
     return amplitudes(curve, orders, window), leakage(curve, orders, window)
 
 
+def rows_and_parts(order: Floats) -> tuple[npt.NDArray[np.intp], Floats]:
+    """(row, part) of every number of a table of orders, by rising order: the real part, then the imaginary one; of order 0 there is only one."""
+    waves = np.flatnonzero(order > 0.0)
+    rows = np.concatenate([np.arange(len(order)), waves])
+    parts = np.concatenate([np.full(len(order), REAL), np.full(len(waves), IMAGINARY)])
+    place = np.lexsort((parts, order[rows]))
+    return rows[place], parts[place]
+
+
 def as_numbers(orders: Sequence[float] | Floats, found: Complex) -> dict[str, Floats]:
-    """``value``, and the axes ``order`` and ``part``: the real parts of all orders, then the imaginary ones; of order 0 there is only one."""
+    """``value``, and the axes ``order`` and ``part``, of a record."""
     order = np.asarray(orders, np.float64)
-    waves = order > 0.0
-    return {
-        "value": np.concatenate([found.real, found.imag[waves]]),
-        "order": np.concatenate([order, order[waves]]),
-        "part": np.concatenate([np.full(len(order), REAL), np.full(int(waves.sum()), IMAGINARY)]),
-    }
+    rows, part = rows_and_parts(order)
+    return {"value": np.where(part == IMAGINARY, found.imag[rows], found.real[rows]), "order": order[rows], "part": part}
 
 
 def numbers_of(curve: EvenCurve, order: Floats, part: Floats) -> Floats:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from discrepancy.campaign.file_format import Convention, Run
-from discrepancy.campaign.order_analysis import Complex, as_numbers, even_curve, measured_orders
+from discrepancy.campaign.order_analysis import Complex, as_numbers, even_curve, measured_orders, rows_and_parts
 from discrepancy.campaign.quantities import AXES, QUANTITIES, VALUE, Quantity
 from discrepancy.campaign.series import Series
 from discrepancy.problem import ERROR, ORDERS
@@ -63,9 +63,8 @@ def from_table(run: Run, series: Series, zero_known: bool, direction: int, place
     require_some(list(order[kept]), place)
     found = conventional(order, amplitude, series["phase"], run.convention or Convention(), direction)
     numbers = as_numbers(order[kept], found[kept])
-    waves = order[kept] > 0.0
-    rows = {name: column[kept] for name, column in series.items() if name not in AXIS_NAMES}
-    return numbers | {name: np.concatenate([column, column[waves]]) for name, column in rows.items()}
+    rows, _ = rows_and_parts(order[kept])
+    return numbers | {name: column[kept][rows] for name, column in series.items() if name not in AXIS_NAMES}
 
 
 def conventional(order: Floats, amplitude: Floats, phase: Floats, convention: Convention, direction: int) -> Complex:
