@@ -152,6 +152,17 @@ def test_compared_and_localised_by_order(tmp_path):
     assert all(s["noise_floor"] == pytest.approx(0.05 * ARCSEC, rel=0.01) for s in result.signals)
     assert all(s["error"] == pytest.approx(1e-4 / np.sqrt(2 * len(ORDERS)), rel=0.01) for s in result.signals)
     # Single orders are shown: the strongest is the one that is missing.
-    assert result.diagnostician.localisation.findings[0].feature == "order 1"
+    assert result.diagnostician.localisation.findings[0].feature == "orders: output shaft, 1"
     figure = next(f for f in result.figures if f.name.endswith("order 1"))
     assert figure.measured == pytest.approx(1e-4, rel=0.01) and figure.model < 1e-6
+
+
+def test_one_order_that_is_far_off_hides_no_other(tmp_path):
+    """A run-out of 21 arcsec at order 1 and a resonance that lifts order 80 with the speed: both are said, the latter over the speed."""
+    conditions = {f"c{k}": (speed, load, "forward", "") for k, (speed, load) in enumerate((s, t) for s in (4.0, 9.0, 15.0) for t in (40.0, 80.0, 120.0, 160.0))}
+    model = PhysicalModel(load_model("RV20E-121"), write(tmp_path, conditions, empty(conditions)))
+    shown = model.predict({name: v for name, v in HIDDEN.items() if name.startswith("resonance")} | {"encoder_cos1[1]": 1e-4})
+    table = {record.name: complex_of(record, predicted) for record, predicted in zip(model.records, shown)}
+    found = compare(load_model("RV20E-121"), write(tmp_path, conditions, table)).diagnostician.localisation.findings
+    assert ("orders: output shaft, 1", "everywhere") in {(g.feature, g.dependence) for g in found}
+    assert ("orders: crank against carrier, 80", "speed") in {(g.feature, g.dependence) for g in found}

@@ -41,7 +41,7 @@ class Feature:
 def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, comb: int = COMB) -> list[Feature]:
     """All generic functions of a record."""
     if record.quantity == TABLES:
-        return of_orders(record)
+        return of_orders(record, orders)
     count = np.size(record.values)
     result = [Feature("mean", np.ones((count, 1)))]
     if count < SHORT:
@@ -78,10 +78,11 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
     return result
 
 
-def of_orders(record: Record) -> list[Feature]:
+def of_orders(record: Record, orders: Mapping[str, Sequence[float]]) -> list[Feature]:
     """Each order of a table, its two numbers together."""
     order = np.asarray(record.axes["order"], float)
-    return [Feature(f"order {o:g}", np.eye(order.size)[:, order == o]) for o in np.unique(order)]
+    named = {o: f"{name}, {o:g}" for name, family in orders.items() for o in family}
+    return [Feature(f"orders: {named.get(o, f'{o:g}')}", np.eye(order.size)[:, order == o]) for o in np.unique(order).tolist()]
 
 
 def waves(angle: Floats, orders: Sequence[float]) -> Floats:

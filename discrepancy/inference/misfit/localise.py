@@ -170,8 +170,7 @@ class Localiser:
             sums: dict[str, list[float]] = defaultdict(lambda: [0.0, 0.0])
             for i in indices:
                 _block, slices, _, gram = self.cells[i]
-                # Of a table of orders there is nothing else.
-                named = [s for f, s in slices.items() if not f.startswith("order ")] or list(slices.values())
+                named = [s for f, s in slices.items() if not f.startswith("order ")]
                 pick = np.concatenate([np.arange(s.start, s.stop) for s in named])
                 g = gram[np.ix_(pick, pick)]
                 s = scores[i][pick]
