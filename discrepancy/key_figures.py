@@ -16,6 +16,7 @@ from scipy.signal import lfilter
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.prediction.support import reversals
+from discrepancy.problem import ORDERS as TABLE
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from studies.hysteresis import LOST_MOTION_SHARE
@@ -139,6 +140,11 @@ def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: flo
     if record.quantity == "transmission_error" and "angle" in record.axes:
         by_orders = orders_over(np.asarray(record.axes["angle"], float)[good], orders)
         return lambda values: by_orders(values[good])
+    if record.quantity == TABLE:
+        every = np.asarray(record.axes["order"], float)
+        named = {o: name for name, family in orders.items() for o in family}
+        titles = {o: name_of(named[o], (o,)) if o in named else f"order {o:.4g}" for o in np.unique(every[every > 0.0])}
+        return lambda values: {title: float(np.linalg.norm(values[every == o])) for o, title in titles.items()}
     return lambda _: {}
 
 

@@ -27,7 +27,7 @@ from studies.hysteresis import torque_way
 
 HOUR = 3600.0
 # Quantities whose condition has these factors; the others are taken with the input held.
-RUNNING = {"transmission_error", "input_torque", "efficiency", "vibration_order", "cage_speed", "no_load_torque"}
+RUNNING = {"transmission_error", "transmission_order", "input_torque", "efficiency", "vibration_order", "cage_speed", "no_load_torque"}
 AGED = {"wear_depth", "wear_profile", "mass_loss", "debris_iron"}
 LEVELS = 3
 ANGLES = 400
@@ -240,8 +240,8 @@ def blank(example: Record, condition: dict[str, float]) -> Record:
     axes: dict[str, Floats] = {}
     if "angle" in example.axes and example.quantity == "transmission_error":
         axes = {"angle": np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)}
-    elif example.quantity in ("hysteresis", "wear_profile", "vibration_order"):
-        axes = {k: v for k, v in example.axes.items() if k in ("torque", "depth_angle", "order")}
+    elif example.quantity in ("hysteresis", "wear_profile", "vibration_order", "transmission_order"):
+        axes = {k: v for k, v in example.axes.items() if k in ("torque", "depth_angle", "order", "part")}
     size = len(next(iter(axes.values()))) if axes else 1
     factors = {**example.factors, **condition}
     return replace(example, name="proposed", values=np.zeros(size), axes=axes, factors=factors, held_out=False)

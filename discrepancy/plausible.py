@@ -34,7 +34,7 @@ NEAR_OTHERS = (1.0 / 3.0, 3.0)
 DOUBTED, HARDLY_KNOWN = 100.0, 1000.0
 LOOSE = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
 # Without friction and errors of parts, which the base model leaves out, there is nothing to compare with.
-NOT_COMPARED = ("no_load_torque", "temperature", "vibration", "vibration_order")
+NOT_COMPARED = ("no_load_torque", "temperature", "vibration", "vibration_order", "transmission_order")
 # So many samples show a scale; and so many runs of a signal, from all its files.
 SAMPLES, MOST_RUNS = 200, 8
 

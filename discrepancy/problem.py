@@ -17,6 +17,10 @@ from fmu_src.threads import Threads
 NEAR: ContextVar[Mapping[str, float] | None] = ContextVar("near", default=None)
 # Quantities whose zero nobody knows unless it is said: an encoder starts anywhere.
 FREE_ZERO = ("transmission_error", "hysteresis")
+# Orders of a transmission error: what shows in one shows in the other.
+ERROR, ORDERS = "transmission_error", "transmission_order"
+# Quantities whose zero may be said to be known; an order table has a mean then, order 0.
+WITH_ZERO = (*FREE_ZERO, ORDERS)
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
 BASE = "base"
 

@@ -1,4 +1,4 @@
-"""``rvwear campaign check`` and ``rvwear campaign template``."""
+"""``rvwear campaign check``, ``template`` and ``from-rv-te``."""
 
 import argparse
 
@@ -8,7 +8,7 @@ from fmu_src.progress import task
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    campaign = sub.add_parser("campaign", help="measurement campaigns: check one, write an empty one")
+    campaign = sub.add_parser("campaign", help="measurement campaigns: check one, write an empty one, make one of public data")
     actions = campaign.add_subparsers(dest="action", required=True, metavar="ACTION")
 
     check = actions.add_parser("check", help="what is missing, and what could not be told apart")
@@ -31,6 +31,17 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer(template, "name or file of the reducer (default RV20E-121)")
     add_json(template, "print the names of the files as JSON, nothing else")
     template.set_defaults(run=run_template)
+
+    rv = actions.add_parser("from-rv-te", help="make a campaign of your clone of XiLab-Robotics/Physics-Informed-Neural-Networks (a real RV reducer, ratio 81)")
+    rv.add_argument("source", metavar="CLONE", help="the clone's folder, or a table of orders (.csv) made of it")
+    rv.add_argument("folder", metavar="OUT", help="folder to write to; nothing in it is overwritten")
+    rv.add_argument("--reducer", metavar="FILE", help="reducer file for that reducer (default: state its ratio and rated torque)")
+    rv.add_argument("--rated", type=float, default=1600.0, metavar="N.m", help="rated torque that is stated without a reducer file (default 1600, assumed)")
+    rv.add_argument("--orders", type=float, nargs="+", metavar="K", help="orders per turn of the output to take from curves (default: the ten of the source)")
+    rv.add_argument("--noise", metavar="NUMBER", help='standard deviation of each number of an order, for instance "0.3 arcsec" (default: that, assumed)')
+    rv.add_argument("--held-out", type=float, default=0.2, metavar="SHARE", help="share of the whole conditions that is held out (default 0.2)")
+    add_json(rv, "print what was made as JSON, nothing else")
+    rv.set_defaults(run=run_from_rv_te)
 
 
 def run_check(options: argparse.Namespace) -> int:
@@ -74,3 +85,25 @@ def run_template(options: argparse.Namespace) -> int:
             print(path)
         print(f"fill in the files, then: rvwear campaign check {options.folder}")
     return 0
+
+
+def run_from_rv_te(options: argparse.Namespace) -> int:
+    """Exit code 1 if files had to be left out."""
+    from pathlib import Path
+
+    from cli.screen import json_text
+    from discrepancy.campaign.from_rv_te import ORDERS, measured_in
+    from discrepancy.campaign.write_rv_te import write_campaign
+
+    runs, wrong = measured_in(Path(options.source), options.orders or ORDERS)
+    files = write_campaign(Path(options.folder), runs, options.reducer, options.rated, options.noise, options.held_out)
+    conditions = len({run.condition for run in runs})
+    if options.json:
+        json_text({"files": [str(path) for path in files], "runs": len(runs), "conditions": conditions, "left_out": wrong})
+    else:
+        for path in files:
+            print(path)
+        print(f"{len(runs)} runs in {conditions} conditions; rvwear campaign check {options.folder}")
+        for text in wrong:
+            print(f"left out: {text}")
+    return 1 if wrong else 0

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.problem import Record
+from discrepancy.problem import ERROR, ORDERS, Record
 from fmu_src.arrays import Floats
 
 # Two numbers nearer than this are one level: a share of the largest, or for temperatures an absolute difference.
@@ -37,7 +37,9 @@ class Design:
         return list(dict.fromkeys(record.quantity for record in self.records))
 
     def of(self, *quantities: str) -> list[Record]:
-        return [record for record in self.records if not quantities or record.quantity in quantities]
+        # Orders of a transmission error are one.
+        wanted = {*quantities, ORDERS} if ERROR in quantities else set(quantities)
+        return [record for record in self.records if not quantities or record.quantity in wanted]
 
     def measures(self, *quantities: str) -> bool:
         return bool(self.of(*quantities))
@@ -132,7 +134,9 @@ def distinct(numbers: Iterable[float], factor: str) -> list[float]:
 
 
 def turns(record: Record) -> float:
-    """Output turns that a record over angle spans."""
+    """Output turns that a record over angle spans; orders were made of as many as they needed."""
+    if "angle" not in record.axes:
+        return math.inf
     return float(np.ptp(record.axes["angle"])) / (2.0 * math.pi)
 
 

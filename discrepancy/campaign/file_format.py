@@ -11,7 +11,7 @@ from typing import Any, Literal
 from pydantic import Field, ValidationInfo, field_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
-from discrepancy.problem import FREE_ZERO
+from discrepancy.problem import WITH_ZERO
 from fmu_src.faults import InputFault
 from fmu_src.names import dotted
 from fmu_src.reading import parse_toml, quoted, read_text
@@ -82,6 +82,15 @@ class Average(Strict):
     width: Stated | None = None
 
 
+class Convention(Strict):
+    """How a table of orders is meant; as it stands here TE = sum a_k cos(k theta + p_k), TE = output - input/ratio, theta forward."""
+
+    wave: Literal["cosine", "sine"] = "cosine"
+    phase: Literal["plus", "minus"] = "plus"
+    angle: Literal["forward", "backward", "motion"] = "forward"
+    minus: Literal["input", "output"] = "input"
+
+
 class Run(Strict):
     id: str = Field(pattern=NAME)
     quantity: str
@@ -113,6 +122,11 @@ class Run(Strict):
     where: dict[str, float | str | Range] = {}
     missing: list[float | str] = []
     average: Average | None = None
+    # Curves over the angle in even steps through whole turns, orders of them, and what a table of orders means.
+    per_turn: int | None = Field(default=None, ge=8)
+    orders: list[float] = []
+    window: Literal["none", "hann"] = "none"
+    convention: Convention | None = None
 
     @field_validator("quantity")
     @classmethod
@@ -182,8 +196,8 @@ class CampaignFile(Strict):
     @classmethod
     def with_a_zero(cls, entries: dict[str, QuantityEntry]) -> dict[str, QuantityEntry]:
         for name in entries:
-            if name not in FREE_ZERO:
-                raise ValueError(f"{name!r} has no zero to declare; {' and '.join(FREE_ZERO)} have")
+            if name not in WITH_ZERO:
+                raise ValueError(f"{name!r} has no zero to declare; {', '.join(WITH_ZERO)} have")
         return entries
 
 

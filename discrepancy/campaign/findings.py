@@ -124,7 +124,7 @@ def coupled(design: Design) -> Iterator[Finding]:
 
 
 def angles(design: Design) -> Iterator[Finding]:
-    records = design.of("transmission_error")
+    records = [record for record in design.of("transmission_error") if "angle" in record.axes]
     if not records:
         return
     longest, highest = max(map(turns, records)), max(map(highest_order, records))

@@ -8,11 +8,12 @@ import numpy as np
 from discrepancy.campaign.amount import split, to_si
 from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
 from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
+from discrepancy.campaign.order_tables import as_asked, given_quantity
 from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
-from discrepancy.problem import FREE_ZERO, Parameter, Record
+from discrepancy.problem import WITH_ZERO, Parameter, Record
 from fmu_src.faults import InputFault
 from fmu_src.reading import reading
 from fmu_src.units import parse, registry
@@ -46,8 +47,10 @@ def campaign_of(folder: Path, data: str | Path | None) -> Campaign:
         if rows[run.id].used == 0:
             unfilled[run.id] = run.file or "table"
         else:
-            record = record_of(run, conditions[run.condition], series, scales, place)
-            records.append(replace(record, zero_known=zero_known(run, content, place)))
+            condition, zero = conditions[run.condition], zero_known(run, content, place)
+            direction = int(DIRECTIONS[run.direction] if run.direction is not None else condition.factors["direction"])
+            record = record_of(run, condition, as_asked(run, series, zero, direction, place), scales, place)
+            records.append(replace(record, zero_known=zero))
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
         conditions, tuple(records), rows, unfilled,
@@ -69,15 +72,15 @@ def speed_at(content: CampaignFile) -> str:
 
 def zero_known(run: Run, content: CampaignFile, place: str) -> bool:
     """Whether the mean of a quantity with a free zero counts all the same."""
-    if run.zero is not None and run.quantity not in FREE_ZERO:
-        raise InputFault(f"{place}.zero = {run.zero!r}: {run.quantity} has no zero to declare; {' and '.join(FREE_ZERO)} have; leave it out")
+    if run.zero is not None and run.quantity not in WITH_ZERO:
+        raise InputFault(f"{place}.zero = {run.zero!r}: {run.quantity} has no zero to declare; {', '.join(WITH_ZERO)} have; leave it out")
     general = content.quantities.get(run.quantity)
     return (run.zero or (general.zero if general else "free")) == "absolute"
 
 
 def sources_of(run: Run, scales: Scales, place: str) -> dict[str, Source]:
     """By axis, and "value" for the quantity itself, where the run's numbers stand."""
-    roles = roles_of(QUANTITIES[run.quantity])
+    roles = roles_of(given_quantity(run))
     found: dict[str, Source] = {}
     for role, key in roles.items():
         if role in run.columns:
@@ -147,7 +150,7 @@ def measured(run: Run, scales: Scales, files: Files, place: str) -> tuple[Series
         raise InputFault(
             f"{place}: has {' and '.join(given) or 'no numbers'}: give exactly one of file (with columns), table, or value"
         )
-    quantity = QUANTITIES[run.quantity]
+    quantity = given_quantity(run)
     roles = roles_of(quantity)
     if run.value is not None:
         require_roles([VALUE], quantity, f"{place}.value = {run.value!r}")

@@ -8,9 +8,10 @@ import numpy as np
 from discrepancy.campaign.file_format import FILE, read_campaign_file
 from discrepancy.campaign.load import record_of, zero_known
 from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.order_analysis import as_numbers
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from discrepancy.campaign.scales import make_scales
-from discrepancy.problem import Record
+from discrepancy.problem import ORDERS, Record
 from fmu_src.arrays import Floats
 
 # Samples of one turn of the output, of each way of a loop, and of a surface (assumed: as benches have them once averaged).
@@ -47,5 +48,8 @@ def axes_of(quantity: str, campaign: Campaign) -> dict[str, Floats] | None:
     if rated:
         up = (np.arange(WAY) + 1.0) / WAY * rated
         known["torque"] = np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
+    if quantity == ORDERS:
+        numbers = as_numbers(known["order"], np.zeros(len(known["order"]), np.complex128))
+        return {name: numbers[name] for name in ("order", "part")}
     axes = QUANTITIES[quantity].axes
     return {name: known[name] for name in axes} if all(name in known for name in axes) else None

@@ -71,6 +71,7 @@ AXES = (
     Key("torque", "torque", "N.m", "N.m", "torque at the output, both signs, in the order it was applied"),
     Key("order", "order", "1", "1", "events per turn of the output", 0, 0.0),
     Key("input_order", "order", "1", "1", "events per turn of the input; multiplied by the ratio", 1, 0.0),
+    Key("phase", "phase", "rad", "deg", "phase of a wave, see the conventions of order tables; 0 for order 0"),
     Key("depth_angle", "depth_angle", "rad", "deg",
         "place on the surface. Flank: 0 at a root, 180 deg at the tip, counted over one lobe; pin: from its inward radial;"
         " inner race: from the lobe's eccentric direction; outer race: from the hole's outward radial; races the way the"
@@ -122,6 +123,9 @@ QUANTITIES = {
         Quantity("transmission_error", "rad", "arcsec",
                  "angle of the output less angle of the input over the ratio, referred to the output",
                  ("angle",), ("time",), RUNNING),
+        Quantity("transmission_order", "rad", "arcsec",
+                 "amplitude and phase of orders of the transmission error, or a curve over the angle from which they are made",
+                 ("order", "phase"), (), RUNNING),
         Quantity("hysteresis", "rad", "arcmin", "turning of the output under torque, one side held, torque up and down",
                  ("torque",), ("time",), (), ("locked",)),
         Quantity("lost_motion", "rad", "arcmin", "turning between +3 % and -3 % of the rated torque, one side held"),

@@ -220,5 +220,6 @@ PLACES = {
 REASONS = {
     "vibration": "an amplitude over time or order is no force on the housing; a force or an error of a part would be",
     "vibration_order": "an amplitude over the order is no force on the housing; a force or an error of a part would be",
+    "transmission_order": "an order is no place in the reducer; a curve of the transmission error over the angle would show where it turns",
     "torsional_stiffness": "it is the slope of a loop; measure the loop, whose turning a hook can change",
 }  # fmt: skip

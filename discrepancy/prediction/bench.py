@@ -12,7 +12,7 @@ import numpy as np
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
 from discrepancy.prediction.units import Condition, Relevant
-from discrepancy.problem import NEAR, Record
+from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats
 from reducers.reducer import Reducer
 from studies import coupled
@@ -53,7 +53,7 @@ class Bench(Lives):
 
     def allowed(self, record: Record) -> float:
         """What a prediction of this record may err; 0 where nothing is known of its noise."""
-        return self.fineness.allowed.get((record.quantity, record.condition), 0.0) if self.fineness else 0.0
+        return self.fineness.allowed.get((ERROR if record.quantity == ORDERS else record.quantity, record.condition), 0.0) if self.fineness else 0.0
 
     def equilibria(self, kind: str, condition: Condition, relevant: Relevant, *rest: Hashable) -> Floats | None:
         """Those of a run whose values are said to be near, if it was made under the same key: where another may start."""

@@ -5,20 +5,20 @@ from itertools import product
 
 from discrepancy.effects import MODULES
 from discrepancy.model_file import every_effect, halves_of
-from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
 
 # Quantities that show what an effect's ``signals`` name in short.
 SHOWN_BY = {
     "vibration": ("vibration", "vibration_order"), "debris": ("debris_iron",),
-    "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"),
+    "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"), ERROR: (ERROR, ORDERS),
 }  # fmt: skip
 # Searched by hand only: which pin stands out is a search of its own; a constant moment on the flange shows as discs that are
 # misaligned with the ring, which stand for both.
 NOT_SEARCHED = {"proud", "constant moment"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
-PATTERNS = {"harmonics": ("transmission_error",)}
+PATTERNS = {"harmonics": (ERROR, ORDERS)}
 MOST_CRANKS = 3
 
 
@@ -74,7 +74,9 @@ def candidates(
             continue
         if part == "chain":
             # Where nobody knows a zero an offset shows nothing.
-            measured = [q for q in quantities if any(not r.free_zero for r in records if r.quantity == q)] if name == "sensor_offset" else quantities
+            # Nor in orders without the mean.
+            known = {r.quantity for r in records if (r.zero_known if r.quantity == ORDERS else not r.free_zero)}
+            measured = list(dict.fromkeys(ERROR if q == ORDERS else q for q in quantities if name != "sensor_offset" or q in known))
             found += chain_candidates(name, effect, signals, measured, mountings, present.keys() | excluded)
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
@@ -117,7 +119,7 @@ def chain_candidates(
         Candidate(
             f"{name}.{place}" if place else name, f"{effect.title}: {place}" if place else effect.title,
             tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), *shapes(place),
-            (place,) if place else signals, "chain",
+            SHOWN_BY.get(place, (place,)) if place else signals, "chain",
         )
         for place in places if not any(called(p, place) in taken_names for p in effect.amplitudes())
     ]  # fmt: skip

@@ -1,13 +1,13 @@
 """How finely a run is computed: as finely as the noise of what was measured lets one tell."""
 
 import copy
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.prediction.support import COARSEST
-from discrepancy.problem import Record
+from discrepancy.problem import ERROR, ORDERS, Record
 from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats
 
@@ -44,10 +44,13 @@ class Fineness:
     def __init__(self, records: Sequence[Record]):
         noise: dict[Group, float] = {}
         counts: dict[Group, int] = {}
+        scatter = scatter_of_orders(records)
         for record in records:
-            group = (record.quantity, record.condition)
+            # Orders are computed as the curve that has them.
+            group = (ERROR if record.quantity == ORDERS else record.quantity, record.condition)
             counts[group] = counts.get(group, 0) + len(record.values)
-            noise[group] = min(noise.get(group, np.inf), fast_noise(np.asarray(record.values, float)))
+            own = record.stated_noise or scatter if record.quantity == ORDERS else fast_noise(np.asarray(record.values, float))
+            noise[group] = min(noise.get(group, np.inf), own)
         self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
@@ -129,6 +132,17 @@ class Fineness:
 
 def added(group: Group, amounts: Mapping[str, float]) -> Added:
     return group, tuple((name, amount > 0.0) for name, amount in amounts.items())
+
+
+def scatter_of_orders(records: Sequence[Record]) -> float:
+    """Standard deviation of the numbers of orders between runs that repeat each other; 0 where none do."""
+    alike: dict[Hashable, list[Floats]] = {}
+    for r in records:
+        if r.quantity == ORDERS:
+            alike.setdefault((r.condition, r.mounting, r.factors.get("direction"), np.asarray(r.axes["order"]).tobytes()), []).append(r.values)
+    repeated = [np.array(runs) for runs in alike.values() if len(runs) > 1]
+    squares = [float(np.sum((runs - runs.mean(axis=0)) ** 2)) for runs in repeated]
+    return float(np.sqrt(sum(squares) / sum((len(runs) - 1) * runs.shape[1] for runs in repeated))) if repeated else 0.0
 
 
 def fast_noise(values: Floats) -> float:

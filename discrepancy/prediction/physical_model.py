@@ -21,7 +21,8 @@ from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.model_error import with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
-from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table
@@ -40,6 +41,10 @@ MOST_SHOWN = 200
 FLOATING = 0.01
 
 
+# Orders are those of the curve.
+PREDICTED = {*OBSERVED, ORDERS}
+
+
 class PhysicalModel:
     """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
@@ -50,8 +55,8 @@ class PhysicalModel:
                  jobs: int = 1, fmus: Path | None = None):
         # An FMU is stepped by one.
         self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
-        self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in OBSERVED]
-        self.unpredicted = sorted({r.quantity for r in campaign.records} - OBSERVED.keys())
+        self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in PREDICTED]
+        self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         settings = {n: v for n, v in present.items() if "[" not in n}
         self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
@@ -66,6 +71,8 @@ class PhysicalModel:
         self.rough_bench = self.bench.roughly()
         self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
+        if ORDERS in self.sizes:
+            self.sizes.setdefault(ERROR, self.sizes[ORDERS])
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]
         require_known(campaign.folder, nuisances, self.bench.tables)
         self.per = {n.parameter.name: n.per for n in nuisances}
@@ -86,7 +93,7 @@ class PhysicalModel:
             self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 1.0, 1e3, 1.0, 0, 10.0, "mass that vibrates"),)
         self.nuisances += tuple(model_error.parameters(self.records))
         excluded = {n.parameter.name for n in nuisances}
-        mountings = sorted({r.mounting for r in self.records if r.quantity == "transmission_error"})
+        mountings = sorted({r.mounting for r in self.records if r.quantity in (ERROR, ORDERS)})
         self.candidates: tuple[Candidate, ...] = candidates(
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
         ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
@@ -108,7 +115,8 @@ class PhysicalModel:
         """
         by_mounting: dict[str, list[int]] = {}
         for i, record in enumerate(self.records):
-            if record.quantity == "transmission_error" and "angle" in record.axes and len(record.values) >= LONG:
+            tells = "angle" in record.axes and len(record.values) >= LONG if record.quantity == ERROR else record.quantity == ORDERS
+            if tells:
                 by_mounting.setdefault(angle_zero(record), []).append(i)
         for name, indices in by_mounting.items():
             width = 2.0 * np.pi / PHASE_ORDER
@@ -116,8 +124,11 @@ class PhysicalModel:
             # One record tells; the pattern hardly depends on the condition.
             record = self.records[indices[0]]
             own = self.for_record(record, self.standing())
-            found = shifted_errors(self.bench, record, own, shifts)
-            misfits = [float(np.var(record.values - predicted)) for predicted in found]
+            found = shifted_errors(self.bench, curve_of(record), own, shifts)
+            if record.quantity == ORDERS:
+                found = [orders_shown(record, predicted) for predicted in found]
+            left = [record.values - predicted for predicted in found]
+            misfits = [float(np.mean(e**2) if record.quantity == ORDERS else np.var(e)) for e in left]
             best = int(np.argmin(misfits))
             at_zero = misfits[PHASES // 2]
             if at_zero <= 1.02 * misfits[best] and not always:
@@ -182,6 +193,7 @@ class PhysicalModel:
     def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None,
             rough: bool = False) -> Floats:
         self.threads.check()
+        asked, record = record, curve_of(record)
         own = self.for_record(record, values)
         try:
             predicted = self.observed(record, own, None if beside is None else self.for_record(record, beside), rough)
@@ -189,8 +201,8 @@ class PhysicalModel:
             if not self.bench.relevant(values, True):
                 raise
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
-            signs = np.where(np.arange(len(record.values)) % 2 == 0, 1.0, -1.0)
-            return record.values + IMPOSSIBLE * self.sizes.get(record.quantity, 1.0) * signs
+            signs = np.where(np.arange(len(asked.values)) % 2 == 0, 1.0, -1.0)
+            return asked.values + IMPOSSIBLE * self.sizes.get(asked.quantity, 1.0) * signs
         predicted = with_error(predicted, record, values)
         for module in MODULES.values():
             places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
@@ -207,6 +219,8 @@ class PhysicalModel:
         ripple = self.cages.ripple(record, values)
         if ripple is not None:
             predicted = predicted + ripple
+        if asked is not record:
+            return orders_shown(asked, predicted)
         if record.free_zero:
             # The mean of the prediction is that of the measurement.
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())

@@ -10,6 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.problem import ORDERS
 from fmu_src.arrays import Floats
 
 # A part of the noise: the signal, and "main" or the pattern by which its runs differ.
@@ -48,14 +49,23 @@ def effective_dof(space: Workspace, shares: dict[Component, float]) -> float:
 def excess(space: Workspace, fit: Fit) -> dict[Component, float]:
     """By which factor the misfit of each long signal is larger than its noise from replicates, at least 1.
 
-    What a fit leaves all over a signal (heavy tails, a base that is a little wrong) is no evidence for one effect.
+    What a fit leaves all over a signal (heavy tails, a base that is a little wrong) is no evidence for one effect.  Of tables of orders it is
+    what the middle one of the orders has: a single order that is far off is none of that.
     """
+    tables: dict[Component, dict[float, list[Floats]]] = defaultdict(lambda: defaultdict(list))
     squares: dict[Component, float] = defaultdict(float)
     counts: dict[Component, int] = defaultdict(int)
     for i, rows in space.rows.items():
         key = (space.noise.whiteners[i].quantity, "main")
         squares[key] += float(np.sum(fit.residual[rows] ** 2))
         counts[key] += rows.stop - rows.start
+        record = space.records[i]
+        if record.quantity == ORDERS:
+            order = np.asarray(record.axes["order"])[space.noise.whiteners[i].kept]
+            for o in np.unique(order).tolist():
+                tables[key][o].append(fit.residual[rows][order == o] ** 2)
+    for key, by_order in tables.items():
+        squares[key] = counts[key] * float(np.median([np.mean(np.concatenate(parts)) for parts in by_order.values()]))
     return {key: max(1.0, squares[key] / count) for key, count in counts.items() if count >= LONG}
 
 

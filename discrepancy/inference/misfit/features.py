@@ -11,6 +11,7 @@ import numpy as np
 
 from discrepancy.inference.noise.noise import SHORT
 from discrepancy.inference.noise.series import order_axis
+from discrepancy.problem import ORDERS as TABLES
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
@@ -39,6 +40,8 @@ class Feature:
 
 def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, comb: int = COMB) -> list[Feature]:
     """All generic functions of a record."""
+    if record.quantity == TABLES:
+        return of_orders(record, orders)
     count = np.size(record.values)
     result = [Feature("mean", np.ones((count, 1)))]
     if count < SHORT:
@@ -73,6 +76,13 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
             branch = np.sign(steps)[:, None]
             result.append(Feature(f"branch of {name}", branch * np.column_stack([np.ones(count), waves_along[:, :2]])))
     return result
+
+
+def of_orders(record: Record, orders: Mapping[str, Sequence[float]]) -> list[Feature]:
+    """Each order of a table, its two numbers together."""
+    order = np.asarray(record.axes["order"], float)
+    named = {o: f"{name}, {o:g}" for name, family in orders.items() for o in family}
+    return [Feature(f"orders: {named.get(o, f'{o:g}')}", np.eye(order.size)[:, order == o]) for o in np.unique(order).tolist()]
 
 
 def waves(angle: Floats, orders: Sequence[float]) -> Floats:

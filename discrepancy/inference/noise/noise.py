@@ -18,7 +18,7 @@ from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_va
 from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
-from discrepancy.problem import Record
+from discrepancy.problem import ORDERS, Record
 from discrepancy.repetitions import outlying
 from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats, Mask
@@ -61,7 +61,8 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
     for key, indices in members.items():
         training = [i for i in indices if not records[i].held_out] or indices
         plain = [i for i in training if records[i].name not in counts] or training
-        short = all(masks[i].sum() < SHORT for i in indices)
+        # What stands beside each other in a table of orders is no neighbour: its noise is that of single numbers.
+        short = all(masks[i].sum() < SHORT or records[i].quantity == ORDERS for i in indices)
         fit = _numbers if short else _signals
         stream, weights, note = fit(records, residuals, predictions, masks, plain)
         streams[key] = stream
@@ -105,7 +106,9 @@ def _numbers(
         relative = _variance(values / reference, shares)
         gain = np.sum(shares * (np.log(constant) - np.log(relative * reference**2)))
         varied = everything.max() > 2 * np.median(everything)
-        proportional = bool(varied and relative > 0 and gain > -15)
+        # The two numbers of an order are large and small by their phase, not by their noise.
+        waves = any(records[i].quantity == ORDERS for i in indices)
+        proportional = bool(varied and relative > 0 and gain > -15 and not waves)
         if proportional and gain < 5:
             # too few replicates to tell: the larger of both holds for each number
             floor = max(floor, float(np.sqrt(constant / relative)))

@@ -1,0 +1,103 @@
+"""The campaign of ``from_rv_te``: campaign.toml and one table of orders."""
+
+import os
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from discrepancy.campaign.file_format import FILE
+from discrepancy.campaign.from_rv_te import RATIO, Measured
+from fmu_src.checked_file import write_text
+from fmu_src.faults import InputFault
+
+TABLE = "orders.csv"
+ARCSEC = 180.0 * 3600.0 / np.pi
+# Which conditions are held out hangs on nothing but their names.
+SEED = 81
+HEAD = """\
+# Orders of the transmission error of a real RV reducer, ratio 81, 40 pins and 39 lobes; made by rvwear campaign from-rv-te.
+# TE = a0 + sum a_k cos(k theta + p_k), TE = output - input/81, theta counted forward, in both senses of rotation.
+[campaign]
+name = "{name}"
+description = "XiLab-Robotics/Physics-Informed-Neural-Networks; doi 10.1016/j.rcim.2024.102838"
+{reducer}
+
+# The encoder's zero on the reducer is not known: one angle theta_0 for all orders, p_k + k theta_0.
+[nuisances.encoder_phase]
+unit = "deg"
+lower = -180
+upper = 180
+per = "mounting"
+
+# The mean (order 0) stands in the table and is not used unless its zero is said to be known:
+# [quantities.transmission_order]
+# zero = "absolute"
+
+[layouts.orders]
+quantity = "transmission_order"
+noise = "{noise}"                        # standard deviation of each of an order's two numbers{assumed}
+file = "{table}"
+columns.order = {{ column = "order", unit = "1" }}
+columns.value = {{ column = "amplitude", unit = "arcsec" }}
+columns.phase = {{ column = "phase", unit = "rad" }}
+"""
+CONDITION = """
+[conditions.{name}]
+input_speed = "{speed:g} rpm"
+load_torque = "{torque:g} N.m"
+temperature = "{temperature:g} degC"
+hours = "0 h"
+direction = "{direction}"
+mounting = "1"
+"""
+RUN = """
+[[runs]]
+layout = "orders"
+id = "{id}"
+condition = "{condition}"
+replicate = {replicate}
+where = {{ run = "{id}" }}
+"""
+NOISE = "0.3 arcsec"
+
+
+def write_campaign(folder: Path, runs: Sequence[Measured], reducer: str | None, rated: float, noise: str | None, share: float) -> list[Path]:
+    """Write the campaign; a ``share`` of the whole conditions is held out.  Without a ``reducer`` its ratio and ``rated`` torque [N m] are stated."""
+    if not 0.0 <= share < 1.0:
+        raise InputFault(f"--held-out {share:g}: give a share of the conditions from 0 to below 1")
+    for path in (folder / FILE, folder / TABLE):
+        if path.exists():
+            raise InputFault(f"{path} exists already; choose another folder, nothing is overwritten")
+    runs = sorted(runs, key=lambda r: (r.direction, r.temperature, r.speed, r.torque))
+    conditions = {r.condition: r for r in runs}
+    held = held_out(sorted(conditions), share)
+    if reducer and reducer.endswith(".toml"):
+        reducer = os.path.relpath(reducer, folder).replace(os.sep, "/")
+    stated = f'reducer = "{reducer}"' if reducer else f'ratio = {RATIO:g}                 # without a reducer file\nrated_torque = "{rated:g} N.m"'
+    assumed = "" if noise else " (assumed)"
+    head = HEAD.format(name="rig of ratio 81", reducer=stated, noise=noise or NOISE, assumed=assumed, table=TABLE)
+    parts, lines, counted = [head], ["run,order,amplitude,phase"], Counter[str]()
+    for name, r in conditions.items():
+        text = CONDITION.format(name=name, speed=r.speed, torque=r.torque, temperature=r.temperature, direction=r.direction)
+        parts.append(text + ("held_out = true\n" if name in held else ""))
+    for r in runs:
+        counted[r.condition] += 1
+        name = r.condition + (f"_{counted[r.condition]}" if counted[r.condition] > 1 else "")
+        units = {"load_torque": "N.m", "temperature": "degC"}
+        actual = ", ".join(f'{key} = "{number:.6g} {units[key]}"' for key, number in r.actual.items())
+        text = RUN.format(id=name, condition=r.condition, replicate=counted[r.condition])
+        parts.append(text + (f"actual = {{ {actual} }}\n" if actual else ""))
+        for order, a in zip(r.orders, r.amplitudes):
+            amplitude, phase = (a.real, 0.0) if order == 0.0 else (abs(a), float(np.angle(a)))
+            lines.append(f"{name},{order:g},{amplitude * ARCSEC:.6g},{phase:.6g}")
+    write_text(folder / TABLE, "\n".join(lines) + "\n")
+    write_text(folder / FILE, "".join(parts))
+    return [folder / FILE, folder / TABLE]
+
+
+def held_out(names: Sequence[str], share: float) -> set[str]:
+    """Whole combinations of torque, speed, temperature and sense of rotation."""
+    chosen = np.random.default_rng(SEED).permutation(len(names))[: round(share * len(names))]
+    return {names[k] for k in chosen}
