@@ -38,6 +38,8 @@ class Options:
     format: str | None = None
     delimiter: str | None = None
     decimal: str | None = None
+    thousands: str | None = None
+    encoding: str | None = None
     header: bool = True
     units_line: bool = False
     skip_lines: int = 0
