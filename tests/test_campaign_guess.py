@@ -270,6 +270,53 @@ def test_guesses_are_overruled(tmp_path):
     assert record.axes["torque"] == pytest.approx(TORQUE * KGM, abs=1e-4)
 
 
+def test_a_logger_with_many_channels(tmp_path):
+    noise = np.random.default_rng(1).normal(0.0, 0.5, len(ANGLE))
+    pd.DataFrame({
+        "Zeit [s]": np.arange(len(ANGLE)) / 100, "Winkel Abtrieb [°]": np.degrees(ANGLE), "Winkel Antrieb [°]": 121 * np.degrees(ANGLE),
+        "Drehmoment Abtrieb Soll [Nm]": 167.0, "Drehmoment Abtrieb [Nm]": 167 + noise, "Drehzahl Antrieb [1/min]": 1815 + noise, "Drehfehler [arcsec]": ERROR / ARCSEC,
+        "Zustand": "ok", "rep": 1,
+    }).to_csv(tmp_path / "te_3.csv", sep=";", decimal=",", index=False)  # fmt: skip
+    record = checked(propose([tmp_path], Wishes("RV20E-121"))).records[0]
+    assert record.quantity == "transmission_error" and record.values == pytest.approx(ERROR) and record.replicate == 3
+    assert record.axes["load"] == pytest.approx(167 + noise) and record.axes["speed"] == pytest.approx((1815 + noise) * TURN / 60)
+    assert record.axes.keys() == {"angle", "time", "load", "speed"}
+
+
+@pytest.mark.parametrize("columns, quantity", [
+    ({"time_s": ANGLE, "acc_x [m/s2]": ERROR}, "vibration"), ({"order": np.arange(99.0), "amp [m/s^2]": np.sin(np.arange(99.0))}, "vibration_order"),
+    ({"time [h]": HOURS, "T_housing [degC]": 20 + HOURS}, "temperature"), ({"angle [deg]": np.arange(360.0), "depth [um]": np.sin(np.arange(360.0) / 60)}, "wear_profile"),
+    ({"hours": HOURS, "lost motion [arcsec]": 40 + HOURS}, "lost_motion"), ({"load": HOURS, "efficiency [%]": 60 + HOURS / 100}, "efficiency"),
+    ({"hours": HOURS, "Fe [ppm]": HOURS}, "debris_iron"), ({"t": np.arange(601), "Torque (Nm)": TORQUE, "Output (deg)": TWIST, "Motor pos (deg)": 0 * TWIST}, "hysteresis"),
+])  # fmt: skip
+def test_other_quantities(tmp_path, columns, quantity):
+    pd.DataFrame(columns).to_csv(tmp_path / "a.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm"}))
+    assert proposal.runs[0].guessed.quantity.value == quantity and proposal.runs[0].guessed.quantity.sure
+
+
+def test_a_motor_that_turns_on_shows_its_torque_and_no_loop(tmp_path):
+    k = np.arange(601)
+    columns = {"TIME": 1.72e18 + 1e7 * k, "POSITION": k / 20, "TORQUE": 2 + np.sin(k / 50), "MOTOR_TEMPERATURE": 20 + k / 200}
+    pd.DataFrame(columns).to_csv(tmp_path / "run.csv", index=False)
+    run = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm", "load_torque": "0 N.m"})).runs[0].guessed
+    # With load or without, no file says.
+    assert run.quantity.value == "input_torque" and not run.quantity.sure and "no_load_torque" in run.quantity.reason
+    assert run.columns["time"].unit.value == "ns" and run.columns["time"].keys == {"from_start": True}
+
+
+def test_words_that_part_rows_are_said(tmp_path):
+    rows = "".join(f"{state};{angle};{angle % 7}\n" for state in ("rated", "half") for angle in range(0, 720, 2))
+    (tmp_path / "te.csv").write_text("test;phi_out [deg];te [arcsec]\n" + rows)
+    assert any("'test' holds words (half, rated)" in doubt.text for doubt in propose([tmp_path], Wishes()).doubts)
+
+
+def test_many_columns_without_names_are_asked(tmp_path):
+    pd.DataFrame(np.random.default_rng(0).random((50, 6)), columns=list("abcdef")).to_csv(tmp_path / "x.csv", index=False)
+    with pytest.raises(InputFault, match="no quantity of a campaign fits; give units by --unit"):
+        propose([tmp_path], Wishes())
+
+
 def test_no_table_is_said(tmp_path):
     (tmp_path / "a.csv").write_text("nothing\nto see\n")
     with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):

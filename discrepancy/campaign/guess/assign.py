@@ -1,5 +1,6 @@
 """Which quantity a table holds, and which column is what."""
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -30,13 +31,26 @@ MEANT = {
     "efficiency": ("efficiency",), "vibration": ("acceleration",), "vibration_order": ("acceleration",), "temperature": ("temperature",),
     "wear_profile": ("wear",), "wear_depth": ("wear",), "mass_loss": ("mass_loss",), "debris_iron": ("iron",), "cage_speed": ("speed",),
 }  # fmt: skip
+KIND_MEANT = {word: KINDS[role] for role, words in MEANT.items() for word in words} | {
+    "hours": u.TIME, "speed": u.SPEED, "input_speed": u.SPEED, "output_speed": u.SPEED,
+}  # fmt: skip
+# What a unit alone means.
+BY_UNIT = {u.TEMPERATURE: "temperature", u.TORQUE: "torque", u.TIME: "time", u.SPEED: "speed"}
 # Of numbers that are one column over a number of the condition.
 OVER = {"wear_depth": "hours", "lost_motion": "hours", "mass_loss": "hours", "debris_iron": "hours"}
 # What a name, a unit, the shape and the file's name weigh.
 NAME, UNIT, SHAPE, FILE_NAME = 3.0, 2.0, 2.0, 3.5
 MARGIN = 1.0
+# And an axis that there may be.
+OPTIONAL = 1.0
 # Assignments of one quantity whose points are nearer are equally good.
 TIE = 0.25
+# Columns of which one may be the value without name or unit.
+FEW = 3
+# Columns of what was asked for, not of what was measured, count less.
+ASKED, LESS = re.compile(r"control|command|cmd|target|desired|set.?point|soll|(?:^|[ _.-])(?:ref|set)(?:$|[ _.-])|目标|目標|设定|指令", re.IGNORECASE), 1.0
+# What was measured where a temperature was recorded beside it.
+BESIDE_TEMPERATURE = ("torque", "input_torque", "angle", "error", "acceleration")
 # Signs of a name that is a unit by itself: hours, rpm.
 LEAST_UNIT_NAME = 3
 
@@ -66,8 +80,15 @@ def columns_of(table: Table, stated: Mapping[str, str]) -> list[Column]:
         if given := stated.get(header) or stated.get(name) or stated.get(name_of(header)):
             known = unit_of(given)
             unit = (known[0] if known else given, known[1] if known else "", f"given: {given}")
-        found.append(Column(name, meaning_of(name_of(header)), unit, shape))
+        found.append(Column(name, meaning_with(meaning_of(name_of(header)), unit), unit, shape))
     return found
+
+
+def meaning_with(meaning: str | None, stated: tuple[str, str, str] | None) -> str | None:
+    """A name's meaning, unless its unit is of another kind: T in degC is no torque."""
+    if stated is None or not stated[1] or meaning in (None, "replicate", "acceleration") or KIND_MEANT.get(meaning or "") == stated[1]:
+        return meaning
+    return BY_UNIT.get(stated[1])
 
 
 def fit(column: Column, role: str) -> tuple[float, list[str]] | None:
@@ -83,6 +104,7 @@ def fit(column: Column, role: str) -> tuple[float, list[str]] | None:
         why.insert(0, f"its name says {column.meaning.replace('_', ' ')}")
     elif column.meaning is not None:
         points -= NAME
+    points -= LESS if ASKED.search(column.name) else 0.0
     if shape := shape_fits(column.shape, role):
         points, why = points + SHAPE, [*why, shape]
     elif role in ("torque", "angle", "input_angle", "order", "time"):
@@ -120,16 +142,23 @@ def assignments(columns: list[Column], named: list[str]) -> list[Assignment]:
     # The file's name decides among what the columns allow.
     weighed = [Assignment(a.quantity, a.points + (FILE_NAME - 0.5 * named.index(a.quantity) if a.quantity in named else 0.0), a.roles) for a in found]
     best: dict[str, Assignment] = {}
+    tied = set()
     for a in sorted(weighed, key=lambda a: -a.points):
         first = best.setdefault(a.quantity, a)
-        if a is not first and first.points - a.points < TIE and VALUE in a.roles and VALUE in first.roles and a.roles[VALUE].value != first.roles[VALUE].value:
-            doubtful = {role: Guess(guess.value, f"{guess.reason}; another column would do as well", False) for role, guess in first.roles.items()}
-            best[a.quantity] = Assignment(a.quantity, first.points, doubtful)
-    return list(best.values())
+        if first.points - a.points < TIE and {VALUE} <= a.roles.keys() & first.roles.keys() and a.roles[VALUE].value != first.roles[VALUE].value:
+            tied.add(a.quantity)
+    return [doubtful(a) if a.quantity in tied else a for a in best.values()]
+
+
+def doubtful(a: Assignment) -> Assignment:
+    """The same where another value's column would do as well."""
+    roles = {role: Guess(guess.value, f"{guess.reason}; another column would do as well", False) for role, guess in a.roles.items()}
+    return Assignment(a.quantity, a.points, roles)
 
 
 def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
     axes = QUANTITIES[quantity].axes
+    by_name = {column.name: column for column in columns}
     if quantity == "transmission_error":
         yield from both_encoders(columns)
     over = OVER.get(quantity)
@@ -138,6 +167,9 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
         if (own := fit(value, quantity)) is None or value.shape.constant:
             continue
         rest = [c for c in columns if c is not value]
+        if len(columns) > FEW and value.meaning not in MEANT.get(quantity, ()) and not value.stated:
+            # Among many columns a curve alone says nothing.
+            continue
         if quantity == "vibration_order" and any(c.meaning == "input_order" for c in rest):
             continue
         points, roles = own[0], {VALUE: Guess(value.name, because(own[1], len(columns)), bool(own[1]) or len(columns) == 2)}
@@ -153,7 +185,13 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
             roles[axis] = Guess(column.name, because(best[1], len(columns)))
         if not whole:
             continue
+        if quantity == "hysteresis" and value.shape.steady and not by_name[roles["torque"].value].shape.steady:
+            # What runs on while the torque goes up and down is no twist.
+            continue
         factors = {} if quantity == "hysteresis" else row_factors(rest, quantity)
+        if quantity == "temperature" and any(c.meaning in BESIDE_TEMPERATURE and not c.shape.constant for c in columns):
+            # One of the conditions of something else.
+            points -= UNIT + NAME
         if over and over in factors:
             points += SHAPE
         if quantity == "input_torque" and factors.keys() & {"input_speed", "output_speed"}:
@@ -162,6 +200,7 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
             meant = [c for c in rest if c.meaning == axis and c.name not in {g.value for g in factors.values()}]
             if axis in QUANTITIES[quantity].optional_axes and meant and fit(meant[0], axis):
                 roles[axis] = Guess(meant[0].name, f"its name says {axis}")
+                points += OPTIONAL
         # A column that is left without a role speaks against.
         left = [c for c in rest if c.name not in {g.value for g in (roles | factors).values()} and c.meaning not in ("time", "replicate")]
         yield Assignment(quantity, points - 0.5 * sum(not c.shape.constant for c in left), roles | factors)
@@ -187,7 +226,7 @@ def because(why: list[str], count: int) -> str:
 def row_factors(columns: list[Column], quantity: str) -> dict[str, Guess[str]]:
     """Numbers of the condition that change from row to row."""
     found: dict[str, Guess[str]] = {}
-    for column in columns:
+    for column in sorted(columns, key=lambda c: ASKED.search(c.name) is not None):
         meaning = {"torque": "load_torque"}.get(column.meaning or "", column.meaning)
         if meaning == "time" and column.stated and column.stated[0] == "h":
             meaning = "hours"

@@ -7,7 +7,8 @@ OUTPUT = r"output|abtrieb|ausgang|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|
 
 # Meaning -> words; the first that fits counts.
 MEANINGS = {
-    "replicate": r"^(?:rep|replicate|repetition|wiederholung|wdh|重复|重複|繰返し?)(?:$|[ _.-])",
+    "replicate": r"^(?:rep|replicate|repetition|wiederholung|wdh|重复|重複|繰返し?)(?:$|[ _.-])"
+    r"|^(?:test|run|lauf|versuch|cycle)[ _.-]?(?:nr|no|num|number|id)\b",
     "hours": r"hours|stunden|laufzeit|operating time|运行时间|運転時間|小时数",
     "stiffness": r"stiff|steif|刚度|剛度|剛性",
     "efficiency": r"efficien|wirkungsgrad|效率|^eta$|^η$",
@@ -19,7 +20,7 @@ MEANINGS = {
     "order": r"^order|ordnung|阶次|次数",
     "acceleration": r"acc|beschl|vibra|schwing|加速度|振动|振動",
     "temperature": r"temp|温度",
-    "speed": r"speed|drehzahl|geschw|rpm|转速|轉速|回転|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
+    "speed": r"speed|veloc|drehzahl|geschw|rpm|转速|轉速|回転|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
     "torque": r"torq|moment|drehm|扭矩|转矩|轉矩|力矩|トルク|负载|負荷|(?:^|[ _.-])(?:m|md|t|load|last)(?:$|[ _.-])(?!.*time)",
     "twist": r"twist|torsion|verdreh|wind.?up|deflect|hyster|spiel|backlash|^turn(?:ing)?(?:$|[ _.-])|扭转|扭轉|回差|变形|ねじれ|ヒステリシス",
     "angle": r"angle|winkel|phi|theta|φ|θ|ϕ|encoder|geber|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posit|角|回転角",

@@ -38,7 +38,7 @@ def name_of(state: State, others: Sequence[State]) -> str:
     own = [value for key_value in state.stated if key_value not in common for value in key_value[1:]]
     alone = sum(other.label == state.label for other in others) == 1
     parts = [state.label] if state.label and alone else [state.label, *own] if state.label else own
-    text = "_".join(re.sub(r"[^A-Za-z0-9.+-]", "", part.replace("%", "pct").replace("/", "per")) for part in parts if part)
+    text = "_".join(re.sub(r"[^A-Za-z0-9._+-]", "", part.replace("%", "pct").replace("/", "per")) for part in parts if part)
     return re.sub(r"^[^A-Za-z0-9]+", "", text) or "measured"
 
 

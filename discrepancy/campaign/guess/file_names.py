@@ -27,7 +27,7 @@ NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
-    "data", "export", "rep",
+    "data", "export", "rep", "speed", "depth", "motion", "lost",
 }  # fmt: skip
 # Dates and times, which differ from file to file and say nothing of the condition.
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d|\d\d[-.]\d\d[-.]\d{4}|\d{8}T?|\d{6}|\d\d[-.h]\d\d(?:[-.m]\d\ds?)?$")

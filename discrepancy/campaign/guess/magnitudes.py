@@ -11,6 +11,9 @@ USUAL_RANGE = {"transmission_error": math.radians(0.5 / 60.0), "hysteresis": mat
 ANGLES = {"arcsec": math.radians(1.0 / 3600.0), "arcmin": math.radians(1.0 / 60.0), "deg": math.radians(1.0), "rad": 1.0}
 # Above this speed [rpm] no output of such a reducer turns (assumed).
 FASTEST_OUTPUT = 120.0
+# A clock that counts from 1970 has more than so many seconds, and more of the parts of one.
+EPOCH = 1e9
+CLOCKS = {"ns": 1e18, "us": 1e15, "ms": 1e12, "s": EPOCH}
 USUAL = {
     "load_torque": "N.m", "torque": "N.m", "input_torque": "N.m", "no_load_torque": "N.m", "hours": "h", "time": "s", "input_speed": "rpm",
     "output_speed": "rpm", "cage_speed": "rpm", "order": "1", "input_order": "1", "vibration": "m/s^2", "vibration_order": "m/s^2",
@@ -35,6 +38,9 @@ def unit_by_size(role: str, shape: Shape) -> Guess[str]:
     if role == "efficiency":
         unit = "1" if shape.high <= 1.5 else "%"
         return Guess(unit, f"nothing states it; likely {unit} by its size", False)
+    if role == "time" and shape.low > EPOCH:
+        unit = next(unit for unit, size in CLOCKS.items() if shape.low > size)
+        return Guess(unit, f"nothing states it; it counts {unit} since 1970", False)
     unit = USUAL.get(role, "1")
     return Guess(unit, f"nothing states it; {unit} is usual", role in ("order", "input_order"))
 

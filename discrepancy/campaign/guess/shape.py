@@ -8,6 +8,8 @@ from fmu_src.arrays import Floats
 
 # A reversal counts from this share of the range on: noise makes smaller ones.
 REVERSAL = 0.2
+# What rises throughout falls back by no more than this share of the range.
+STEADY = 0.02
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ def shape_of(values: Floats) -> Shape | None:
     low, high = float(known.min()), float(known.max())
     span = high - low
     steps = np.diff(known)
-    steady = bool(len(known) > 1 and span > 0.0 and ((steps >= -0.02 * span).all() or (steps <= 0.02 * span).all()))
+    steady = span > 0.0 and reversals(known, STEADY * span) == 0
     jumps = bool(len(steps) > 4 and span > 0.0 and np.abs(steps).max() > 0.8 * span and np.median(np.abs(steps)) < 0.1 * span)
     return Shape(low, high, reversals(known, REVERSAL * span), span <= 1e-9 * max(abs(low), abs(high)), steady, bool((known == np.round(known)).all()), jumps)
 

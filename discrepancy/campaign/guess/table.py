@@ -18,6 +18,8 @@ from fmu_src.reading import reading
 
 # A column is one of numbers if so many of its filled cells are (assumed: the others are dropouts).
 NUMBERS = 0.5
+# A column of so many different words tells rows apart.
+MOST_WORDS = 20
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,9 @@ def table_of(path: Path) -> Table:
         sign = keys["thousands"]
         doubts.append(Doubt(path.name, f'numbers such as 1{sign}234 are taken for thousands', f'if they are fractions: decimal = "{sign}" in campaign.toml'))
     columns, words = numeric(raw)
+    for name, said in worded(raw, columns).items():
+        text = f"column {once[name]!r} holds words ({', '.join(said)}): rows of several runs may stand in this file"
+        doubts.append(Doubt(path.name, text, f'state where = {{ "{name}" = "{said[0]}" }} in campaign.toml, once for each run'))
     if words:
         keys["missing"] = sorted(words)
         text = f"cells with {', '.join(sorted(words))} count as nothing measured"
@@ -87,6 +92,16 @@ def together(path: Path, names: Mapping[str, str], keys: Mapping[str, Any]) -> d
         if "not sampled at the same times" not in str(fault) and "different length" not in str(fault):
             raise
     return {name: read_columns(path, {name}, options, path.name)[name] for name in names}
+
+
+def worded(raw: Mapping[str, np.ndarray], columns: Mapping[str, Floats]) -> dict[str, list[str]]:
+    """Columns of few words that come again, with these words: they tell rows apart."""
+    found = {}
+    for name in raw.keys() - columns.keys():
+        said = sorted({str(cell).strip() for cell in raw[name] if isinstance(cell, str) and cell.strip()})
+        if 2 <= len(said) <= MOST_WORDS and 2 * len(said) <= len(raw[name]):
+            found[name] = said
+    return found
 
 
 def numeric(raw: Mapping[str, np.ndarray]) -> tuple[dict[str, Floats], set[str]]:
