@@ -317,6 +317,21 @@ def test_many_columns_without_names_are_asked(tmp_path):
         propose([tmp_path], Wishes())
 
 
+def test_sheets_are_refused_with_the_way_out(tmp_path):
+    (tmp_path / "te_1.xlsx").write_bytes(b"PK")
+    with pytest.raises(InputFault, match=r"te_1\.xlsx: sheets are not read; save the sheet as CSV"):
+        propose([tmp_path / "te_1.xlsx"], Wishes())
+
+
+def test_the_reducer_is_asked_for(tmp_path, capsys):
+    write(tmp_path, "plain")
+    assert main(["campaign", "from", str(tmp_path), "--json"]) == 2
+    assert "--reducer: say which reducer was measured: " in capsys.readouterr().err
+    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
+
+
 def test_no_table_is_said(tmp_path):
     (tmp_path / "a.csv").write_text("nothing\nto see\n")
     with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):

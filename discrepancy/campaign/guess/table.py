@@ -18,6 +18,7 @@ from fmu_src.reading import reading
 
 # A column is one of numbers if so many of its filled cells are (assumed: the others are dropouts).
 NUMBERS = 0.5
+SHEETS = (".xlsx", ".xls", ".xlsm", ".ods")
 # A column of so many different words tells rows apart.
 MOST_WORDS = 20
 
@@ -43,6 +44,8 @@ def table_of(path: Path) -> Table:
     if not path.is_file():
         raise InputFault(f"{path}: there is no such file; correct the name")
     kind = kind_of(path)
+    if path.suffix.lower() in SHEETS:
+        raise InputFault(f"{path}: sheets are not read; save the sheet as CSV (UTF-8, commas or semicolons) and name that file")
     if kind is None:
         raise InputFault(f"{path}: the ending does not tell the format; name it {', '.join(ENDINGS)}")
     if kind != "csv":
