@@ -20,7 +20,7 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
-from fmu_src.variables import Table
+from fmu_src.table import Table
 from reducers.reducer import load_reducer
 from rv_plant import plant
 from rv_plant.assembly import assemble, bearing_contacts

@@ -9,9 +9,10 @@ import numpy as np
 
 from fmu_src.display import display_unit, displays
 from fmu_src.project import Project
+from fmu_src.table import Table
 from fmu_src.unit import LOG_CATEGORIES, Specification
 from fmu_src.units import fmi_base_unit
-from fmu_src.variables import SETTABLE, Table, Variable
+from fmu_src.variables import SETTABLE, Variable
 
 # Relative accuracy of forces and depths at the default step.  The units hold their own error bounds (``numerics``), whatever step
 # or tolerance a master asks for.

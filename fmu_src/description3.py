@@ -6,7 +6,8 @@ import numpy as np
 
 from fmu_src.description import add_experiment, add_log_categories, add_units, limits_of, number, shown_in, starts_from, type_name
 from fmu_src.project import Project
-from fmu_src.variables import SETTABLE, Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import SETTABLE, Variable
 
 
 def model_description3(table: Table, identity: str, code_hash: str, step_size: float, tool: str, made_by: Project) -> Element:

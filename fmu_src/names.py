@@ -12,7 +12,8 @@ from typing import Any
 
 from fmu_src.effect import Effect, EffectParameter
 from fmu_src.faults import OldName
-from fmu_src.variables import SETTABLE, Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import SETTABLE, Variable
 
 EFFECTS_GROUP = "effects"
 

@@ -7,8 +7,9 @@ from fmu_src.display import display_unit
 from fmu_src.icons import drawing, picture, terminal_drawing, terminal_picture
 from fmu_src.link import FMI_HEADERS
 from fmu_src.project import Project
+from fmu_src.table import Table
 from fmu_src.terminals import terminals_file
-from fmu_src.variables import Table, Variable
+from fmu_src.variables import Variable
 
 STYLE = """body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#223}
 table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:3px 8px;border-bottom:1px solid #ccd}

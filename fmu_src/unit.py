@@ -14,7 +14,7 @@ from typing import NotRequired, TypedDict
 from fmu_src.arrays import Records
 from fmu_src.kernel import Kernel
 from fmu_src.start_arrays import decode
-from fmu_src.variables import Table
+from fmu_src.table import Table
 
 # A communication step beyond this is a slip, not a wish [s].
 LONGEST_STEP = 3600.0

@@ -8,8 +8,9 @@ import re
 from itertools import groupby
 from string import Formatter
 
+from fmu_src.table import Table
 from fmu_src.unit import LOG_CATEGORIES, LONGEST_STEP, Unit
-from fmu_src.variables import Table, Variable
+from fmu_src.variables import Variable
 
 MOST_DIMENSIONS = 4
 

@@ -18,9 +18,10 @@ import numpy.typing as npt
 from fmu_src.arrays import Integers, Records
 from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.names import warn_of_old_name
+from fmu_src.table import Table
 from fmu_src.unit import Specification, Unit, make_unit
 from fmu_src.units import BaseUnit
-from fmu_src.variables import Table, ValueFault, Variable
+from fmu_src.variables import ValueFault, Variable
 
 # (dtype, reference): FMI 2 counts its references anew for each type.
 Element = tuple[str, int]

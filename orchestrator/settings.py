@@ -12,8 +12,9 @@ from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest
 from fmu_src.names import found_by_name, settable_names
 from fmu_src.reading import quoted
+from fmu_src.table import Table
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import SETTABLE, Table, ValueFault, Variable
+from fmu_src.variables import SETTABLE, ValueFault, Variable
 from orchestrator.component import Component, Signal
 
 # Signs of a setting (assumed: names and units have a fraction of it).

@@ -20,9 +20,10 @@ from fmu_src.faults import InputFault, nearest
 from fmu_src.names import dotted, found_by_name, settable_names
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.strict_file import NAME, Piece, Strict, keys_at
+from fmu_src.table import Table
 from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import SETTABLE, Table, ValueFault
+from fmu_src.variables import SETTABLE, ValueFault
 from reducers.library import LIBRARY, available
 from rv_plant.dimension import FILE
 from rv_plant.topology import Topology

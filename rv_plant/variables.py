@@ -2,7 +2,8 @@
 
 from fmu_src.effect import amplitude_memory
 from fmu_src.effect_check import require_sound_effects
-from fmu_src.variables import Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import Variable
 from rv_plant import (
     assembly,
     constraints,

@@ -9,7 +9,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from fmu_src.variables import SEEN, SETTABLE, Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import SEEN, SETTABLE, Variable
 from rv_plant.terminals import MECHANICAL as TERMINALS
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table

@@ -3,8 +3,9 @@
 import math
 
 from fmu_src.kernel import kernel
+from fmu_src.table import Table
 from fmu_src.unit import Unit
-from fmu_src.variables import Table, Variable
+from fmu_src.variables import Variable
 
 UNSTABLE = 1
 

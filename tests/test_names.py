@@ -15,7 +15,8 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model, save_model
 from fmu_src.faults import InputFault, OldName
 from fmu_src.names import dotted, short_name
-from fmu_src.variables import SETTABLE, Table, Variable, output
+from fmu_src.table import Table
+from fmu_src.variables import SETTABLE, Variable, output
 from orchestrator.component import InProcess
 from orchestrator.settings import parse_setting
 from orchestrator.system import load

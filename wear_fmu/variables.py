@@ -6,7 +6,8 @@ from typing import Any
 
 from fmu_src.effect import amplitude_memory
 from fmu_src.effect_check import require_sound_effects
-from fmu_src.variables import Sizes, Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import Sizes, Variable
 from wear_fmu import accumulator, kinematics, received, surfaces, sweeps, wear_laws
 from wear_fmu.effects import EFFECTS
 from wear_fmu.terminals import TERMINALS

@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.numba_peer import njit
 from fmu_src.arrays import Floats
-from fmu_src.variables import Table
+from fmu_src.table import Table
 from rv_plant import plant
 from rv_plant.dynamics import assemble_motion
 from rv_plant.faults import FAULTS

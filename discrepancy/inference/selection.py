@@ -24,10 +24,12 @@ HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
 # Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
 FAR_SHORT = 0.2
-# A one-sided effect whose score is below this chi-square may begin with no slope; so many of them are tried beside others.
-SEEN_AT_ONCE, MOST_THRESHOLDS = 4.0, 3
+# So many one-sided effects that are not promising are tried beside others: they may begin with no slope.
+MOST_THRESHOLDS = 3
 # So many further effects are tried beside what is there already.
 MOST_TRIALS = 7
+# So many of the best joint fits are computed in earnest, if one turns out to be none.
+MOST_IN_EARNEST = 3
 # So many of the best fits are looked for from other starts too.
 FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained.
@@ -51,9 +53,9 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
     return kept
 
 
-def foremost(trials: Sequence[Refit]) -> Refit:
-    """The best of joint fits, those whose newest effect ends at a bound after all others."""
-    return min([t for t in trials if not newest_at_a_bound(t)] or trials, key=penalised)
+def ranked(trials: Sequence[Refit]) -> list[Refit]:
+    """Joint fits, the best first, those whose newest effect ends at a bound after all others."""
+    return sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t)))
 
 
 class Selection:
@@ -145,11 +147,11 @@ class Selection:
             own = {p.name: current.fit.values[p.name] for p in current.own}
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
-            challenger = foremost(trials)
+            challenger = ranked(trials)[0]
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 trials += self.exchanged(names[0], newest, challenger.gain)
-            challenger = self.tried("fitting in earnest", self.refits.renewed, [foremost(trials)])[0]
+            challenger = self.in_earnest(trials)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
                 break
@@ -160,6 +162,15 @@ class Selection:
                 break
         return current
 
+    def in_earnest(self, trials: Sequence[Refit]) -> Refit:
+        """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next."""
+        found = []
+        for trial in ranked(trials)[:MOST_IN_EARNEST]:
+            found += self.tried("fitting in earnest", self.refits.renewed, [trial])
+            if found[-1].fit.chi2 <= self.near(trial):
+                return found[-1]
+        return min(found, key=penalised)
+
     def exchanged(self, first: str, newest: str, gain: float) -> list[Refit]:
         """Fits of the newest effect beside others than the first that may gain as much together."""
         return [
@@ -169,12 +180,12 @@ class Selection:
         ]  # fmt: skip
 
     def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
-        """Effects that begin with no slope (play): beside others a score test may not see them, so they are tried at their typical size."""
+        """Effects that begin with no slope (play): beside others a score test sees little of them, so some are tried at their typical size."""
         found = []
         for s in more.scores:
             c = self.refits.by_name[s.name]
             alone = len(c.amplitudes) == 1 and c.amplitudes[0].sign != 0 and not c.shapes
-            if alone and s.name not in known and s.statistic < SEEN_AT_ONCE:
+            if alone and s.name not in known:
                 p = c.amplitudes[0]
                 found.append(dataclasses.replace(s, start={p.name: p.off + p.sign * p.scale}))
         return found[:MOST_THRESHOLDS]

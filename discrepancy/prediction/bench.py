@@ -27,6 +27,8 @@ MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
 # Held test: turning is averaged over positions of the cranks; what values change in it, roughly, over fewer (five see as much as
 # eight, whose symmetry is that of the pins, three err by a tenth).
 HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
+# Turning of the cranks [rad] between two equilibria that is not divided.
+LARGEST_CRANK_STEP = 1e3
 # Takes the wear unit's contacts to angles that were set; a step of no length only reads where they are [s].
 MOMENT = 1e-12
 # Effects by which a held output's place depends on the way to it.
@@ -76,7 +78,9 @@ class Bench(Lives):
         key = ("running", condition, relevant, angles.tobytes(), cage)
 
         def run() -> tuple[Floats, Floats]:
-            plants = self.new_plant(condition, values, float(angles[0]), cage=cage, largest_crank_step=1.0)
+            # Beside a similar run each angle has a start of its own, however far the cranks turn between them.
+            step = 1.0 if condition.hours > 0.0 or not relevant else LARGEST_CRANK_STEP
+            plants = self.new_plant(condition, values, float(angles[0]), cage=cage, largest_crank_step=step)
             # The wear unit of a new reducer has nothing to do.
             wears = self.templates[1]
             if condition.hours > 0.0:

@@ -24,8 +24,8 @@ from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.problem import Candidate, Parameter, Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault, nearest
+from fmu_src.table import Table
 from fmu_src.threads import Threads
-from fmu_src.variables import Table
 
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80

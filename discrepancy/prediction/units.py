@@ -9,8 +9,8 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
+from fmu_src.table import Table
 from fmu_src.threads import Once
-from fmu_src.variables import Table
 from reducers.reducer import Reducer
 from rv_plant import plant
 from rv_plant.faults import FAULTS

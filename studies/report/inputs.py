@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fmu_src.variables import Table, Variable
+from fmu_src.table import Table
+from fmu_src.variables import Variable
 from pages.words import number
 from rv_plant.variables import plant_table
 from studies.report.result import Result
