@@ -62,6 +62,51 @@ def test_delimited_text(tmp_path, text, options, encoding):
     is_measured(campaign(tmp_path, f'file = "a.csv"\n{options}\n{columns()}').records[0])
 
 
+@pytest.mark.parametrize("word", ["#NV", "---", "OL", ""])
+@pytest.mark.parametrize("units", [False, True])
+def test_one_word_in_a_column_with_decimal_commas(tmp_path, word, units):
+    """As the message advises: listed in ``missing`` it stands for nothing measured."""
+    rows = "deg;arcsec\n" * units + f"0;1,0\n45;{word}\n90;2,5\n180;-0,5\n270;0,0\n360;1,5\n"
+    (tmp_path / "a.csv").write_text("phi;te\n" + rows)
+    run = f'file = "a.csv"\n{columns()}\nunits_line = {str(units).lower()}'
+    if word:
+        with pytest.raises(InputFault, match=rf"column 'te', row \d: '{word}' is not a number.*missing = \['{word}'\]"):
+            campaign(tmp_path, run)
+        run += f"\nmissing = ['{word}']"
+    loaded = campaign(tmp_path, run)
+    is_measured(loaded.records[0])
+    assert loaded.rows["r"].dropped == 1
+
+
+@pytest.mark.parametrize("text", [
+    "phi;te\n0;1.001,0\n90;1.002,5\n180;999,5\n270;1.000,0\n360;1.001,5\n",
+    'phi,te\n0,"1,001.0"\n90,"1,002.5"\n180,999.5\n270,"1,000"\n360,"1,001.5"\n',
+    "phi\tte\n0\t1 001,0\n90\t1 002,5\n180\t999,5\n270\t1 000,0\n360\t1 001,5\n",
+    "phi;te\n0;1'001.0\n90;1'002.5\n180;999.5\n270;1'000\n360;1'001.5\n",
+    'phi,te\n0,"1001,0"\n90,"1002,5"\n180,"999,5"\n270,"1000,0"\n360,"1001,5"\n',
+])  # fmt: skip
+def test_thousands_set_apart(tmp_path, text):
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    assert campaign(tmp_path, f'file = "a.csv"\n{columns()}').records[0].values == pytest.approx((ERROR + 1000) * ARCSEC)
+
+
+def test_what_may_be_a_thousand_or_a_fraction_is_asked(tmp_path):
+    (tmp_path / "a.csv").write_text("phi;te\n0,5;1.001\n90,5;1.002\n")
+    with pytest.raises(InputFault, match=r"column 'te', row 1: '1.001' may be a thousand or a fraction; state thousands"):
+        campaign(tmp_path, f'file = "a.csv"\n{columns()}')
+    stated = campaign(tmp_path, f'file = "a.csv"\nthousands = "."\n{columns()}').records[0]
+    assert stated.values == pytest.approx(np.array([1001, 1002]) * ARCSEC)
+
+
+@pytest.mark.parametrize("angle, encoding", [("输出角度", "gb18030"), ("出力角度", "cp932"), ("Drehwinkel größer µ°", "cp1252"), ("Abtriebswinkel°", "cp1252")])
+def test_encodings_of_windows(tmp_path, angle, encoding):
+    (tmp_path / "a.csv").write_text(f"{angle},te\n0,1\n90,2.5\n180,-0.5\n270,0\n360,1.5\n", encoding=encoding)
+    is_measured(campaign(tmp_path, f'file = "a.csv"\n{columns(angle)}').records[0])
+    is_measured(campaign(tmp_path, f'file = "a.csv"\nencoding = "{encoding}"\n{columns(angle)}').records[0])
+    with pytest.raises(InputFault, match="encoding = 'klingon' is not known"):
+        campaign(tmp_path, f'file = "a.csv"\nencoding = "klingon"\n{columns(angle)}')
+
+
 def test_gzipped_text_and_columns_by_number(tmp_path):
     with gzip.open(tmp_path / "a.csv.gz", "wt") as file:
         file.writelines(f"{a} {e}\n" for a, e in zip(ANGLE, ERROR))

@@ -1,15 +1,18 @@
-"""``rvwear campaign check``, ``template`` and ``from-rv-te``."""
+"""``rvwear campaign from``, ``check``, ``template`` and ``from-rv-te``."""
 
 import argparse
 
+from cli.commands import campaign_from
 from cli.options import add_json, add_reducer
 from discrepancy.campaign.quantities import QUANTITIES, USUAL
 from fmu_src.progress import task
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    campaign = sub.add_parser("campaign", help="measurement campaigns: check one, write an empty one, make one of public data")
+    campaign = sub.add_parser("campaign", help="measurement campaigns: make one from files or public data, check one, write an empty one")
     actions = campaign.add_subparsers(dest="action", required=True, metavar="ACTION")
+
+    campaign_from.add_command(actions)
 
     check = actions.add_parser("check", help="what is missing, and what could not be told apart")
     check.add_argument("folder", help="folder with campaign.toml")

@@ -113,6 +113,8 @@ class Run(Strict):
     format: Literal["csv", "parquet", "mat", "mdf", "tdms"] | None = None
     delimiter: str | None = Field(default=None, min_length=1, max_length=1)
     decimal: Literal[".", ","] | None = None
+    thousands: str | None = Field(default=None, min_length=1, max_length=1)
+    encoding: str | None = None
     header: bool = True
     units_line: bool = False
     skip_lines: int = Field(default=0, ge=0)

@@ -105,7 +105,8 @@ def from_text(column: np.ndarray, entry: Column, missing: Sequence[float | str],
     if len(bad):
         raise InputFault(
             f"{place}: column {entry.column!r}, row {bad.index[0] + 1}: {bad.iloc[0]!r} is not a number; correct it, list"
-            f" it in missing = [{str(bad.iloc[0])!r}], state decimal = \",\", or units_line = true if it is a unit"
+            f" it in missing = [{str(bad.iloc[0])!r}] if nothing was measured, state decimal and thousands (\",\" or \".\") if it is one, or"
+            " units_line = true if it is a unit"
         )
     return values.to_numpy(float)
 

@@ -38,6 +38,8 @@ class Options:
     format: str | None = None
     delimiter: str | None = None
     decimal: str | None = None
+    thousands: str | None = None
+    encoding: str | None = None
     header: bool = True
     units_line: bool = False
     skip_lines: int = 0
@@ -45,12 +47,35 @@ class Options:
     align: str | None = None
 
 
+def kind_of(path: Path, stated: str | None = None) -> str | None:
+    """The format that is stated, or that the ending tells."""
+    endings = [s.lower() for s in path.suffixes if s.lower() != ".gz"]
+    return stated or (ENDINGS.get(endings[-1]) if endings else None)
+
+
+def contents(path: Path, kind: str) -> dict[str, str]:
+    """Columns of a file of a binary format, with the units that it states ("" for none)."""
+    require_size(path, MOST)
+    with reading(path, kind, "check the file"):
+        try:
+            found: dict[str, str] = read_apart(f"{__name__}:contents_as", path, kind)
+        except ModuleNotFoundError as problem:
+            raise MissingPart(f"{path.name}: reading {kind}", problem.name or kind, "measurements") from None
+    return found
+
+
+def contents_as(path: Path, kind: str) -> dict[str, str]:
+    """In the process that reads binary formats."""
+    with reading(path, kind, "check the file"):
+        found: dict[str, str] = import_module(f"{__name__}.{kind}").contents(path)
+    return found
+
+
 def read_columns(path: Path, names: set[str], options: Options, place: str) -> dict[str, np.ndarray]:
     """The named columns; ``place`` is the run, for the errors."""
     if not path.is_file():
         raise InputFault(f"{place}: file = {str(path)!r}: there is no such file; correct the name or add the file")
-    endings = [s.lower() for s in path.suffixes if s.lower() != ".gz"]
-    kind = options.format or (ENDINGS.get(endings[-1]) if endings else None)
+    kind = kind_of(path, options.format)
     if kind is None:
         raise InputFault(
             f"{place}: file = {path.name!r}: the ending does not tell the format; name it {', '.join(ENDINGS)},"

@@ -1,6 +1,5 @@
 """Delimited text, plain or gzipped; delimiter and decimal sign are found if they are not stated."""
 
-import codecs
 import csv
 import gzip
 import re
@@ -13,16 +12,21 @@ import numpy as np
 import pandas as pd
 
 from discrepancy.campaign.readers import MOST_UNPACKED, Options, ReadFault, missing_column
+from discrepancy.campaign.readers.encodings import encodings_of
+from discrepancy.campaign.readers.figures import plain
 
 # In this order: a comma may be the decimal sign, so it is tried last.
 DELIMITERS = (";", "\t", "|", ",")
 DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*$")
+GROUPED = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*$")
 SNIFFED_LINES = 30
 COMMENT = "#"
+# Bytes that tell the encoding: the header is among them.
+SEEN = 1 << 16
 
 
 def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]:
-    encoding, comments = scan(path)
+    encoding, comments = scan(path, options.encoding)
     lines = first_lines(path, encoding, options.skip_lines)
     if not lines:
         raise ReadFault("the file is empty; it needs a line of column names")
@@ -55,34 +59,27 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
             raise missing_column(name, frame.columns)
         if names_in_file.count(name) > 1:
             raise ReadFault(f"column {name!r}: the file has {names_in_file.count(name)} columns of this name; rename one")
-        column = frame[name]
-        if options.units_line:
-            text = column.astype(str).str.strip()
-            column = pd.to_numeric(text.str.replace(",", ".") if decimal == "," else text, errors="coerce").where(
-                text != "nan"
-            )
-        columns[name] = column.to_numpy()
+        columns[name] = plain(frame[name], decimal, options.thousands).to_numpy()
     return columns
 
 
-def scan(path: Path) -> tuple[str, list[int]]:
-    """Encoding, and the numbers of the comment lines.
-
-    UTF-8 where the file is; else what Windows programs write (micro and degree signs, "Unicode
-    text").  pandas' own comments would also cut a column name like "sensor #1".
-    """
+def scan(path: Path, stated: str | None = None) -> tuple[str, list[int]]:
+    """Encoding, and the numbers of the comment lines; pandas' own comments would also cut a column name like "sensor #1"."""
     if path.suffix.lower() == ".gz":
         require_unpacked_size(path)
     with (gzip.open if path.suffix.lower() == ".gz" else open)(path, "rb") as file:
-        wide = file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-    encodings = ("utf-16",) if wide else ("utf-8-sig", "cp1252")
-    for encoding in encodings:
+        beginning = file.read(SEEN)
+    for encoding in (stated,) if stated else encodings_of(beginning):
         try:
             with opened(path, encoding) as file:
                 return encoding, [number for number, line in enumerate(file) if line.startswith(COMMENT)]
         except UnicodeDecodeError:
             continue
-    raise ReadFault("not a text in UTF-8, UTF-16 or Windows-1252; export it as UTF-8, or state its format")
+        except LookupError:
+            raise ReadFault(f"encoding = {stated!r} is not known; state one like \"utf-8\", \"cp1252\", \"gb18030\"") from None
+    if stated:
+        raise ReadFault(f"not a text in {stated}; correct encoding, or leave it out")
+    raise ReadFault("not a text in UTF-8, UTF-16 or Windows-1252; export it as UTF-8, state its encoding, or its format")
 
 
 def require_unpacked_size(path: Path) -> None:
@@ -121,7 +118,7 @@ def sniff_delimiter(lines: list[str]) -> str:
 
 
 def sniff_decimal(lines: list[str], delimiter: str) -> str:
-    if delimiter == ",":
-        return "."
     fields = [field for row in csv.reader(lines, delimiter=delimiter) for field in row]
-    return "," if any(DECIMAL_COMMA.match(field) for field in fields) else "."
+    found = [field for field in fields if DECIMAL_COMMA.match(field)]
+    # Between commas only quoted fields have one; and 1,234 may be a thousand.
+    return "," if any(delimiter != "," or not GROUPED.match(field) for field in found) else "."

@@ -85,3 +85,15 @@ def vector(arrays: dict[str, np.ndarray], name: str) -> np.ndarray:
     if array.ndim > 1:
         raise ReadFault(f"column {name!r}: a matrix of shape {array.shape}; name one column of it, {name}[1]")
     return np.atleast_1d(array)
+
+
+def contents(path: Path) -> dict[str, str]:
+    """Vectors and columns of matrices that hold numbers; the format has no units."""
+    found: dict[str, str] = {}
+    for name, array in (hdf_arrays(path) if is_hdf(path) else scipy_arrays(path)).items():
+        array = np.squeeze(array)
+        if array.dtype.kind not in "iufb" or array.size < 2 or array.ndim > 2:
+            continue
+        columns = [name] if array.ndim == 1 else [f"{name}[{k + 1}]" for k in range(array.shape[1])]
+        found |= dict.fromkeys(columns, "")
+    return found

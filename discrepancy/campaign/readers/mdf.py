@@ -90,3 +90,13 @@ def in_group(file: MDF, index: int, wanted: str | None) -> bool:
     """By number or by the name of the acquisition."""
     # Groups of MDF 3 have no name.
     return wanted is None or wanted in (str(index), getattr(file.groups[index].channel_group, "acq_name", None))
+
+
+def contents(path: Path) -> dict[str, str]:
+    """Channels that stand in one group, with their units; ``time`` if they have their own."""
+    with MDF(path) as file:
+        masters = set(file.masters_db.items())
+        places = {name: [place for place in found if place not in masters] for name, found in file.channels_db.items()}
+        alone = {name: found[0] for name, found in places.items() if len(found) == 1}
+        found = {name: str(file.groups[group].channels[index].unit or "") for name, (group, index) in alone.items()}
+        return ({TIME: "s"} if masters else {}) | found

@@ -15,3 +15,8 @@ def read(path: Path, names: set[str], options: Options) -> dict[str, np.ndarray]
             raise missing_column(name, available)
     table = parquet.read_table(path, columns=sorted(names))
     return {name: table[name].to_numpy() for name in sorted(names)}
+
+
+def contents(path: Path) -> dict[str, str]:
+    """Columns, with the units that the file states ("" for none)."""
+    return dict.fromkeys(parquet.read_schema(path).names, "")

@@ -49,3 +49,15 @@ def own_time(channel: TdmsChannel) -> np.ndarray | None:
     """Time of a waveform channel; None for plain columns of numbers."""
     track: np.ndarray | None = channel.time_track() if "wf_increment" in channel.properties else None
     return track
+
+
+def contents(path: Path) -> dict[str, str]:
+    """Channels, by ``group/channel`` where several groups have the name, with their units; ``time`` if they have their own."""
+    with TdmsFile.open(path) as file:
+        channels = [(group.name, channel) for group in file.groups() for channel in group.channels()]
+        names = [channel.name for _, channel in channels]
+        timed = {TIME: "s"} if any("wf_increment" in channel.properties for _, channel in channels) else {}
+        return timed | {
+            channel.name if names.count(channel.name) == 1 else f"{group}/{channel.name}": str(channel.properties.get("unit_string", ""))
+            for group, channel in channels
+        }

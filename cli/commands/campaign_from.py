@@ -1,0 +1,113 @@
+"""``rvwear campaign from``: a campaign folder from files as a bench writes them."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cli.completion import completed_by, reducer_completions
+from cli.options import REDUCER_HELP, add_json
+from fmu_src.faults import InputFault
+from fmu_src.progress import task
+
+if TYPE_CHECKING:
+    from discrepancy.campaign.guess.wishes import Wishes
+
+
+def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    command = actions.add_parser(
+        "from", help="write campaign.toml for measurement files: columns, units, conditions and repetitions are guessed, what is not sure is said"
+    )
+    command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some")
+    command.add_argument("--output", metavar="FOLDER", help="where campaign.toml goes (default: the folder of the files); nothing is overwritten")
+    completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + " (asked for)"), reducer_completions)
+    command.add_argument(
+        "--names", action="append", default=[], metavar="PATTERN",
+        help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {direction}"
+        " {mounting} {condition} {any}",
+    )  # fmt: skip
+    for option, form, text in (
+        ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),
+        ("--column", "ROLE=COLUMN", "what a column is: value, angle, input_angle, torque, time, output_speed ... (docs/campaigns.md)"),
+        ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
+        ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
+        ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
+        ("--tag", "KEY=WORD", "surface=flank, locked=output ..."),
+    ):
+        command.add_argument(option, action="append", default=[], metavar=form, help=text)
+    command.add_argument("--held-out", nargs="*", metavar="CONDITION", help="conditions to keep for the test (default: proposed); none without a name")
+    command.add_argument("--dry-run", action="store_true", help="show what would be written, write nothing")
+    add_json(command, "print the guesses with their reasons as JSON, nothing else")
+    command.set_defaults(run=run_from)
+
+
+def run_from(options: argparse.Namespace) -> int:
+    """Show the guesses, write the file, name the command that compares."""
+    from cli.screen import json_text
+    from cli.show.guesses import show
+    from discrepancy.campaign.guess.propose import propose
+    from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+
+    files = [Path(file) for file in options.files]
+    reducer = options.reducer or asked(options)
+    wishes = wishes_of(options, reducer)
+    folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
+    with task("reading the files"):
+        proposal = propose(files, wishes, name_of(folder))
+        if proposal.reducer:
+            checked(proposal)
+    command = f"rvwear {'campaign check' if proposal.needs else f'compare {proposal.reducer}'} {folder}"
+    text = campaign_text(proposal, folder)
+    if not options.dry_run:
+        write_campaign(proposal, folder)
+    if options.json:
+        json_text(proposal.as_json() | {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command})
+        return 0
+    show(proposal)
+    if options.dry_run:
+        print(f"\n{text}")
+        print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")
+    else:
+        print(f"{folder / 'campaign.toml'} is written; next:\n  {command}")
+    return 0
+
+
+def asked(options: argparse.Namespace) -> str | None:
+    """The reducer, from whoever sits at the terminal; None in a dry run, which may say that it is missing."""
+    if options.dry_run:
+        return None
+    if options.json or not sys.stdin.isatty():
+        raise InputFault(f"--reducer: say which reducer was measured: {REDUCER_HELP.rpartition(' (')[0]}")
+    return input(f"Which reducer was measured ({REDUCER_HELP.rpartition(' (')[0]})? ").strip() or None
+
+
+def name_of(folder: Path) -> str:
+    """Of the folder, in the signs that a campaign's name may have."""
+    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.resolve().name).lstrip(" ._-")
+    return name or "campaign"
+
+
+def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":
+    from discrepancy.campaign.guess.wishes import Wishes
+
+    counts = pairs("--counts", options.counts)
+    for column, steps in counts.items():
+        if not steps.strip().isdigit() or int(steps) == 0:
+            raise InputFault(f"--counts {column}={steps}: the steps of one turn are a whole number, for instance {column}=4096")
+    quantities = pairs("--quantity", [text if "=" in text else f"*={text}" for text in options.quantity])
+    return Wishes(
+        reducer, tuple(options.names), pairs("--unit", options.unit), pairs("--column", options.column), {c: float(n) for c, n in counts.items()}, quantities,
+        pairs("--condition", options.condition), None if options.held_out is None else tuple(options.held_out), pairs("--tag", options.tag),
+    )  # fmt: skip
+
+
+def pairs(option: str, texts: Sequence[str]) -> dict[str, str]:
+    """``NAME=VALUE`` as name and value; InputFault without the sign."""
+    found = {}
+    for text in texts:
+        name, equals, value = text.rpartition("=")
+        if not equals or not name.strip() or not value.strip():
+            raise InputFault(f"{option} {text}: write NAME=VALUE, in quotes where blanks are in it")
+        found[name.strip()] = value.strip()
+    return found

@@ -1,0 +1,36 @@
+"""What ``rvwear campaign from`` shows on the screen."""
+
+from rich.table import Table
+
+from cli.screen import console, styled
+from discrepancy.campaign.guess.propose import PlacedRun, Proposal
+
+
+def show(proposal: Proposal) -> None:
+    """Runs, what each column was taken for and why, conditions, what is not sure, what is needed."""
+    out = console()
+    table = Table(title=f"{proposal.name}: {len(proposal.runs)} runs", title_justify="left")
+    for column in ("run", "quantity", "condition", "repetition"):
+        table.add_column(column)
+    for run in proposal.runs:
+        table.add_row(run.name, run.guessed.quantity.value, run.condition, str(run.replicate.value))
+    out.print(table)
+    seen = set()
+    for run in proposal.runs:
+        if (key := columns_key(run)) not in seen:
+            seen.add(key)
+            out.print(f"{run.guessed.quantity.value}, as in {run.guessed.path.name} (names: {run.guessed.name.pattern}):")
+            for role, entry in run.guessed.columns.items():
+                out.print(f"  {role}: column {entry.header!r}, {entry.column.reason}; unit {entry.unit.value}: {entry.unit.reason}")
+    for name, stated in proposal.conditions.items():
+        kept = f"; {proposal.held_out[name].reason}" if name in proposal.held_out else ""
+        out.print(f"condition {name}: {', '.join(f'{key} {value}' for key, value in stated.items()) or 'nothing is said'}{kept}")
+    for doubt in proposal.doubts:
+        out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
+    for need in proposal.needs:
+        out.print(styled(("needed", "red"), f"  {need.place}: {need.text}; {need.remedy}"))
+
+
+def columns_key(run: PlacedRun) -> tuple[object, ...]:
+    """Equal for runs whose columns were taken alike."""
+    return run.guessed.quantity.value, *((role, entry.header, entry.unit.value) for role, entry in run.guessed.columns.items())

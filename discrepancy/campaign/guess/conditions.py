@@ -1,0 +1,77 @@
+"""Conditions, repetitions and held-out conditions of several files."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from discrepancy.campaign.guess.said import Guess
+
+# A held-out condition is proposed from so many on: two must be left to fit.
+LEAST_CONDITIONS = 3
+
+
+@dataclass(frozen=True)
+class State:
+    """What is known of a file's condition: key of a campaign's condition -> "15 rpm"; the words that name it; whether the file says either."""
+
+    stated: tuple[tuple[str, str], ...]
+    label: str
+    speaks: bool
+
+
+def named_conditions(states: Sequence[State]) -> dict[State, str]:
+    """A name for each different state; files that say nothing belong to the only one there is."""
+    distinct = list(dict.fromkeys(states))
+    speaking = [s for s in distinct if s.speaks]
+    names: dict[State, str] = {}
+    for state in distinct:
+        if state not in speaking and len(speaking) == 1:
+            names[state] = name_of(speaking[0], speaking)
+        else:
+            names[state] = name_of(state, distinct)
+    return names
+
+
+def name_of(state: State, others: Sequence[State]) -> str:
+    """Its words; else what differs between it and the others."""
+    common = set.intersection(*(set(other.stated) for other in others)) if len(others) > 1 else set()
+    own = [value for key_value in state.stated if key_value not in common for value in key_value[1:]]
+    alone = sum(other.label == state.label for other in others) == 1
+    parts = [state.label] if state.label and alone else [state.label, *own] if state.label else own
+    text = "_".join(re.sub(r"[^A-Za-z0-9._+-]", "", part.replace("%", "pct").replace("/", "per")) for part in parts if part)
+    return re.sub(r"^[^A-Za-z0-9]+", "", text) or "measured"
+
+
+def held_out(conditions: Mapping[str, Mapping[str, str]], quantities: Mapping[str, Sequence[str]]) -> dict[str, Guess[bool]]:
+    """Conditions to keep for the test of what is found: one inside the range of the others, of each set of quantities that has enough.
+
+    ``conditions``: name -> what is stated; ``quantities``: name -> what was measured in it.
+    """
+    found: dict[str, Guess[bool]] = {}
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name in conditions:
+        groups.setdefault(tuple(sorted(set(quantities.get(name, ())))), []).append(name)
+    for names in groups.values():
+        if len(names) < LEAST_CONDITIONS:
+            continue
+        inner = inside(names, conditions)
+        chosen = inner or names[-1]
+        reason = "inside the range of the others" if inner else "the last one; nothing says which lies inside the others"
+        found[chosen] = Guess(True, f"kept for the test of what is found: {reason}", False)
+    return found
+
+
+def inside(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]]) -> str | None:
+    """The condition nearest to the middle in each number that differs, none of them at an end; None without one."""
+    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if (m := re.match(r"[+-]?[\d.]+(?:e[+-]?\d+)?", text))} for name in names}
+    best: tuple[float, str] | None = None
+    varied = [key for key in levels[names[0]] if len({levels[n].get(key) for n in names}) > 2 and all(key in levels[n] for n in names)]
+    for name in names:
+        far = 0.0
+        for key in varied:
+            numbers = [levels[n][key] for n in names]
+            low, high = min(numbers), max(numbers)
+            far = max(far, abs(2.0 * (levels[name][key] - low) / (high - low) - 1.0))
+        if varied and far < 1.0 and (best is None or far < best[0]):
+            best = (far, name)
+    return best[1] if best else None

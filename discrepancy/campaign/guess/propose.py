@@ -1,0 +1,178 @@
+"""A campaign proposed from files: what ``rvwear campaign from`` and a page in the browser show, correct and save."""
+
+import os
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
+from discrepancy.campaign.guess.run import GuessedRun, guessed_run
+from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for
+from discrepancy.campaign.readers import kind_of
+from fmu_src.faults import InputFault, nearest
+from reducers.reducer import load_reducer
+
+# Examples for what has to be given.
+EXAMPLES = {"speed": "output_speed=15 rpm", "load": "load_torque=167 N.m", "hours": "hours=0 h", "temperature": "temperature=40 degC"}
+PIN_ON_DISC = {"normal_force": "normal_force=50 N", "sliding_speed": "sliding_speed=0.1 m/s", "sliding_distance": "sliding_distance=1 km"}
+
+
+@dataclass(frozen=True)
+class PlacedRun:
+    """A run of the campaign; ``where``: its rows, if its file holds several."""
+
+    name: str
+    guessed: GuessedRun
+    condition: str
+    replicate: Guess[int]
+    where: dict[str, int]
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """``data``: folder that all files lie in.  ``needs`` must be given before a model can be held against the campaign."""
+
+    name: str
+    reducer: str | None
+    data: Path
+    conditions: dict[str, dict[str, str]]
+    held_out: dict[str, Guess[bool]]
+    runs: tuple[PlacedRun, ...]
+    doubts: tuple[Doubt, ...]
+    needs: tuple[Doubt, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        return {
+            "name": self.name, "reducer": self.reducer, "data": str(self.data), "conditions": self.conditions,
+            "held_out": {name: guess.as_json() for name, guess in self.held_out.items()},
+            "runs": [
+                {
+                    "id": run.name, "file": str(run.guessed.path), "quantity": run.guessed.quantity.as_json(), "condition": run.condition,
+                    "replicate": run.replicate.as_json(), "where": run.where, "reading": run.guessed.reading, "names": run.guessed.name.pattern,
+                    "columns": {role: entry.as_json() for role, entry in run.guessed.columns.items()},
+                    "tags": {tag: guess.as_json() for tag, guess in run.guessed.tags.items()},
+                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()},
+                }
+                for run in self.runs
+            ],
+            "doubts": [doubt.as_json() for doubt in self.doubts], "needs": [need.as_json() for need in self.needs],
+        }  # fmt: skip
+
+
+def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Proposal:
+    """InputFault with file and remedy where one cannot be read, or nothing can be made of it."""
+    paths = list(dict.fromkeys(found for path in files for found in measurement_files(path)))
+    if not paths:
+        raise InputFault("no files; name measurement files, or folders that hold some")
+    if wishes.reducer:
+        load_reducer(wishes.reducer)
+    guessed = [guessed_run(path, wishes) for path in paths]
+    states = [state_of(run, wishes) for run in guessed]
+    names = named_conditions(states)
+    conditions: dict[str, dict[str, str]] = {}
+    for state in states:
+        conditions.setdefault(names[state], {})
+        conditions[names[state]] |= dict(state.stated)
+    given_for_one(conditions, wishes)
+    runs = placed(guessed, [names[state] for state in states])
+    measured = defaultdict(list)
+    for run in runs:
+        measured[run.condition].append(run.guessed.quantity.value)
+    return Proposal(
+        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
+        tuple(runs), tuple(merged([d for run in guessed for d in run.doubts])), needs_of(runs, conditions, wishes),
+    )  # fmt: skip
+
+
+def measurement_files(path: Path) -> list[Path]:
+    """The file itself, or those of a folder whose ending tells a format."""
+    if not path.is_dir():
+        return [path]
+    return sorted(file for file in path.iterdir() if file.is_file() and kind_of(file))
+
+
+def state_of(run: GuessedRun, wishes: Wishes) -> State:
+    """What the file says, and besides what is given for all."""
+    said = {key: guess.value for key, guess in run.factors.items()}
+    speed_said = any(key.endswith("put_speed") for key in said)
+    given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
+    return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+
+
+def given_for_one(conditions: dict[str, dict[str, str]], wishes: Wishes) -> None:
+    """Lays ``NAME:KEY`` over the condition of that name; InputFault if there is none."""
+    for key, text in wishes.conditions.items():
+        name, colon, own = key.rpartition(":")
+        if colon and name not in conditions:
+            raise InputFault(f"--condition {key}={text}: there is no condition {name}; choose from {', '.join(conditions)}{nearest(name, conditions)}")
+        if colon:
+            if own.endswith("put_speed"):
+                conditions[name] = {k: v for k, v in conditions[name].items() if not k.endswith("put_speed")}
+            conditions[name][own] = text
+
+
+def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[PlacedRun]:
+    """Runs with ids of their own, and repetitions counted where names do not say."""
+    runs: list[PlacedRun] = []
+    taken: set[tuple[object, ...]] = set()
+    ids: set[str] = set()
+    for run, condition in zip(guessed, conditions):
+        for number in run.repeated[1] if run.repeated else (None,):
+            same = (run.quantity.value, condition, tuple(sorted((tag, g.value) for tag, g in run.tags.items())))
+            wanted = number if number is not None else run.name.replicate
+            if wanted is not None and wanted >= 1 and (*same, wanted) not in taken:
+                reason = f"column {run.repeated[0]}" if run.repeated else "the file's name"
+                replicate = Guess(wanted, reason)
+            else:
+                free = next(k for k in range(1, len(taken) + 2) if (*same, k) not in taken)
+                replicate = Guess(free, "counted in the order of the files", free == 1)
+            taken.add((*same, replicate.value))
+            stem = re.sub(r"[^A-Za-z0-9._-]+", "_", run.path.name.removesuffix(".gz").rpartition(".")[0]).strip("_.-") or run.quantity.value
+            base = stem if number is None else f"{stem}_{number}"
+            name = next(n for n in (base, *(f"{base}_{k}" for k in range(2, len(guessed) + 99))) if n not in ids)
+            ids.add(name)
+            runs.append(PlacedRun(name, run, condition, replicate, {run.repeated[0]: number} if run.repeated and number is not None else {}))
+    return runs
+
+
+def held(wishes: Wishes, conditions: dict[str, dict[str, str]], measured: dict[str, list[str]]) -> dict[str, Guess[bool]]:
+    if wishes.held_out is None:
+        return held_out(conditions, measured)
+    for name in wishes.held_out:
+        if name not in conditions:
+            raise InputFault(f"--held-out {name}: there is no such condition; choose from {', '.join(conditions)}")
+    return {name: Guess(True, "given") for name in wishes.held_out}
+
+
+def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
+    """Equal doubts of several files once."""
+    places: dict[tuple[str, str], list[str]] = {}
+    for doubt in doubts:
+        places.setdefault((doubt.text, re.sub(r"'[^'=]*=QUANTITY'", "'FILES=QUANTITY'", doubt.remedy)), []).append(doubt.place)
+    return [Doubt(files[0] + (f" and {len(files) - 1} more" if len(files) > 1 else ""), text, remedy) for (text, remedy), files in places.items()]
+
+
+def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
+    """What the quantities need to know and nobody has said."""
+    found: dict[tuple[str, str], Doubt] = {}
+    for run in runs:
+        quantity = QUANTITIES[run.guessed.quantity.value]
+        for factor in (f for f in quantity.factors if f in FACTOR_NAMES):
+            keys = keys_for(factor)
+            if not any(key in conditions[run.condition] or key in run.guessed.columns for key in keys):
+                remedy = f"--condition '{(EXAMPLES | PIN_ON_DISC)[factor]}', or a {{{factor}}} in --names"
+                found[run.condition, factor] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
+    if not wishes.reducer:
+        found["", "reducer"] = Doubt("campaign", "which reducer it is has to be said", "--reducer RV20E-121 (rvwear reducer list), or a reducer file")
+    whole: dict[tuple[str, str], list[Doubt]] = {}
+    for need in found.values():
+        whole.setdefault((need.text, need.remedy), []).append(need)
+    return tuple(
+        Doubt(", ".join(need.place for need in alike), text, remedy if len(alike) == 1 else f"{remedy}; for one of them --condition 'NAME:KEY=VALUE'")
+        for (text, remedy), alike in whole.items()
+    )

@@ -1,0 +1,210 @@
+"""One file's run: its quantity, columns, units, tags."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of
+from discrepancy.campaign.guess.column_words import quantities_named, surface_named
+from discrepancy.campaign.guess.file_names import Parsed, parsed, stem
+from discrepancy.campaign.guess.lines_above import stated_above
+from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
+from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.table import Table, table_of
+from discrepancy.campaign.guess.unit_words import COUNTS
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.quantities import QUANTITIES, VALUE
+from fmu_src.faults import InputFault
+from fmu_src.units import conversion
+
+ANGLES = ("angle", "input_angle")
+# A clock that starts so many times its range away has its zero elsewhere.
+FAR_START = 10.0
+MOST_REPETITIONS = 50
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A column of a run, with the keys that go with it."""
+
+    column: Guess[str]
+    header: str
+    unit: Guess[str]
+    keys: dict[str, Any]
+
+    def as_json(self) -> dict[str, object]:
+        return {"column": self.column.as_json(), "header": self.header, "unit": self.unit.as_json(), **self.keys}
+
+
+@dataclass(frozen=True)
+class GuessedRun:
+    """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers."""
+
+    path: Path
+    quantity: Guess[str]
+    columns: dict[str, Entry]
+    tags: dict[str, Guess[str]]
+    reading: dict[str, Any]
+    name: Parsed
+    factors: dict[str, Guess[str]]
+    repeated: tuple[str, tuple[int, ...]] | None
+    doubts: tuple[Doubt, ...]
+
+
+def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
+    """InputFault with the file's name where nothing can be made of it."""
+    table = table_of(path)
+    name = parsed(path, list(wishes.names))
+    columns = columns_of(table, wishes.units_for(path.name))
+    speaking = stem(path)
+    wanted = wishes.quantity_for(path.name)
+    found = assignments(given_roles(columns, table, wishes, path), quantities_named(speaking) or quantities_named(path.parent.name))
+    if wanted:
+        found = [a for a in found if a.quantity == wanted]
+    if not found:
+        holds = ", ".join(f"{c.name} [{c.stated[0] if c.stated else '?'}]" for c in columns) or "no column of numbers"
+        raise InputFault(
+            f"{path.name}: {holds}: no quantity{f' {wanted}' if wanted else ''} of a campaign fits; give units by --unit 'COLUMN=UNIT', what it is by"
+            f" --quantity '{path.name}=QUANTITY' ({', '.join(QUANTITIES)}), or a column by --column value=COLUMN"
+        )
+    best = found[0]
+    quantity, doubts = quantity_guess(found, wanted, path), list(table.doubts)
+    if not quantity.sure:
+        doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
+    by_name = {c.name: c for c in columns}
+    entries = {}
+    for role, guess in best.roles.items():
+        if role in wishes.columns:
+            guess = Guess(guess.value, "given")
+        entries[role], more = entry(by_name[guess.value], role, quantity.value, guess, table, wishes)
+        doubts += [Doubt(path.name, text, remedy) for text, remedy in more]
+        if not guess.sure:
+            doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
+    tags, more_doubts = tags_of(quantity.value, f"{path.parent.name} {speaking} {' '.join(table.above)}", speaking, wishes, path)
+    factors, speed_doubts = factors_of(name, table, path)
+    return GuessedRun(
+        path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts)
+    )
+
+
+def given_roles(columns: list[Column], table: Table, wishes: Wishes, path: Path) -> list[Column]:
+    """Columns as ``--column ROLE=HEADER`` says: they mean their role and nothing else does."""
+    named = {header: role for role, header in wishes.columns.items()}
+    found = []
+    for c in columns:
+        role = named.get(c.name) or named.get(table.headers.get(c.name, c.name))
+        meaning = {"angle": "angle", "value": None, "load_torque": "torque", "depth_angle": "angle"}.get(role, role) if role else c.meaning
+        if role == VALUE:
+            meaning = {"angle": "error", "torque": "input_torque", "length": "wear"}.get(c.stated[1] if c.stated else "")
+        found.append(Column(c.name, meaning, c.stated, c.shape))
+    value = wishes.columns.get(VALUE)
+    kept = [c for c in found if {c.name, table.headers.get(c.name)} & named.keys()]
+    return kept if value and len(kept) > 1 else found
+
+
+def quantity_guess(found: list[Assignment], wanted: str | None, path: Path) -> Guess[str]:
+    best = found[0]
+    if wanted:
+        return Guess(wanted, "given")
+    parts = [f"{role} is column {g.value} ({g.reason})" for role, g in best.roles.items()]
+    reason = "; ".join(parts)
+    if best.quantity in quantities_named(stem(path)):
+        reason += "; the file's name says so"
+    rival = found[1] if len(found) > 1 else None
+    sure = best.points >= 3.0 and (rival is None or best.points - rival.points >= MARGIN)
+    if not sure and rival:
+        reason += f"; it might be {rival.quantity}"
+    return Guess(best.quantity, reason, sure)
+
+
+def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Table, wishes: Wishes) -> tuple[Entry, list[tuple[str, str]]]:
+    """A column's entry and its doubts, (text, remedy)."""
+    header = table.headers.get(column.name, column.name)
+    what = quantity if role == VALUE else role
+    doubts: list[tuple[str, str]] = []
+    keys: dict[str, Any] = {}
+    counts = wishes.counts.get(header) or wishes.counts.get(column.name)
+    if counts or (column.stated and column.stated[0] == COUNTS):
+        if not counts:
+            counts = 2.0 ** np.ceil(np.log2(max(column.shape.high - min(column.shape.low, 0.0), 1.0)))
+            text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed (the power of two above its range)"
+            doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'"))
+        keys["scale"] = 1.0 / float(counts)
+        unit = Guess("turn", f"steps of an encoder, {counts:.0f} a turn")
+        if column.shape.jumps:
+            doubts.append((f"column {header!r} jumps where a turn is over", "export it running on over full turns"))
+        return Entry(guess, header, unit, keys), doubts
+    if column.stated:
+        unit = Guess(column.stated[0], column.stated[2])
+    else:
+        unit = unit_by_size(what, column.shape)
+        if not unit.sure:
+            doubts.append((f"unit of column {header!r} taken for {unit.value}: {unit.reason}", f"--unit '{header}=UNIT'"))
+    if column.shape.jumps and role in ANGLES:
+        keys["unwrap"] = True
+    if role == "time" and column.shape.low > FAR_START * column.shape.span:
+        keys["from_start"] = True
+    return Entry(guess, header, unit, keys), doubts
+
+
+def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:
+    """What the quantity needs to be told of; where nobody says it, what is usual, in doubt."""
+    found: dict[str, Guess[str]] = {}
+    doubts = []
+    entry = QUANTITIES[quantity]
+    for tag in (*entry.tags, *entry.optional_tags):
+        if tag in wishes.tags:
+            found[tag] = Guess(wishes.tags[tag], "given")
+        elif tag in entry.tags:
+            said = surface_named(name) or surface_named(text) if tag == "surface" else locked_side(text) if tag == "locked" else None
+            usual = {"surface": "flank", "locked": "input", "location": "housing_radial", "part": "reducer"}[tag]
+            found[tag] = Guess(said or usual, "the file's name or head says so" if said else f"nothing says it; {usual} is usual", said is not None)
+            if said is None:
+                doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD"))
+    return found, doubts
+
+
+def locked_side(text: str) -> str | None:
+    low = text.lower()
+    words = {
+        "input": ("input locked", "input_locked", "antrieb fest", "antrieb blockiert", "输入固定"),
+        "output": ("output locked", "output_locked", "abtrieb fest", "abtrieb blockiert", "输出固定"),
+    }
+    return next((side for side, said in words.items() if any(word in low for word in said)), None)
+
+
+def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:
+    """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table."""
+    found: dict[str, Guess[str]] = {}
+    doubts = []
+    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), "a line above the table")]
+    for numbers, where in sources:
+        for field, (number, unit) in numbers.items():
+            key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
+            if field == "speed":
+                side = speed_role(conversion(unit, "rpm")[0] * number)
+                key, reason, sure = side.value, f"{where}; {side.reason}", False
+            if key in found or (key.endswith("speed") and any(k.endswith("speed") for k in found)):
+                continue
+            found[key] = Guess(f"{number:g} {unit}", reason, sure)
+            if not sure:
+                other = "output_speed" if key == "input_speed" else "input_speed"
+                remedy = f"--names with {{{other}}} in its place, or correct the condition"
+                doubts.append(Doubt(path.name, f"{number:g} {unit} is taken for the {key}: {side.reason}", remedy))
+    if name.direction:
+        found["direction"] = Guess(name.direction, f"the file's name, by {name.pattern!r}")
+    if name.mounting:
+        found["mounting"] = Guess(name.mounting, f"the file's name, by {name.pattern!r}")
+    return found, doubts
+
+
+def repetitions(table: Table, columns: list[Column]) -> tuple[str, tuple[int, ...]] | None:
+    """A column that numbers repetitions within the file."""
+    for column in columns:
+        if column.meaning == "replicate" and column.shape.whole and not column.shape.constant and column.shape.low >= 0.0:
+            numbers = np.unique(table.columns[column.name][np.isfinite(table.columns[column.name])])
+            if len(numbers) <= MOST_REPETITIONS:
+                return column.name, tuple(int(n) for n in numbers)
+    return None

@@ -1,0 +1,49 @@
+"""What is given instead of guessed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fnmatch import fnmatch
+
+from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
+from fmu_src.faults import InputFault, nearest
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """``names``: patterns of file names.  ``units``: header, or pattern of file names:header -> unit.
+
+    ``columns``: role -> header.  ``counts``: header -> steps a turn.
+
+    ``quantities``: pattern of file names (``*.csv``) -> quantity.  ``conditions``: key of a condition -> number with unit, for all
+    files that do not say otherwise, or condition's name:key for that one.
+    ``held_out``: names of conditions, () for none, None for what is proposed.  ``tags``: for runs whose quantity has them.
+    """
+
+    reducer: str | None = None
+    names: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    columns: Mapping[str, str] = field(default_factory=dict)
+    counts: Mapping[str, float] = field(default_factory=dict)
+    quantities: Mapping[str, str] = field(default_factory=dict)
+    conditions: Mapping[str, str] = field(default_factory=dict)
+    held_out: tuple[str, ...] | None = None
+    tags: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """InputFault for what there is not."""
+        known = [*FACTOR_KEYS, "direction", "mounting"]
+        keys = [key.rpartition(":")[2] for key in self.conditions]
+        options = (("--quantity", list(self.quantities.values()), list(QUANTITIES)), ("--condition", keys, known), ("--tag", list(self.tags), list(TAGS)))
+        for option, given, choices in options:
+            for name in given:
+                if name not in choices:
+                    raise InputFault(f"{option} {name}: there is no such thing; choose from {', '.join(choices)}{nearest(name, choices)}")
+
+    def quantity_for(self, name: str) -> str | None:
+        return next((quantity for pattern, quantity in self.quantities.items() if fnmatch(name, pattern)), None)
+
+    def units_for(self, name: str) -> dict[str, str]:
+        """Header -> unit for a file; what is given for its name wins."""
+        parted = [(*key.rpartition(":"), unit) for key, unit in self.units.items()]
+        general = {header: unit for _, colon, header, unit in parted if not colon}
+        return general | {header: unit for pattern, colon, header, unit in parted if colon and fnmatch(name, pattern)}

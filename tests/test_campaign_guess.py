@@ -1,0 +1,338 @@
+"""Files as benches write them become campaigns: what is guessed is what was written, and what is not sure is said."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.io
+from asammdf import MDF, Signal
+from nptdms import ChannelObject, TdmsWriter
+
+from cli.main import main
+from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.unit_words import unit_in
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.write import campaign_text, checked
+from discrepancy.campaign.load import load_campaign
+from fmu_src.faults import InputFault
+
+ROOT = Path(__file__).resolve().parents[1]
+TURN = 2.0 * np.pi
+ARCSEC, ARCMIN = np.radians(1 / 3600), np.radians(1 / 60)
+# Two output turns, in half degrees; a transmission error of 40 arcsec from peak to peak.
+ANGLE = np.radians(np.arange(0.0, 720.5, 0.5))
+ERROR = ARCSEC * (15.0 * np.sin(39 * ANGLE) + 5.0 * np.sin(2 * ANGLE + 0.3))
+# Torque put on and taken off both ways; a loop of 8 arcmin.
+TORQUE = 167.0 * np.sin(np.linspace(0.0, 2.5 * np.pi, 601))
+TWIST = ARCMIN * (TORQUE / 49.0 + 0.4 * np.sign(np.gradient(TORQUE)))
+SPEEDS, FRICTION = np.array([200.0, 350, 600, 1000, 1800, 2500]), np.array([0.162, 0.155, 0.16, 0.171, 0.19, 0.21])
+HOURS, DEPTH = np.array([0.0, 500, 1000, 2000, 5000]), 1e-6 * np.array([0.0, 0.6, 1.1, 1.9, 4.2])
+CURVES = {
+    "te": ("transmission_error", {"angle": ANGLE, "value": ERROR}), "loop": ("hysteresis", {"torque": TORQUE, "value": TWIST}),
+    "drag": ("input_torque", {"speed": SPEEDS * TURN / 60, "value": FRICTION}), "wear": ("wear_depth", {"hours": 3600 * HOURS, "value": DEPTH}),
+}
+KGM = 9.80665
+
+
+def german(number: float) -> str:
+    return f"{number:,.5f}".replace(",", " ").replace(".", ",").replace(" ", ".")
+
+
+def comma(number: float) -> str:
+    return f"{number:.6f}".replace(".", ",")
+
+
+def point(number: float) -> str:
+    return f"{number:.6f}"
+
+
+def grouped(number: float) -> str:
+    return f'"{number:,.6f}"'
+
+
+# What is measured; lines above the table; header, a line of units; size of the unit of either column; delimiter; number; encoding.
+DEG = np.radians(1.0)
+WRITTEN = {
+    "plain": ("te", "", "angle_deg,error_arcsec", "", (DEG, ARCSEC), ",", point, "utf-8"),
+    "german": ("te", "", "Winkel [°];Fehler [\"]", "", (DEG, ARCSEC), ";", comma, "cp1252"),
+    "german_excel": ("te", "", "Abtriebswinkel;Drehfehler", "°;arcmin", (DEG, ARCMIN), ";", german, "utf-8-sig"),
+    "german_head": ("te", "Prüfstand 3\nDatum: 01.02.2024\n\n", "Winkel in °;Abweichung in mrad", "", (DEG, 1e-3), ";", comma, "cp1252"),
+    "din": ("te", "", "φ / rad\tΔφ / µrad", "", (1.0, 1e-6), "\t", point, "utf-8"),
+    "chinese": ("te", "", "输出角度(°),传动误差(角秒)", "", (DEG, ARCSEC), ",", point, "gb18030"),
+    "chinese_utf16": ("te", "", "角度\t误差", "度\t角分", (DEG, ARCMIN), "\t", point, "utf-16"),
+    "japanese": ("te", "", "出力角度[deg],角度伝達誤差[arcsec]", "", (DEG, ARCSEC), ",", point, "cp932"),
+    "rad_mdeg": ("te", "", "theta [rad] , te [mdeg]", "", (1.0, DEG / 1000), ",", point, "utf-8"),
+    "no_header": ("te", "", "", "", (DEG, ARCSEC), " ", point, "utf-8"),
+    "commented": ("te", "# made by a script\n", "# angle te", "", (DEG, ARCSEC), " ", point, "utf-8"),
+    "thousands": ("te", "", "angle (deg),deviation (arcsec)", "", (DEG, ARCSEC), ",", grouped, "utf-8"),
+    "bars": ("te", "Rig;A\nSpeed: 15 rpm\nLoad: 167 Nm\n", "out_angle|err", "[deg]|[arcsec]", (DEG, ARCSEC), "|", point, "utf-8"),
+    "loop": ("loop", "", "torque_Nm;turn_arcmin", "", (1.0, ARCMIN), ";", comma, "utf-8"),
+    "ramp_kgm": ("loop", "", "Load (kg.m),Twist (arcmin)", "", (KGM, ARCMIN), ",", point, "utf-8"),
+    "ramp_german": ("loop", "", "Drehmoment (Nm);Verdrehung (')", "", (1.0, ARCMIN), ";", german, "cp1252"),
+    "loop_chinese": ("loop", "", "扭矩[N·m],扭转角[′]", "", (1.0, ARCMIN), ",", point, "utf-8"),
+    "loop_bare": ("loop", "", "x,y", "", (1.0, ARCMIN), ",", point, "utf-8"),
+    "drag": ("drag", "", "n_motor [1/min];M_an [Nm]", "", (TURN / 60, 1.0), ";", comma, "utf-8"),
+    "drag_chinese": ("drag", "", "输入转速(r/min)\t输入扭矩(N.m)", "", (TURN / 60, 1.0), "\t", point, "gb18030"),
+    "wear_table": ("wear", "", "hours,depth_um", "", (3600.0, 1e-6), ",", point, "utf-8"),
+    "verschleiss": ("wear", "", "Laufzeit;Verschleißtiefe", "h;µm", (3600.0, 1e-6), ";", comma, "cp1252"),
+}  # fmt: skip
+# In these the size of a unit is nowhere said, and so is in doubt.
+GUESSED_UNITS = {"no_header", "commented", "loop_bare"}
+
+
+def write(folder: Path, kind: str) -> Path:
+    what, above, header, units, sizes, mark, number, encoding = WRITTEN[kind]
+    columns = [values / size for values, size in zip(CURVES[what][1].values(), sizes)]
+    if number is grouped and kind == "thousands":
+        columns[0] = columns[0] + 990.0
+    lines = [line for line in (header, units) if line] + [mark.join(map(number, row)) for row in zip(*columns)]
+    path = folder / f"{'a' if kind == 'no_header' else what}_167Nm_15rpm_1.csv"
+    path.write_text(above + "\n".join(lines) + "\n", encoding=encoding)
+    return path
+
+
+@pytest.mark.parametrize("kind", WRITTEN)
+def test_what_was_written_is_read(tmp_path, kind):
+    what = WRITTEN[kind][0]
+    path = write(tmp_path, kind)
+    proposal = propose([path], Wishes("RV20E-121", conditions={"hours": "0 h"}))
+    record = checked(proposal).records[0]
+    quantity, curves = CURVES[what]
+    assert record.quantity == quantity
+    assert record.values == pytest.approx(curves["value"], abs=2e-6 * np.abs(curves["value"]).max() + 6e-6 * WRITTEN[kind][4][1])
+    for axis, values in curves.items():
+        if axis != "value":
+            offset = 990 * DEG if kind == "thousands" else 0.0
+            assert record.axes[axis] == pytest.approx(values + offset, rel=1e-5, abs=1e-5)
+    if what in ("te", "drag"):
+        assert record.factors["load"] == pytest.approx(167.0)
+    said = [d.text for d in proposal.doubts if d.text.startswith("unit of column")]
+    assert bool(said) == (kind in GUESSED_UNITS)
+    assert not proposal.needs and record.replicate == 1
+
+
+def binary(folder: Path, ending: str) -> Path:
+    angle, error = np.degrees(ANGLE), ERROR / ARCSEC
+    path = folder / f"te_1.{ending}"
+    if ending == "parquet":
+        pd.DataFrame({"angle_deg": angle, "te_arcsec": error}).to_parquet(path)
+    elif ending == "mat":
+        scipy.io.savemat(path, {"angle_deg": angle, "te_arcsec": error, "operator": "me"})
+    elif ending == "mf4":
+        with MDF(version="4.10") as file:
+            time = np.arange(len(angle)) / 100.0
+            file.append([Signal(angle, time, name="angle", unit="deg"), Signal(error, time, name="te", unit="arcsec")])
+            file.save(path)
+    else:
+        with TdmsWriter(path) as file:
+            file.write_segment([
+                ChannelObject("bench", "angle", angle, {"unit_string": "deg"}), ChannelObject("bench", "te", error, {"unit_string": "arcsec"}),
+            ])  # fmt: skip
+    return path
+
+
+@pytest.mark.parametrize("ending", ["parquet", "mat", "mf4", "tdms"])
+def test_binary_formats(tmp_path, ending):
+    proposal = propose([binary(tmp_path, ending)], Wishes("RV20E-121"))
+    record = checked(proposal).records[0]
+    assert record.quantity == "transmission_error"
+    assert record.axes["angle"] == pytest.approx(ANGLE) and record.values == pytest.approx(ERROR)
+    assert not proposal.doubts and [need.text for need in proposal.needs] == [
+        "transmission_error needs input_speed or output_speed", "transmission_error needs load_torque",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("word", ["#NV", "---", ""])
+def test_a_text_cell_is_a_dropout_and_said(tmp_path, word):
+    path = write(tmp_path, "german")
+    lines = path.read_text(encoding="cp1252").splitlines()
+    lines[5] = lines[5].partition(";")[0] + ";" + word
+    path.write_text("\n".join(lines), encoding="cp1252")
+    proposal = propose([path], Wishes("RV20E-121"))
+    campaign = checked(proposal)
+    assert campaign.rows["te_167Nm_15rpm_1"].dropped == 1
+    assert any(word in d.text for d in proposal.doubts) == bool(word) or not word
+
+
+def test_both_encoders_and_steps(tmp_path):
+    steps = 1 << 20
+    pd.DataFrame({"enc_out (counts)": ANGLE / TURN * steps, "motor angle [rad]": 121 * (ANGLE - ERROR)}).round(9).to_csv(tmp_path / "te_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", counts={"enc_out (counts)": steps}))
+    record = checked(proposal).records[0]
+    assert record.values == pytest.approx(ERROR, abs=1e-9)
+    assumed = propose([tmp_path], Wishes("RV20E-121"))
+    assert any("counts steps" in d.text and "--counts" in d.remedy for d in assumed.doubts)
+
+
+def test_an_encoder_that_jumps_is_joined(tmp_path):
+    pd.DataFrame({"angle_deg": np.degrees(ANGLE) % 360.0, "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
+    assert checked(propose([tmp_path], Wishes("RV20E-121"))).records[0].axes["angle"] == pytest.approx(ANGLE)
+
+
+def test_repetitions_within_a_file(tmp_path):
+    one = pd.DataFrame({"rep": 1, "angle_deg": np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC})
+    pd.concat([one, one.assign(rep=2)]).to_csv(tmp_path / "te.csv", index=False)
+    records = checked(propose([tmp_path], Wishes("RV20E-121"))).records
+    assert [r.replicate for r in records] == [1, 2]
+    assert records[1].axes["angle"] == pytest.approx(ANGLE)
+
+
+def existing(folder: Path) -> dict:
+    with (folder / "campaign.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
+def by_file(content: dict) -> dict[str, tuple]:
+    return {r["file"]: (r["quantity"], r["replicate"], {k: c["column"] for k, c in r["columns"].items()}, r.get("tags", {})) for r in content["runs"]}
+
+
+def partition(content: dict) -> set[frozenset[str]]:
+    conditions: dict[str, set[str]] = {}
+    for run in content["runs"]:
+        conditions.setdefault(run["condition"], set()).add(run["file"])
+    return set(map(frozenset, conditions.values()))
+
+
+def same(folder: Path) -> None:
+    """Quantities, columns, units, tags, repetitions and what belongs to one condition are those of the folder's campaign."""
+    kept = existing(folder)
+    text = campaign_text(propose(sorted(folder.glob("*.csv")), Wishes("RV20E-121")), folder)
+    guessed = tomllib.loads(text)
+    assert by_file(guessed) == by_file(kept)
+    assert partition(guessed) == partition(kept)
+    units = [{r["file"]: {k: c["unit"] for k, c in r["columns"].items()} for r in content["runs"]} for content in (guessed, kept)]
+    assert units[0] == units[1]
+
+
+def test_the_hidden_effect_is_guessed_as_it_is():
+    same(ROOT / "examples" / "hidden_effect" / "campaign")
+
+
+@pytest.mark.parametrize("patterned, plain", [("te_{load}Nm_{speed}rpm_{replicate}", "te_167Nm_15rpm_2"), ("TE {temperature}°C {direction} rep{replicate}", "TE 40°C fwd rep2"),
+                                              ("loop_{hours}h_{replicate}", "loop_1000h_2"), ("{any}_te_{load}%_{replicate}", "20240102_te_50%_2")])  # fmt: skip
+def test_patterns_of_names(patterned, plain):
+    said = proposed(Path(f"{plain}.csv"))
+    assert said.pattern == patterned and said.replicate == 2 and not said.label
+    again = by_pattern(Path(f"{plain}.csv"), patterned)
+    assert (again.numbers, again.replicate, again.direction) == (said.numbers, said.replicate, said.direction)
+
+
+def test_names_that_do_not_fit_are_said(tmp_path):
+    with pytest.raises(InputFault, match=r"no field \{lod\}.*did you mean load"):
+        by_pattern(Path("te_1.csv"), "te_{lod}")
+    with pytest.raises(InputFault, match=r"te_1.parquet does not fit --names 'x_\{load\}'; its name seems to be 'te_\{replicate\}'"):
+        propose([binary(tmp_path, "parquet")], Wishes(names=("x_{load}",)))
+
+
+@pytest.mark.parametrize("header, unit", [("te [\"]", "arcsec"), ("M / Nm", "N.m"), ("误差(角秒)", "arcsec"), ("n [min⁻¹]", "rpm"), ("Speed in rpm", "rpm"), ("T_in", None), ("phi", None)])
+def test_units_in_headers(header, unit):
+    assert (unit_in(header) or (None,))[0] == unit
+
+
+def test_one_command(tmp_path, capsys):
+    for load in (50, 100, 167):
+        for k in (1, 2):
+            pd.DataFrame({"Winkel [°]": np.degrees(ANGLE), "te [arcsec]": ERROR / ARCSEC}).to_csv(tmp_path / f"te_{load}Nm_15rpm_{k}.csv", index=False)
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert not told["written"] and not (tmp_path / "campaign.toml").exists()
+    assert list(told["held_out"]) == ["100N.m"] and "inside the range" in told["held_out"]["100N.m"]["reason"]
+    assert told["runs"][0]["columns"]["angle"]["unit"] == {"value": "deg", "reason": "[°] in its header", "sure": True}
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 0
+    assert capsys.readouterr().out.rstrip().endswith(f"rvwear compare RV20E-121 {tmp_path}")
+    campaign = load_campaign(tmp_path)
+    assert len(campaign.records) == 6 and len(campaign.held_out) == 2
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 2
+    assert "exists already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("options, said", [
+    (["--condition", "speeed=15 rpm"], "--condition speeed: there is no such thing"), (["--quantity", "hysteresi"], "did you mean hysteresis"),
+    (["--unit", "x"], "--unit x: write NAME=VALUE"), (["--counts", "x=many"], "a whole number"), (["--held-out", "nowhere"], "there is no condition|no such condition"),
+    (["--condition", "b:hours=0 h"], "there is no condition b"),
+])  # fmt: skip
+def test_wrong_options_are_said(tmp_path, capsys, options, said):
+    write(tmp_path, "plain")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", *options]) == 2
+    assert re.search(said, capsys.readouterr().err)
+
+
+def test_guesses_are_overruled(tmp_path):
+    write(tmp_path, "loop_bare")
+    wishes = Wishes("RV20E-121", units={"*:y": "arcsec", "x": "kgf.m"}, tags={"locked": "output"}, conditions={"output_speed": "10 rpm"})
+    record = checked(propose([tmp_path], wishes)).records[0]
+    assert record.values == pytest.approx(TWIST / 60.0, abs=1e-8) and record.tags["locked"] == "output"
+    assert record.axes["torque"] == pytest.approx(TORQUE * KGM, abs=1e-4)
+
+
+def test_a_logger_with_many_channels(tmp_path):
+    noise = np.random.default_rng(1).normal(0.0, 0.5, len(ANGLE))
+    pd.DataFrame({
+        "Zeit [s]": np.arange(len(ANGLE)) / 100, "Winkel Abtrieb [°]": np.degrees(ANGLE), "Winkel Antrieb [°]": 121 * np.degrees(ANGLE),
+        "Drehmoment Abtrieb Soll [Nm]": 167.0, "Drehmoment Abtrieb [Nm]": 167 + noise, "Drehzahl Antrieb [1/min]": 1815 + noise, "Drehfehler [arcsec]": ERROR / ARCSEC,
+        "Zustand": "ok", "rep": 1,
+    }).to_csv(tmp_path / "te_3.csv", sep=";", decimal=",", index=False)  # fmt: skip
+    record = checked(propose([tmp_path], Wishes("RV20E-121"))).records[0]
+    assert record.quantity == "transmission_error" and record.values == pytest.approx(ERROR) and record.replicate == 3
+    assert record.axes["load"] == pytest.approx(167 + noise) and record.axes["speed"] == pytest.approx((1815 + noise) * TURN / 60)
+    assert record.axes.keys() == {"angle", "time", "load", "speed"}
+
+
+@pytest.mark.parametrize("columns, quantity", [
+    ({"time_s": ANGLE, "acc_x [m/s2]": ERROR}, "vibration"), ({"order": np.arange(99.0), "amp [m/s^2]": np.sin(np.arange(99.0))}, "vibration_order"),
+    ({"time [h]": HOURS, "T_housing [degC]": 20 + HOURS}, "temperature"), ({"angle [deg]": np.arange(360.0), "depth [um]": np.sin(np.arange(360.0) / 60)}, "wear_profile"),
+    ({"hours": HOURS, "lost motion [arcsec]": 40 + HOURS}, "lost_motion"), ({"load": HOURS, "efficiency [%]": 60 + HOURS / 100}, "efficiency"),
+    ({"hours": HOURS, "Fe [ppm]": HOURS}, "debris_iron"), ({"t": np.arange(601), "Torque (Nm)": TORQUE, "Output (deg)": TWIST, "Motor pos (deg)": 0 * TWIST}, "hysteresis"),
+])  # fmt: skip
+def test_other_quantities(tmp_path, columns, quantity):
+    pd.DataFrame(columns).to_csv(tmp_path / "a.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm"}))
+    assert proposal.runs[0].guessed.quantity.value == quantity and proposal.runs[0].guessed.quantity.sure
+
+
+def test_a_motor_that_turns_on_shows_its_torque_and_no_loop(tmp_path):
+    k = np.arange(601)
+    columns = {"TIME": 1.72e18 + 1e7 * k, "POSITION": k / 20, "TORQUE": 2 + np.sin(k / 50), "MOTOR_TEMPERATURE": 20 + k / 200}
+    pd.DataFrame(columns).to_csv(tmp_path / "run.csv", index=False)
+    run = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm", "load_torque": "0 N.m"})).runs[0].guessed
+    # With load or without, no file says.
+    assert run.quantity.value == "input_torque" and not run.quantity.sure and "no_load_torque" in run.quantity.reason
+    assert run.columns["time"].unit.value == "ns" and run.columns["time"].keys == {"from_start": True}
+
+
+def test_words_that_part_rows_are_said(tmp_path):
+    rows = "".join(f"{state};{angle};{angle % 7}\n" for state in ("rated", "half") for angle in range(0, 720, 2))
+    (tmp_path / "te.csv").write_text("test;phi_out [deg];te [arcsec]\n" + rows)
+    assert any("'test' holds words (half, rated)" in doubt.text for doubt in propose([tmp_path], Wishes()).doubts)
+
+
+def test_many_columns_without_names_are_asked(tmp_path):
+    pd.DataFrame(np.random.default_rng(0).random((50, 6)), columns=list("abcdef")).to_csv(tmp_path / "x.csv", index=False)
+    with pytest.raises(InputFault, match="no quantity of a campaign fits; give units by --unit"):
+        propose([tmp_path], Wishes())
+
+
+def test_sheets_are_refused_with_the_way_out(tmp_path):
+    (tmp_path / "te_1.xlsx").write_bytes(b"PK")
+    with pytest.raises(InputFault, match=r"te_1\.xlsx: sheets are not read; save the sheet as CSV"):
+        propose([tmp_path / "te_1.xlsx"], Wishes())
+
+
+def test_the_reducer_is_asked_for(tmp_path, capsys):
+    write(tmp_path, "plain")
+    assert main(["campaign", "from", str(tmp_path), "--json"]) == 2
+    assert "--reducer: say which reducer was measured: " in capsys.readouterr().err
+    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
+
+
+def test_no_table_is_said(tmp_path):
+    (tmp_path / "a.csv").write_text("nothing\nto see\n")
+    with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):
+        propose([tmp_path], Wishes())
