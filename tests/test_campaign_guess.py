@@ -305,6 +305,14 @@ def test_a_motor_that_turns_on_shows_its_torque_and_no_loop(tmp_path):
     assert run.columns["time"].unit.value == "ns" and run.columns["time"].keys == {"from_start": True}
 
 
+def test_the_first_hours_of_a_wear_test_have_the_unit_of_the_others(tmp_path):
+    for k, scale in enumerate((0.005, 1.0, 1.0), 1):
+        pd.DataFrame({"hours": HOURS, "y": scale * DEPTH / 1e-6}).to_csv(tmp_path / f"life{k}_wear_depth_flank_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert [run.guessed.columns["value"].unit.value for run in proposal.runs] == ["um"] * 3
+    assert all("taken for um" in doubt.text for doubt in proposal.doubts)
+
+
 def test_words_that_part_rows_are_said(tmp_path):
     rows = "".join(f"{state};{angle};{angle % 7}\n" for state in ("rated", "half") for angle in range(0, 720, 2))
     (tmp_path / "te.csv").write_text("test;phi_out [deg];te [arcsec]\n" + rows)

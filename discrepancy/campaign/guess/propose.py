@@ -11,6 +11,7 @@ from typing import Any
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for
 from discrepancy.campaign.readers import kind_of
@@ -71,7 +72,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         raise InputFault("no files; name measurement files, or folders that hold some")
     if wishes.reducer:
         load_reducer(wishes.reducer)
-    guessed = [guessed_run(path, wishes) for path in paths]
+    guessed = with_one_unit([guessed_run(path, wishes) for path in paths])
     states = [state_of(run, wishes) for run in guessed]
     names = named_conditions(states)
     conditions: dict[str, dict[str, str]] = {}
