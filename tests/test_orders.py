@@ -8,6 +8,8 @@ import pytest
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.order_analysis import even_curve, leakage, measured_orders
+from discrepancy.campaign.planned import with_planned
+from discrepancy.campaign.template import write_template
 from fmu_src.faults import InputFault
 
 ARCSEC = math.pi / 648000.0
@@ -230,3 +232,12 @@ def test_the_check_takes_orders_for_a_transmission_error(tmp_path):
     assert not check.problems
     assert "one mounting" in {finding.code for finding in check.findings}
     assert not {"record too short", "sampling too coarse"} & {finding.code for finding in check.findings}
+
+
+def test_planned_tables_have_their_orders(tmp_path):
+    """Of a template that nobody has filled in: two numbers an order."""
+    write_template(tmp_path / "t", ("transmission_order",))
+    campaign, names = with_planned(load_campaign(tmp_path / "t"))
+    assert len(names) == 3
+    assert np.array_equal(campaign.records[0].axes["order"][:4], [1, 1, 2, 2])
+    assert np.array_equal(campaign.records[0].axes["part"][:4], [0, 1, 0, 1])
