@@ -7,7 +7,7 @@ from fmu_src.variables import Sizes, Variable, local, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
 from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
-from rv_plant.near_mesh import NEAR, keep_contact, keep_force
+from rv_plant.near_mesh import NEAR, add_to_disc_and_ring, keep_contact, keep_force
 
 # Pins nearer than this have their distance and phase computed, touching or not; at rest those that may come to touch too [m].
 APART = 1e-9
@@ -232,18 +232,4 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         ktr -= force * turn * swing
         krr += force * swing * (1.0 - bend * swing)
     r.loaded_teeth[d] = loaded
-    r.residual_vector[x] += rx
-    r.residual_vector[y] += ry
-    r.residual_vector[t] += rt
-    r.residual_vector[ring] += rr
-    k = r.tangent
-    k[x, x] += kxx
-    k[x, y] += kxy
-    k[x, t] += kxt
-    k[x, ring] += kxr
-    k[y, y] += kyy
-    k[y, t] += kyt
-    k[y, ring] += kyr
-    k[t, t] += ktt
-    k[t, ring] += ktr
-    k[ring, ring] += krr
+    add_to_disc_and_ring(r, d, rx, ry, rt, rr, kxx, kxy, kxt, kxr, kyy, kyt, kyr, ktt, ktr, krr)

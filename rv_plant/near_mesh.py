@@ -83,6 +83,27 @@ def missed(r):
 
 
 @kernel
+def add_to_disc_and_ring(r, d, rx, ry, rt, rr, kxx, kxy, kxt, kxr, kyy, kyt, kyr, ktt, ktr, krr):
+    """What all pins do to disc d (x, y, turning) and to the ring's turning: into residual and tangent."""
+    x, y, t, ring = 3 * d, 3 * d + 1, 3 * d + 2, r.near_z.shape[0] - 1
+    r.residual_vector[x] += rx
+    r.residual_vector[y] += ry
+    r.residual_vector[t] += rt
+    r.residual_vector[ring] += rr
+    k = r.tangent
+    k[x, x] += kxx
+    k[x, y] += kxy
+    k[x, t] += kxt
+    k[x, ring] += kxr
+    k[y, y] += kyy
+    k[y, t] += kyt
+    k[y, ring] += kyr
+    k[t, t] += ktt
+    k[t, ring] += ktr
+    k[ring, ring] += krr
+
+
+@kernel
 def near_contacts(r, d, axes):
     """As ``mesh_contacts`` at rest, by what is kept of the known position."""
     x, y, t, ring = 3 * d, 3 * d + 1, 3 * d + 2, r.near_z.shape[0] - 1
@@ -132,18 +153,4 @@ def near_contacts(r, d, axes):
         ktr += stiffness * ht * hr - force * turn * swing
         krr += stiffness * hr * hr + force * swing * (1.0 - bend * swing)
     r.loaded_teeth[d] = loaded
-    r.residual_vector[x] += rx
-    r.residual_vector[y] += ry
-    r.residual_vector[t] += rt
-    r.residual_vector[ring] += rr
-    k = r.tangent
-    k[x, x] += kxx
-    k[x, y] += kxy
-    k[x, t] += kxt
-    k[x, ring] += kxr
-    k[y, y] += kyy
-    k[y, t] += kyt
-    k[y, ring] += kyr
-    k[t, t] += ktt
-    k[t, ring] += ktr
-    k[ring, ring] += krr
+    add_to_disc_and_ring(r, d, rx, ry, rt, rr, kxx, kxy, kxt, kxr, kyy, kyt, kyr, ktt, ktr, krr)

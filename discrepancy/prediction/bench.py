@@ -5,13 +5,13 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 
 import copy
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
-from discrepancy.prediction.units import Condition, Relevant
+from discrepancy.prediction.units import Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats
 from reducers.reducer import Reducer
@@ -29,7 +29,7 @@ MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
 HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
 # Turning of the cranks [rad] between two equilibria that is not divided.
 LARGEST_CRANK_STEP = 1e3
-# Takes the wear unit's contacts to angles that were set; a step of no length only reads where they are [s].
+# A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
 MOMENT = 1e-12
 # Effects by which a held output's place depends on the way to it.
 MEMORY = ("friction_coefficient", "friction_excess", "support_slip_compliance")
@@ -55,11 +55,14 @@ class Bench(Lives):
         """What a prediction of this record may err; 0 where nothing is known of its noise."""
         return self.fineness.allowed.get((ERROR if record.quantity == ORDERS else record.quantity, record.condition), 0.0) if self.fineness else 0.0
 
-    def equilibria(self, kind: str, condition: Condition, relevant: Relevant, *rest: Hashable) -> Floats | None:
-        """Those of a run whose values are said to be near, if it was made under the same key: where another may start."""
-        beside = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
-        found = self.runs.peek((kind, condition, beside, *rest)) if beside and beside != relevant else None
-        return found[1] if isinstance(found, tuple) else None
+    def beside(self, key: tuple[Hashable, ...], base: Callable[[], tuple[Floats, Floats]]) -> Floats:
+        """Equilibria where the run of ``key`` (kind, condition, relevant values, ...) starts: those of one whose values are said to be near, if
+        it was made, or of the ``base`` model's."""
+        kind, condition, relevant, *rest = key
+        assert isinstance(condition, Condition)
+        near = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
+        found = self.runs.peek((kind, condition, near, *rest)) if near and near != relevant else None
+        return found[1] if isinstance(found, tuple) else base()[1]
 
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
@@ -92,13 +95,10 @@ class Bench(Lives):
             durations = np.maximum(np.abs(np.diff(angles, prepend=angles[0])) / out_speed, MOMENT)
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
             places = np.zeros((len(angles), plants["z"].shape[1]))
-            similar = places
-            if relevant:
-                beside = self.equilibria("running", condition, relevant, angles.tobytes(), cage)
-                similar = self.running_places(condition, {}, angles)[1] if beside is None else beside
+            similar = self.beside(key, lambda: self.running_places(condition, {}, angles)) if relevant else places
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
-                self.put_wear(wears.copy(), plants)
+                self.put_wear(wears, plants)
             status = coupled.sweep(plants, wears, durations, series, condition.hours > 0.0, places, similar, bool(relevant))
             self.check(status, plants, wears)
             return series, places
@@ -158,13 +158,10 @@ class Bench(Lives):
         def run() -> tuple[Floats, Floats]:
             total = np.zeros(len(torques))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
-            similar = places
-            if relevant:
-                beside = self.equilibria("held", condition, relevant, *key[3:])
-                similar = self.held_places(condition, {}, torques, positions, turns)[1] if beside is None else beside
+            similar = self.beside(key, lambda: self.held_places(condition, {}, torques, positions, turns)) if relevant else places
             # What sticks remembers where it was: friction's springs must not see a start elsewhere.
             guessed = bool(relevant) and not self.remembers(values)
-            surfaces = self.worn(condition, values, condition.hours, turns).copy() if worn else None
+            surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
             plants = None
             for k in range(positions):
                 angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.model_file import ModelFile, extended_reducer
-from discrepancy.prediction.bench import HELD_ANGLES, Bench
+from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench
 from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
 from discrepancy.prediction.units import TOLERANCE, Condition, within_turn
 from fmu_src.arrays import Floats
@@ -30,8 +30,6 @@ from studies.pair import CONNECTIONS, require_built_from
 
 # The wear unit takes no more than half a turn of cranks, carrier or cages in a step [rad].
 LONGEST_WEAR_STEP = 3.0
-# A step [s] on the spot: FMUs refuse one of 0.
-MOMENT = 1e-12
 
 
 class FmuBench(Bench):

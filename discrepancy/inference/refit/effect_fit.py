@@ -53,7 +53,7 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
         # Too far for frozen sensitivities: from the base fit's nuisances.
         full = {**frozen.theta, **values}
     every = np.column_stack([frozen.jacobian, columns])
-    if frozen.hopeless(values, promised, residual, columns):
+    if frozen.hopeless(promised, *frozen.equations(frozen.part.array(values), residual, columns)):
         return fit_of(parameters, full, space.residual(full), every, names, False)
     found = _polish(space, parameters, full, every, names, converged, promised)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
@@ -122,25 +122,30 @@ class _Frozen:
         space, at = self.space, {**self.theta, **values}
         return np.column_stack(space.threads.map(lambda p: space.whiten(space.column(at, p, self.shows[p.name])), self.own))
 
-    def normal(self, columns: Floats) -> Floats:
-        """Normal matrix (p, p) of the effects' own parameters with the nuisances projected out and the priors, from ``columns`` (N, p)."""
+    def total(self, values: Floats) -> tuple[float, Floats]:
+        """``cost`` of the effects' own parameters (p,) with their priors."""
+        cost, r = self.cost(self.part.named(values))
+        return cost + self.part.prior_cost(values), r
+
+    def information(self, columns: Floats, cross: Floats) -> Floats:
+        """What ``columns`` (N, p) of the effects' own parameters tell, nuisances projected out; ``cross`` are their products with these."""
+        found: Floats = columns.T @ columns - cross.T @ self.inverse @ cross
+        return found
+
+    def equations(self, values: Floats, residual: Floats, columns: Floats) -> tuple[Floats, Floats]:
+        """Normal matrix (p, p) of the effects' own parameters, nuisances projected out and priors included, from ``columns`` (N, p), and its
+        right side (p,) at ``values`` (p,)."""
         cross = self.jacobian.T @ columns
-        found: Floats = columns.T @ columns - cross.T @ self.inverse @ cross + np.diag(self.part.precision)
-        return found
-
-    def gradient(self, values: Floats, residual: Floats, columns: Floats) -> Floats:
-        """Its right side (p,) at ``values`` (p,)."""
+        normal = self.information(columns, cross) + np.diag(self.part.precision)
         pull = self.part.prior_gradient(values)
-        found: Floats = columns.T @ residual - (self.jacobian.T @ columns).T @ self.inverse @ self.nuisance_gradient(residual) - pull
-        return found
+        return normal, columns.T @ residual - cross.T @ self.inverse @ self.nuisance_gradient(residual) - pull
 
-    def hopeless(self, values: Mapping[str, float], cost: float, residual: Floats, columns: Floats) -> bool:
-        """Whether a descent that stands here will not come below what it must."""
+    def hopeless(self, cost: float, normal: Floats, gradient: Floats) -> bool:
+        """Whether a descent that stands where these equations hold will not come below what it must."""
         if not np.isfinite(self.least):
             return False
         scale = self.part.scale
-        gradient = scale * self.gradient(self.part.array(values), residual, columns)
-        promised = gradient @ np.linalg.pinv(self.normal(columns) * np.outer(scale, scale), rcond=1e-11, hermitian=True) @ gradient
+        promised = (scale * gradient) @ np.linalg.pinv(normal * np.outer(scale, scale), rcond=1e-11, hermitian=True) @ (scale * gradient)
         return bool(cost - HOPE * promised > self.least)
 
     def nuisances_with(self, residual: Floats) -> dict[str, float]:
@@ -154,10 +159,8 @@ def _search(
 ) -> tuple[dict[str, float], bool, Floats]:  # fmt: skip
     """The best optimum (values, whether it converged, columns) from ``starts``; ``widely`` also from other sizes and along its valley."""
 
-    own = Box(frozen.own)
-
     def cost(values: Mapping[str, float]) -> float:
-        return frozen.cost(values)[0] + own.prior_cost(own.array(values))
+        return frozen.total(frozen.part.array(values))[0]
 
     found = [_descend(frozen, start) for start in starts]
     amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()
@@ -177,26 +180,20 @@ def _search(
 def _information(frozen: _Frozen, columns: Floats) -> Floats:
     """Information about the effect's own parameters, nuisances projected out, in units of their scale."""
     part = frozen.part
-    found: Floats = (frozen.normal(columns) - np.diag(part.precision)) * np.outer(part.scale, part.scale)
-    return found
+    return frozen.information(columns, frozen.jacobian.T @ columns) * np.outer(part.scale, part.scale)
 
 
 def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:
     """Levenberg-Marquardt within bounds over the effects' parameters: values, whether it converged, columns (N, p)."""
     box = frozen.part
     x = box.array(values)
-
-    def total(z: Floats) -> tuple[float, Floats]:
-        cost, r = frozen.cost(box.named(z))
-        return cost + box.prior_cost(z), r
-
-    cost, r = total(x)
+    cost, r = frozen.total(x)
     damping, converged = 1e-3, False
     c, fresh = frozen.columns(box.named(x)), True
     for _ in range(iterations):
-        if frozen.hopeless(box.named(x), cost, r, c):
+        normal, gradient = frozen.equations(x, r, c)
+        if frozen.hopeless(cost, normal, gradient):
             break
-        normal, gradient = frozen.normal(c), frozen.gradient(x, r, c)
         better = False
         for _ in range(6):
             scaled = normal * np.outer(box.scale, box.scale)
@@ -204,7 +201,7 @@ def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12)
             step = box.step(x, scaled, gradient * box.scale)
             trial = np.clip(x + step, box.lower, box.upper)
             with near(frozen.theta | box.named(x)):
-                new, new_r = total(trial)
+                new, new_r = frozen.total(trial)
             if np.isfinite(new) and new < cost:
                 better = True
                 break
