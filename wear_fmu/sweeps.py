@@ -136,11 +136,23 @@ def wear_standing_pin(r, d, j, start, end, line_load, curvature, contact_modulus
 
 
 @kernel
+def wear_race(r, surface, worn, start, end, ahead, unit, power, line_load, slip, race_radius, contact_radius):
+    """Pass of one roller ``ahead`` of the first [rad] over one raceway, ``worn`` (bins,): (deepest [m], where [rad], volume lost [m^3])."""
+    bin_angle = 2.0 * math.pi / worn.shape[0]
+    amount = r.acceleration * r.passes * unit * power * line_load * slip
+    if r.effects_on:
+        speed = abs(r.crank_speed) * 0.5 * slip * race_radius
+        depth = interpolate_closed(worn, (start + ahead) / bin_angle)
+        amount *= effect_factor(r, surface, line_load, contact_radius, speed, depth, surface)
+    deepest, place = add_pass(worn, (start + ahead) / bin_angle, (end + ahead) / bin_angle, amount)
+    swept = abs(end - start) * race_radius
+    return deepest, (place + 0.5) * bin_angle, amount * swept * r.roller_length
+
+
+@kernel
 def wear_raceways(r, modulus, viscosity, run_in, after):
     """Cranks' lobes and holes of the discs: depth k q xi per pass of a roller; ``after`` as in ``wear_meshes``."""
     discs, cranks, rollers = r.roller_force.shape
-    bins = r.inner_race_wear.shape[2]
-    bin_angle = 2.0 * math.pi / bins
     inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
     outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)
     of_load, of_radius = exponents(r.raceway_wear_law, r.load_exponent)
@@ -149,7 +161,6 @@ def wear_raceways(r, modulus, viscosity, run_in, after):
         r.reference_line_load, r.roughness, viscosity, modulus, 1.0, 1.0,
     )
     unit_inner, unit_outer = unit * inner_radius**of_radius, unit * outer_radius**of_radius
-    race_speed = abs(r.crank_speed) * 0.5
     for d in range(discs):
         for c in range(cranks):
             inner_start, outer_start = first_roller(r, d, c, r.crank_from, r.carrier_from, r.cages_from)
@@ -161,29 +172,17 @@ def wear_raceways(r, modulus, viscosity, run_in, after):
                 line_load = force / r.roller_length
                 ahead = 2.0 * math.pi * i / rollers
                 power = line_load**of_load
-                amount = r.acceleration * r.passes * unit_inner * power * line_load * r.slip_ratio_inner
-                if r.effects_on:
-                    speed = race_speed * r.slip_ratio_inner * r.inner_race_radius
-                    depth = interpolate_closed(r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, INNER, line_load, inner_radius, speed, depth, INNER)
-                deepest, place = add_pass(
-                    r.inner_race_wear[d, c], (inner_start + ahead) / bin_angle, (inner_end + ahead) / bin_angle, amount
+                deepest, angle, volume = wear_race(
+                    r, INNER, r.inner_race_wear[d, c], inner_start, inner_end, ahead, unit_inner, power, line_load, r.slip_ratio_inner, r.inner_race_radius,
+                    inner_radius,
                 )
                 if deepest > r.inner_race_depth[d, c]:
-                    r.inner_race_depth[d, c] = deepest
-                    r.inner_race_angle[d, c] = (place + 0.5) * bin_angle
-                swept = abs(inner_end - inner_start) * r.inner_race_radius
-                r.inner_race_volume += amount * swept * r.roller_length
-                amount = r.acceleration * r.passes * unit_outer * power * line_load * r.slip_ratio_outer
-                if r.effects_on:
-                    speed = race_speed * r.slip_ratio_outer * r.outer_race_radius
-                    depth = interpolate_closed(r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle)
-                    amount *= effect_factor(r, OUTER, line_load, outer_radius, speed, depth, OUTER)
-                deepest, place = add_pass(
-                    r.outer_race_wear[d, c], (outer_start + ahead) / bin_angle, (outer_end + ahead) / bin_angle, amount
+                    r.inner_race_depth[d, c], r.inner_race_angle[d, c] = deepest, angle
+                r.inner_race_volume += volume
+                deepest, angle, volume = wear_race(
+                    r, OUTER, r.outer_race_wear[d, c], outer_start, outer_end, ahead, unit_outer, power, line_load, r.slip_ratio_outer, r.outer_race_radius,
+                    outer_radius,
                 )
                 if deepest > r.outer_race_depth[d, c]:
-                    r.outer_race_depth[d, c] = deepest
-                    r.outer_race_angle[d, c] = (place + 0.5) * bin_angle
-                swept = abs(outer_end - outer_start) * r.outer_race_radius
-                r.outer_race_volume += amount * swept * r.roller_length
+                    r.outer_race_depth[d, c], r.outer_race_angle[d, c] = deepest, angle
+                r.outer_race_volume += volume
