@@ -70,6 +70,7 @@ def hysteresis(options: argparse.Namespace) -> int:
         "lost_motion_arcmin": loop.lost_motion_arcmin,
         "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
         "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,
+        "loop_width_arcmin": loop.width_arcmin,
         "loop_area_Nm_arcmin": loop.loop_area_Nm_arcmin,
     }
     if options.json:
