@@ -16,6 +16,7 @@ from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats
 from reducers.reducer import Reducer
 from studies import coupled
+from studies.hysteresis import MEMORY
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
@@ -31,8 +32,6 @@ HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
 LARGEST_CRANK_STEP = 1e3
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
 MOMENT = 1e-12
-# Effects by which a held output's place depends on the way to it.
-MEMORY = ("friction_coefficient", "friction_excess", "support_slip_compliance")
 
 
 class Bench(Lives):
