@@ -148,11 +148,11 @@ def works() -> Finding:
 
     start = time.perf_counter()
     try:
-        plant = InProcess("plant", load_reducer("RV20E-121").specification("rv_plant"))
+        plant = InProcess("plant", load_reducer("RV20E-121-rigid").specification("rv_plant"))
         plant.exit_initialisation()
         force = plant.number("largest_pin_force")
     except (InputFault, RunFault, OSError) as fault:
         return Finding("kernels", WRONG, f"the plant does not start: {fault}", "report this with the output of rvwear doctor --json")
     right = abs(force - 275.0) < 50.0
-    text = f"largest pin force of RV20E-121 {force:.1f} N, after {time.perf_counter() - start:.1f} s"
+    text = f"largest pin force of RV20E-121-rigid {force:.1f} N, after {time.perf_counter() - start:.1f} s"
     return Finding("kernels", GOOD if right else WRONG, text, "" if right else "report this with the output of rvwear doctor --json")

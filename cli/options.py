@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from reducers.reducer import Reducer
 
 USUAL_REDUCER = "RV20E-121"
+# On rigid supports, without losses: what an effect does shows by itself.
+IDEAL_REDUCER = "RV20E-121-rigid"
 # Exit code of an extension that unused runs did not bear out: no failure of the program.
 DID_NOT_HELP_CODE = 3
 REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_REDUCER})"
@@ -37,8 +39,8 @@ def add_json(command: argparse.ArgumentParser, what: str = "print figures as JSO
     command.add_argument("--json", action="store_true", help=what)
 
 
-def add_reducer(command: argparse.ArgumentParser, text: str = REDUCER_HELP) -> None:
-    completed_by(command.add_argument("--reducer", default=USUAL_REDUCER, help=text), reducer_completions)
+def add_reducer(command: argparse.ArgumentParser, text: str = REDUCER_HELP, usual: str = USUAL_REDUCER) -> None:
+    completed_by(command.add_argument("--reducer", default=usual, help=text), reducer_completions)
 
 
 def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True) -> None:

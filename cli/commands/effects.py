@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cli.options import add_json, add_reducer
+from cli.options import IDEAL_REDUCER, add_json, add_reducer
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
     effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number, or a word to look for: friction (default: list all)")
-    add_reducer(effects, "reducer on the bench (default RV20E-121)")
+    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER})", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
     effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own: what is wrong, and where")

@@ -29,9 +29,11 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_exports(loop)
     loop.set_defaults(run=hysteresis)
 
-    shapes = sub.add_parser("modes", help="natural frequencies and mode shapes under load, input held")
+    shapes = sub.add_parser("modes", help="natural frequencies and mode shapes, under load or without, input held or free")
     add_reducer_options(shapes)
     add_json(shapes)
+    shapes.add_argument("--free", action="store_true", help="the input turns freely with its inertia (sun.inertia); otherwise it is held")
+    shapes.add_argument("--all", action="store_true", dest="every", help="held and free, under load and without: four tables")
     shapes.set_defaults(run=modes)
 
 
@@ -90,14 +92,20 @@ def modes(options: argparse.Namespace) -> int:
     """``rvwear modes``: natural frequencies about the loaded equilibrium."""
     from cli import screen
     from cli.show.modes import show_modes
+    from orchestrator.settings import parse_setting
     from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 
     reducer = load_reducer(options.reducer)
+    settings = settings_of(options, reducer)
+    cases = [(held, loaded) for held in (True, False) for loaded in (True, False)] if options.every else [(not options.free, True)]
+    unloaded = parse_setting("output.load_torque=0", [reducer.plant, reducer.wear])
     with task("linearising the plant in motion"):
-        found = natural_modes(reducer, settings_of(options, reducer))
+        found = {(held, loaded): natural_modes(reducer, settings if loaded else [*settings, unloaded], held) for held, loaded in cases}
     if options.json:
-        screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+        told = [{"input": "held" if held else "free", "loaded": loaded, "modes": [vars(mode) for mode in some]} for (held, loaded), some in found.items()]
+        screen.json_text({"reducer": reducer.name} | ({"cases": told} if options.every else told[0]))
     else:
-        show_modes(f"{reducer.name}: modes under load, input held", found)
+        for (held, loaded), some in found.items():
+            show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)
     return 0
