@@ -92,12 +92,12 @@ class Folder:
     def remember(self, name: str, values: dict[str, Any]) -> None:
         write_text(self.memory / f"{name}.json", json.dumps(values, ensure_ascii=False, allow_nan=False))
 
-    def stamp(self) -> str:
-        """Changes when campaign, measurements or models of the folder do: what was computed before is old then."""
+    def stamp(self, model: str = "") -> str:
+        """Changes when campaign, measurements or the model's file do: what was computed before is old then."""
         from hashlib import sha256
 
         found = sha256()
-        for path in [self.campaign, *(self.root / name for name in self.models()), *self.measurements()]:
+        for path in [self.campaign, *([self.inside(model)] if model.endswith(".toml") else []), *self.measurements()]:
             if path.is_file():
                 told = path.stat()
                 found.update(f"{path.name} {told.st_size} {told.st_mtime_ns}\n".encode())

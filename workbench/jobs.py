@@ -67,8 +67,9 @@ def status(folder: Folder, kind: str) -> dict[str, Any]:
     if not asked:
         return {"state": ""}
     beat = folder.recall(f"jobs/{kind}/beat")
+    model = str(asked.get("given", {}).get("model") or "")
     told = {"begun": asked.get("begun"), "given": asked.get("given", {}), "tasks": beat.get("tasks", []), "said": beat.get("said", []),
-            "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != folder.stamp()}  # fmt: skip
+            "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != folder.stamp(model)}  # fmt: skip
     state = beat.get("state", RUNNING)
     if state == RUNNING and time.time() - max(float(beat.get("at", 0.0)), float(asked["begun"])) > SILENT:
         state = GONE

@@ -2,13 +2,19 @@
 
 import math
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
+from reducers.library import LIBRARY
 from workbench.folder import Folder
 from workbench.told import write_json
+
+if TYPE_CHECKING:
+    from fmu_src.table import Table
+    from reducers.reducer import Reducer
 
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
 PANES = (
@@ -22,18 +28,19 @@ MOST_HOURS = 1e6
 
 def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """True where it was paused: what it has is kept, and the same request goes on."""
-    from discrepancy.model_file import extended_reducer, load_model
+    from discrepancy.model_file import load_model
     from orchestrator.settings import parse_setting
     from studies.kept_life import Paused, WantedLife, belongs_to, checkpoint_of, live_to
     from studies.life import Life, LifeSettings
     from studies.report import write_report
 
     file = load_model(folder.model(given))
-    reducer = extended_reducer(file) if file.effects or file.settings else file.reducer
+    tables = [file.reducer.plant, file.reducer.wear]
     hours = number(given, "hours", 10_000.0)
-    texts = [f"output.load_torque={torque!r}N.m" for torque in [number(given, "torque", math.nan)] if math.isfinite(torque)]
-    settings = [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
-    wanted = WantedLife(reducer, settings, LifeSettings(hours))
+    texts = [f"{written(tables, name)}={value!r}" for name, value in file.values().items() if written(tables, name)]
+    texts += [f"output.load_torque={torque!r}N.m" for torque in [number(given, "torque", math.nan)] if math.isfinite(torque)]
+    settings = [parse_setting(text, tables) for text in texts]
+    wanted = WantedLife(file.reducer, settings, LifeSettings(hours))
     path = folder.root / "results" / f"{file.name}_life.nc"
     path.parent.mkdir(exist_ok=True)
     before: dict[str, Any] = {}
@@ -56,7 +63,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     figures = [{name: float(dataset[name][i]) for _, _, lines in PANES for name, _ in lines} for i in range(dataset.sizes["hour"])]
     write_json(place / "result.json", {
         **curves([float(h) for h in dataset["hour"].values], figures), "model": str(given["model"]), "file": path.relative_to(folder.root).as_posix(),
-        "title": dataset.attrs["title"], "command": command(folder, given, hours, texts, path),
+        "title": dataset.attrs["title"], "command": command(folder, file.reducer, hours, texts, path),
     })  # fmt: skip
     return False
 
@@ -84,9 +91,17 @@ def number(given: dict[str, Any], name: str, usual: float) -> float:
     return value
 
 
-def command(folder: Folder, given: dict[str, Any], hours: float, texts: list[str], path: Path) -> str:
-    name = str(given["model"])
-    words = ["rvwear", "life", "--reducer", str(folder.root / name) if name.endswith(".toml") else name, "--hours", f"{hours:g}"]
+def written(tables: "Sequence[Table]", name: str) -> str:
+    """What a setting calls the variable (or its element); empty for one of the measuring chain, which no life has."""
+    base, bracket, rest = name.partition("[")
+    variable = next((t.by_name[base] for t in tables if base in t.by_name), None)
+    return variable.path + bracket + rest if variable else ""
+
+
+def command(folder: Folder, reducer: "Reducer", hours: float, texts: list[str], path: Path) -> str:
+    """The command line that does the same: effects and settings of the model as settings."""
+    known = reducer.name if reducer.path.parent == LIBRARY else str(reducer.path)
+    words = ["rvwear", "life", "--reducer", known, "--hours", f"{hours:g}"]
     for text in texts:
         words += ["--set", text]
     return shlex.join([*words, "--output", str(path)])

@@ -1,5 +1,6 @@
 """Which effects make which order: what each effect of the catalogue, one typical size of it, changes in the transmission error."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,8 +24,6 @@ def makers(result: Comparison) -> dict[str, list[dict[str, Any]]]:
     record = next((r for r in model.records if r.quantity == ERROR and "angle" in r.axes), None)
     if record is None:
         return {}
-    from dataclasses import replace
-
     turn = np.linspace(0.0, 2.0 * np.pi, SAMPLES, endpoint=False)
     even = replace(record, name="one turn", values=np.zeros(SAMPLES), axes={"angle": turn})
     base = model.one(even, model.standing(), rough=True)

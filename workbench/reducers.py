@@ -62,7 +62,7 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
         variable = next((t.by_name[name] for t in (reducer.plant, reducer.wear, reducer.joint) if name in t.by_name), None)
         if variable is None:
             continue
-        unit = display_unit(variable)
+        unit = display_unit(variable) or variable.unit
         factor, offset = conversion(variable.unit, unit)
         low, high = reducer.ranges.get(name, (math.nan, math.nan))
         text = variable.choices[int(value)] if variable.choices else number(factor * value + offset, 5)

@@ -7,6 +7,7 @@ import json
 import socket
 import threading
 import time
+import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
 from typing import Any
@@ -192,7 +193,7 @@ class Workbench:
         given = await content(request)
         words, rows = await run_in_threadpool(
             lambda: self.hand().curve(self.folder, str(given.get("model") or ""), str(given.get("run")), dict(given.get("values") or {}),
-                                      int(given.get("ticket", 0))))  # fmt: skip
+                                      int(given.get("ticket", 0)), bool(given.get("roughly"))))  # fmt: skip
         return Response(json.dumps(words | {"count": rows.shape[1]}).encode() + b"\n" + rows.astype("<f4").tobytes(), media_type="application/octet-stream")
 
     async def everywhere(self, request: Request) -> Response:
@@ -222,6 +223,9 @@ def said(handler: Handler) -> Handler:
             return JSONResponse({"fault": str(fault)}, 400)
         except OSError as problem:
             return JSONResponse({"fault": f"{problem}; look at the folder and its disk"}, 400)
+        except Exception as problem:  # noqa: BLE001 - a fault of the program is said, and the server goes on
+            traceback.print_exc()
+            return JSONResponse({"fault": f"{type(problem).__name__}: {problem} (a fault of the program; the terminal has the whole of it)"}, 500)
 
     return answer
 

@@ -3,6 +3,7 @@
 import math
 import threading
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -32,12 +33,13 @@ class Trial:
         self.lock = threading.Lock()
         self.key: tuple[str, str, str] | None = None
         self.model: PhysicalModel | None = None
-        self.few: dict[str, Record] = {}
+        # Runs with as many samples as are drawn, beside whole ones.
+        self.few: dict[str, tuple[Record, Record]] = {}
         self.asked = 0
 
     def opened(self, folder: Folder, model: str) -> PhysicalModel:
         """The model, made anew where folder or model have changed."""
-        key = (str(folder.root), model, folder.stamp())
+        key = (str(folder.root), model, folder.stamp(model))
         if self.model is None or self.key != key:
             self.model = PhysicalModel(load_model(folder.model({"model": model})), load_campaign(folder.root))
             self.key, self.few = key, {}
@@ -63,18 +65,21 @@ class Trial:
                      "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records]  # fmt: skip
             return {"model": model, "effects": effects, "numbers": numbers, "runs": runs, "present": present(found)}
 
-    def curve(self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int) -> tuple[dict[str, Any], Floats]:
-        """Predicted values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted)."""
+    def curve(self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int, roughly: bool = False) -> tuple[dict[str, Any], Floats]:
+        """Predicted values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted).
+
+        ``roughly``: while the hand moves, within some parts in a hundred of what the values change.
+        """
         self.asked = max(self.asked, ticket)
         with self.lock:
             if ticket < self.asked:
                 # The hand has moved on.
                 return {"late": True}, np.zeros((4, 0))
             found = self.opened(folder, model)
-            record = self.thinned(found, run)
+            record, whole = self.thinned(found, run)
             own = checked_values(found, values)
-            base = found.one(record, found.standing())
-            tried = found.one(record, {**found.standing(), **own})
+            base = predicted(found, record, whole, {}, False)
+            tried = predicted(found, record, whole, own, roughly) if own else base
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
@@ -97,8 +102,8 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                few = self.thinned(found, record.name)
-                base, tried = found.one(few, found.standing(), rough=True), found.one(few, {**found.standing(), **own}, rough=True)
+                few, whole = self.thinned(found, record.name)
+                base, tried = predicted(found, few, whole, {}, True), predicted(found, few, whole, own, True)
                 units[key[0]] = record.unit
                 cells.setdefault(key[0], []).append((rms(tried - base), rms(few.values - base), rms(few.values - tried)))
         rows = []
@@ -109,19 +114,25 @@ class Trial:
                          "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
         return rows
 
-    def thinned(self, model: PhysicalModel, run: str) -> Record:
-        """A run with as many samples as a screen shows; the same object each time, so that what was predicted is found again."""
-        from dataclasses import replace
-
+    def thinned(self, model: PhysicalModel, run: str) -> tuple[Record, Record]:
+        """A run with as many samples as a screen shows; the same object each time, so that what was predicted is found again; and the whole run."""
         if run not in self.few:
             record = next((r for r in model.records if r.name == run), None)
             if record is None:
                 raise InputFault(f"{run}: there is no such run")
             step = max(1, math.ceil(len(record.values) / FEW))
-            self.few[run] = record if step == 1 else replace(
-                record, values=record.values[::step], axes={k: np.asarray(v)[::step] if np.size(v) == len(record.values) else v for k, v in record.axes.items()}
-            )  # fmt: skip
+            # Under a name of its own: what is kept of whole runs does not fit it.
+            thin = {k: np.asarray(v)[::step] if np.size(v) == len(record.values) else v for k, v in record.axes.items()}
+            self.few[run] = (record if step == 1 else replace(record, name=f"{run}, every {step}", values=record.values[::step], axes=thin)), record
         return self.few[run]
+
+
+def predicted(model: PhysicalModel, record: Record, whole: Record, values: Mapping[str, float], rough: bool) -> Floats:
+    """Of a run or of every so manieth of its samples, where its roller cages stood added."""
+    own = {**model.standing(), **values}
+    found = model.one(record, own, rough=rough)
+    ripple = None if record is whole else model.cages.ripple(whole, own)
+    return found if ripple is None else found + ripple[:: math.ceil(len(ripple) / len(found))]
 
 
 def rms(values: Floats) -> float:

@@ -28,7 +28,8 @@ class Teller:
         self.place = jobs.place_of(folder, kind)
         self.tasks: list[Task] = []
         self.said: list[str] = []
-        self.stamp = folder.stamp()
+        self.model = str(folder.recall(f"jobs/{kind}/job").get("given", {}).get("model") or "")
+        self.stamp = folder.stamp(self.model)
         self.begun = time.monotonic()
         self.ended = threading.Event()
         self.asked = False
@@ -70,7 +71,7 @@ class Teller:
         self.thread.join()
         self.tasks.clear()
         # An effect that is added changes the folder itself: its result is not old by that.
-        self.stamp = self.folder.stamp()
+        self.stamp = self.folder.stamp(self.model)
         self.write(state, fault)
 
 

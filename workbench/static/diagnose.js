@@ -86,8 +86,8 @@ export function show(root, context) {
   function ladder() {
     if (!extension) return null;
     const busy = Object.values(context.state.jobs).some((j) => j.state === "running"), steps = extension.steps;
-    const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? s.training_before ?? 0]), 1);
-    const bar = (value, tone) => (value === null || value === undefined ? "–" : h("span", { class: tone }, h("span", { class: "off" }, number(value, 3)), h("span", { class: "bar", style: { width: `${Math.max(2, (120 * value) / most)}px` } })));
+    const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.training_before ?? 0]), 1);
+    const bar = (value, tone) => (value === null || value === undefined ? "–" : h("span", { class: tone }, h("span", { class: "off" }, number(value, 3)), h("span", { class: "bar", style: { width: `${Math.max(2, (90 * value) / most)}px` } })));
     return h("section", { id: "ladder" }, h("h2", {}, "How the error fell"), h("div", { class: "panel" }, table(["step", "fitted runs, before", "after", "unused runs, before", "after", "verdict"], steps.map((s) => [s.effects.map(words).join(" + "), bar(s.training_before, "quiet"), bar(s.training_after, "quiet"), bar(s.held_out_before, "bad"), bar(s.held_out_after, "good"), `${s.verdict}${s.kept === false ? ", not kept" : ""}`])),
       h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
       h("div", { class: "row" }, h("button", { type: "button", onclick: () => { context.go("look"); context.start("compare", { model: "model.toml" }); } }, "Look at the better model"), h("button", { type: "button", onclick: () => context.start("diagnose", { model: "model.toml" }) }, "Is anything else missing?"),

@@ -35,7 +35,7 @@ export function show(root, context) {
     const now = result ?? live?.now;
     if (!now) { clear(words, h("p", { class: "quiet" }, "Thousands of hours in jumps of one meshing cycle each; how many jumps it takes is decided by halving them.")); chart.hidden = true; clear(below); return; }
     const last = now.panes.flatMap((p) => p.lines.map((l) => `${l.name} ${number(l.values.at(-1), 3)} ${p.unit}`));
-    clear(words, h("h1", {}, result ? result.title : `${now.model}: ${number(now.hours.at(-1), 5)} of ${number(now.until, 5)} h`), h("p", { class: "lead" }, last.join(" · ")), result ? null : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`));
+    clear(words, h("h1", {}, result ? result.title : `${now.model}: ${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} h`), h("p", { class: "lead" }, last.join(" · ")), result ? null : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`));
     chart.hidden = false;
     if (!plot) { plot = new Plot({ height: window.innerWidth < 640 ? 560 : 640, label: "wear, lag, transmission error and stiffness over the hours" }); chart.append(plot.element); }
     const x = Float32Array.from(now.hours);
@@ -45,7 +45,7 @@ export function show(root, context) {
       live.before.panes.forEach((p, k) => p.lines.forEach((l, i) => panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1, dash: [4, 4], opacity: 0.6 })));
     }
     plot.set({ xTitle: "operating time [h]", panes });
-    clear(below, result ? [h("h2", {}, "On the parts, over the turn, by order"), h("iframe", { class: "report", src: "results/life/report", title: "report of the life", sandbox: "allow-scripts" }), h("p", { class: "quiet small" }, `kept in ${result.file}`), command(result.command)] : null);
+    clear(below, result ? [h("h2", {}, "On the parts, over the turn, by order"), h("iframe", { class: "report", src: "results/life/report", title: "report of the life", sandbox: "allow-scripts" }), h("p", { class: "quiet small" }, `kept in ${result.file}; `, h("a", { href: "results/life/report", target: "_blank", rel: "noopener" }, "the report in a tab of its own")), command(result.command)] : null);
   }
 
   draw();

@@ -18,7 +18,7 @@ export function orders(signal, condition, result, plots) {
     const hover = (order) => { said.replaceChildren(...about(order, result, chosen, signal.unit)); };
     plot.canvas.addEventListener("pointermove", (event) => {
       const box = plot.canvas.getBoundingClientRect(), [low, high] = plot.range();
-      const at = low + ((event.clientX - box.left - 62) / (box.width - 74)) * (high - low);
+      const at = low + ((event.clientX - box.left - 56) / (box.width - 68)) * (high - low);
       const near = [Math.round(at) - 1, Math.round(at), Math.round(at) + 1].filter((o) => o > 0 && o < chosen.measured.length).sort((p, q) => chosen.measured[q] - chosen.measured[p])[0];
       if (near) hover(near);
     });

@@ -30,7 +30,7 @@ export function figure(f) {
     await script("plotly.js");
     const choice = select ? f.choices[Number(select.value)] : null;
     const data = choice ? f.data.map((trace, i) => ({ ...trace, ...choice.traces[i] })) : f.data;
-    window.Plotly.react(place, structuredClone(data), coloured(structuredClone({ ...f.layout, ...(choice?.layout ?? {}) })), config);
+    window.Plotly.react(place, themed(data), coloured(themed({ ...f.layout, ...(choice?.layout ?? {}) })), config);
   };
   const watch = new IntersectionObserver((entries) => { if (entries.some((e) => e.isIntersecting)) { watch.disconnect(); draw(); } });
   watch.observe(place);
@@ -53,6 +53,15 @@ function behind(f) {
       ...maps.map((t) => table(["", ...t.x.map(String)], t.z.map((row, i) => [String(t.y[i]), ...row.map((v, k) => String(t.text?.[i]?.[k] ?? v ?? ""))]), t.x.map((_, i) => i + 1))));
   };
   return h("details", { class: "behind", ontoggle: fill }, h("summary", {}, "Table"), h("div"));
+}
+
+// Colours of the printed page by their meaning, so that they stand out on a dark ground, too.
+const MEANINGS = { "#1d2733": "--ink", "#5d6975": "--quiet", "#e4e9ee": "--grid", "#eceff2": "--soft", "#ffffff": "--paper", "#0b4f94": "--predicted", "#98a3af": "--measured", "#7d8894": "--measured", "#d55e00": "--tried", "#eef1f4": "--soft", "#e3e9f0": "--soft" };
+function themed(content) {
+  const text = JSON.stringify(content);
+  if (!document.documentElement.classList.contains("dark")) return JSON.parse(text);
+  const style = getComputedStyle(document.documentElement);
+  return JSON.parse(text.replace(/"(#[0-9a-f]{6})"/g, (whole, colour) => (MEANINGS[colour] ? `"${style.getPropertyValue(MEANINGS[colour]).trim()}"` : whole)));
 }
 
 // The layout in the page's colours.

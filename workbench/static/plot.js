@@ -1,9 +1,9 @@
 // A picture of curves in panes over one axis: zoom that stays aligned, cursors A and B, a table behind it.  Draws a million samples.
 
 import { h, number } from "./dom.js";
-import { firstFrom, isSorted, nearestIndex, seen, span, ticks, tickText, tracePath, traceSorted } from "./scale.js";
+import { farOut, firstFrom, isSorted, nearestIndex, seen, span, spanOf, ticks, tickText, traceBlocks, tracePath, traceSorted } from "./scale.js";
 
-const LEFT = 62, RIGHT = 12, TOP = 8, GAP = 20, BOTTOM = 40, MOST_ROWS = 400;
+const LEFT = 56, RIGHT = 12, TOP = 20, GAP = 26, BOTTOM = 40, MOST_ROWS = 400;
 const colours = new Map();
 const inColour = (name) => {
   if (!name.startsWith("--")) return name;
@@ -77,7 +77,7 @@ export class Plot {
     let bottom = Infinity, top = -Infinity;
     const take = ([a, b]) => { if (a < bottom) bottom = a; if (b > top) top = b; };
     for (const line of this.shown(pane)) {
-      if (line.sorted && !this.loop) take(span(line.y, ...seen(line.x, low, high)));
+      if (line.sorted && !this.loop) take(spanOf(line, ...seen(line.x, low, high)));
       else take(line.ySpan ??= span(line.y));
     }
     for (const value of pane.limits ?? []) take([value, value]);
@@ -111,13 +111,13 @@ export class Plot {
       this.boxes.push({ pane, top, bottom, bot, up, py });
       c.lineWidth = 1; c.strokeStyle = inColour("--grid"); c.fillStyle = inColour("--quiet");
       c.beginPath();
-      const yTicks = ticks(bot, up, Math.max(2, tall / 46)), yStep = yTicks.length > 1 ? yTicks[1] - yTicks[0] : 1;
+      const yTicks = ticks(bot, up, Math.max(2, tall / 38)), yStep = yTicks.length > 1 ? yTicks[1] - yTicks[0] : 1;
       for (const v of yTicks) { const y = Math.round(py(v)) + 0.5; c.moveTo(LEFT, y); c.lineTo(right, y); }
       for (const v of xTicks) { const x = Math.round(px(v)) + 0.5; c.moveTo(x, top); c.lineTo(x, bottom); }
       c.stroke();
       c.textAlign = "right"; c.textBaseline = "middle";
       for (const v of yTicks) c.fillText(tickText(v, yStep), LEFT - 6, py(v));
-      c.save(); c.translate(13, (top + bottom) / 2); c.rotate(-Math.PI / 2); c.textAlign = "center"; c.fillText(fitting(c, pane.title ?? "", tall + GAP), 0, 0); c.restore();
+      c.textAlign = "left"; c.textBaseline = "bottom"; c.fillText(fitting(c, pane.title ?? "", plotted), LEFT, top - 4);
       c.save(); c.beginPath(); c.rect(LEFT, top - 1, plotted, tall + 2); c.clip();
       for (const band of pane.bands ?? []) this.drawBand(c, band, px, py, low, high);
       for (const value of pane.limits ?? []) {
@@ -130,7 +130,7 @@ export class Plot {
     }
     const foot = this.boxes.at(-1).bottom;
     c.fillStyle = inColour("--quiet"); c.textAlign = "center"; c.textBaseline = "top";
-    for (const v of xTicks) c.fillText(tickText(v, xStep), px(v), foot + 5);
+    for (const v of xTicks) { const text = tickText(v, xStep), half = c.measureText(text).width / 2; c.fillText(text, Math.min(px(v), width - 2 - half), foot + 5); }
     c.fillText(this.xTitle, LEFT + plotted / 2, foot + 22);
     this.drawCursors(c, px, foot);
     if (this.box) { c.fillStyle = inColour("--band"); c.fillRect(this.box.x, this.box.y, this.box.w, this.box.h); }
@@ -141,7 +141,7 @@ export class Plot {
     c.strokeStyle = inColour(line.colour); c.lineWidth = line.width ?? 1.4; c.globalAlpha = line.opacity ?? 1; c.setLineDash(line.dash ?? []);
     c.lineJoin = "round"; c.beginPath();
     if (line.stems) { for (let i = 0; i < line.x.length; i++) { c.moveTo(px(line.x[i] + (line.shift ?? 0)), py(0)); c.lineTo(px(line.x[i] + (line.shift ?? 0)), py(line.y[i])); } }
-    else if (line.sorted) { const [from, to] = seen(line.x, low, high); traceSorted(c, line.x, line.y, from, to, px, py); }
+    else if (line.sorted) { const [from, to] = seen(line.x, low, high); if (farOut(line, from, to, px(high) - px(low))) traceBlocks(c, line, from, to, px, py); else traceSorted(c, line.x, line.y, from, to, px, py); }
     else tracePath(c, line.x, line.y, px, py);
     if (!line.only) c.stroke();
     if (line.dots) {

@@ -33,7 +33,7 @@ export function show(root, context) {
   function numbers(rows) {
     const list = h("div");
     const fill = () => clear(list, table(["number", "value", "unit", "range", "meaning", "source"], rows.filter((n) => !search || `${n.name} ${n.meaning} ${n.source}`.toLowerCase().includes(search)).map((n) => [h("code", {}, n.name), h("span", { class: n.outside ? "bad" : "" }, n.value), n.unit, n.range || h("span", { class: "quiet" }, "–"),
-      h("span", { class: "small" }, n.meaning), h("span", { class: "small" }, n.source, n.assumed ? h("span", { class: "tag fair", style: { "margin-left": "6px" } }, "assumed") : "")]), [1]));
+      h("span", { class: "small" }, n.meaning), h("span", { class: "small" }, n.assumed ? [h("span", { class: "fair" }, n.source.split(":")[0]), n.source.slice(n.source.split(":")[0].length)] : n.source)]), [1], { class: "stack2" }));
     fill();
     return h("section", {}, h("div", { class: "row spread" }, h("h2", { style: { margin: 0 } }, `${rows.length} numbers`), h("input", { type: "search", placeholder: "search numbers  ( / )", oninput: (e) => { search = e.target.value.toLowerCase(); fill(); } })), h("div", { class: "panel" }, list));
   }
@@ -43,18 +43,19 @@ export function show(root, context) {
     const result = h("div"), said = h("div");
     const ask = async (save = false) => {
       if (!form.ratio || !form.pins || !form.rated) { clear(result, h("p", { class: "quiet" }, "Ratio, pins and rated torque are needed; everything else follows by design rules, and narrows with what you know.")); return; }
+      if (!result.childElementCount || result.firstChild.className === "quiet") clear(result, h("p", { class: "quiet" }, "Completing and checking…"));
       const found = await context.act(post("reducer/new", { ...form, known, save }), said);
-      if (!found) return;
+      if (!found) { clear(result); return; }
       clear(said, found.saved ? h("p", { class: "note" }, `${found.saved} is in the folder`) : null, found.findings.map((t) => note(t, "bad")));
       if (found.saved) { made = null; await context.act(post("state", { model: found.saved }), faults); load(found.saved); return; }
       const held = document.activeElement?.id;
       clear(result, h("h1", {}, found.page.title), h("p", { class: "quiet" }, `${found.page.conditions}; ${found.page.finding}`), cards(found.page.cards), warnings(found.page.warnings), h("div", { class: "grid" }, found.page.sections.flatMap((s) => s.figures).map(figure)),
         h("div", { class: "row" }, h("label", { class: "inline" }, "name", h("input", { type: "text", value: form.name ?? found.name, onchange: (e) => { form.name = e.target.value; } })), h("button", { type: "button", class: "main", id: "save-reducer", onclick: () => ask(true) }, "Save it in the folder")),
         h("h2", {}, "Every number of its file"), h("p", { class: "quiet small" }, "A number that you have measured is typed over; what hangs on it follows."),
-        h("div", { class: "panel" }, table(["number", "value", "unit", "range", "by"], found.numbers.map((n) => [h("code", {}, n.name), n.asked ? h("input", { type: "text", size: 9, id: `n-${n.name}`, class: n.given ? "changed" : "", value: n.value, "aria-label": n.name, onchange: (e) => { const text = e.target.value.trim().replace(",", "."); if (text) known[n.name] = /[a-zµ%]/i.test(text.replace(/e[-+]?\d+$/i, "")) ? text : `${text}${n.unit}`; else delete known[n.name]; ask(); } }) : n.value, n.unit, n.range, h("span", { class: "small" }, n.source)]), [])), command(found.command));
+        h("div", { class: "panel" }, table(["number", "value", "unit", "range", "by"], found.numbers.map((n) => [h("code", {}, n.name), n.asked ? h("input", { type: "text", size: 9, id: `n-${n.name}`, class: n.given ? "changed" : "", value: n.value, "aria-label": n.name, onchange: (e) => { const text = e.target.value.trim().replace(",", "."); if (text) known[n.name] = /[a-zµ%]/i.test(text.replace(/e[-+]?\d+$/i, "")) ? text : `${text}${n.unit}`; else delete known[n.name]; ask(); } }) : n.value, n.unit, n.range, h("span", { class: "small" }, n.source)]), [], { class: "stack2" })), command(found.command));
       if (held) document.getElementById(held)?.focus();
     };
-    const fields = data.asked.map(([name, label, unit, needed]) => h("label", { class: "inline" }, `${label}${needed ? " *" : ""}`, h("input", { type: "text", inputmode: "decimal", size: 7, id: `ask-${name}`, value: form[name] ?? "", oninput: (e) => { form[name] = e.target.value; clearTimeout(timer); timer = setTimeout(() => ask(), 350); } }), unit));
+    const fields = data.asked.map(([name, label, unit, needed]) => h("label", { class: "inline" }, `${label}${needed ? " *" : ""}`, h("input", { type: "text", inputmode: "decimal", size: 7, id: `ask-${name}`, value: form[name] ?? "", placeholder: { speed: "15", rollers: "16", lost_motion: "1", cranks: "2 or 3" }[name], oninput: (e) => { form[name] = e.target.value; clearTimeout(timer); timer = setTimeout(() => ask(), 350); } }), unit));
     ask();
     return [h("div", { class: "panel" }, h("h1", {}, "A reducer of which little is known"), h("div", { class: "row" }, fields), said), result];
   }

@@ -56,6 +56,43 @@ export function seen(x, low, high) {
   return [Math.max(0, firstFrom(x, low) - 1), Math.min(x.length, firstFrom(x, high) + 1)];
 }
 
+// Lowest and highest of each BLOCK samples of a long line: what is far out is drawn and measured by these.
+const BLOCK = 64, LONG = 40_000;
+export function blocks(line) {
+  if (line.y.length < LONG) return null;
+  if (!line.blocks) {
+    const { y } = line, count = Math.ceil(y.length / BLOCK), low = new Float32Array(count), high = new Float32Array(count);
+    for (let b = 0; b < count; b++) [low[b], high[b]] = span(y, b * BLOCK, Math.min(y.length, (b + 1) * BLOCK));
+    line.blocks = { low, high };
+  }
+  return line.blocks;
+}
+
+// Range of a line's values between two indices.
+export function spanOf(line, from, to) {
+  const coarse = blocks(line);
+  if (!coarse || to - from < 4 * BLOCK) return span(line.y, from, to);
+  const first = Math.ceil(from / BLOCK), last = Math.floor(to / BLOCK);
+  const parts = [span(line.y, from, first * BLOCK), span(line.y, last * BLOCK, to), [span(coarse.low, first, last)[0], span(coarse.high, first, last)[1]]];
+  return [Math.min(...parts.map((p) => p[0])), Math.max(...parts.map((p) => p[1]))];
+}
+
+// A long rising line by its blocks: one stroke down and up for each column of pixels.
+export function traceBlocks(context, line, from, to, px, py) {
+  const { low, high } = blocks(line), { x } = line;
+  let column = NaN, bottom = Infinity, top = -Infinity;
+  const flush = () => { if (top >= bottom) { context.lineTo(column + 0.5, py(bottom)); context.lineTo(column + 0.5, py(top)); } };
+  context.moveTo(px(x[from]), py(line.y[from]));
+  for (let b = Math.floor(from / BLOCK); b < Math.ceil(to / BLOCK); b++) {
+    const at = Math.floor(px(x[Math.min(x.length - 1, b * BLOCK)]));
+    if (at !== column) { flush(); column = at; bottom = Infinity; top = -Infinity; }
+    if (low[b] < bottom) bottom = low[b];
+    if (high[b] > top) top = high[b];
+  }
+  flush();
+}
+export const farOut = (line, from, to, pixels) => line.y.length >= LONG && to - from > 2 * BLOCK * pixels;
+
 // A rising line on a canvas: of many samples in one column of pixels the first, the lowest, the highest and the last.
 export function traceSorted(context, x, y, from, to, px, py) {
   let column = -Infinity, low = 0, high = 0, last = 0, count = 0, pen = false;

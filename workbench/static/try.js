@@ -4,6 +4,8 @@ import { choose, clear, h, number, table, words } from "./dom.js";
 import { post, wordsAndRows } from "./net.js";
 import { Plot } from "./plot.js";
 
+const plain = (value) => String(Number(value.toPrecision(4)));
+
 export function show(root, context) {
   let data = null, run = null, values = {}, kept = null, keptName = "", ticket = Date.now(), busy = false, again = false, search = "", settle = 0, last = null, model = "";
   const faults = h("div"), top = h("div"), list = h("ul", { class: "list", "aria-label": "effects" }), right = h("div"), told = h("p", { class: "quiet small", id: "followed", "aria-live": "off" }), everywhere = h("div");
@@ -25,7 +27,8 @@ export function show(root, context) {
   }
 
   function drawTop() {
-    const names = new Map(data.runs.map((r) => [`${r.signal}|${r.condition}`, r]));
+    const names = new Map();
+    for (const r of data.runs) if (!names.has(`${r.signal}|${r.condition}`) || r.run === run) names.set(`${r.signal}|${r.condition}`, r);
     clear(top, h("div", { class: "row" }, context.modelChooser("model"), h("label", { class: "inline" }, "run", choose([...names.values()].map((r) => [r.run, `${r.title}, ${r.condition}${r.held_out ? " (held out)" : ""}`]), run, (v) => { run = v; kept = null; follow(); }, { id: "run" })),
       h("button", { type: "button", onclick: () => { values = {}; drawList(); follow(); } }, "All off"), h("button", { type: "button", title: "hold this curve and compare further ones with it", onclick: () => { kept = last; keptName = summary(); follow(); } }, "Keep as A"),
       kept ? h("button", { type: "button", onclick: () => { kept = null; follow(); } }, "Let A go") : null, data.present.length ? h("span", { class: "tag" }, `the model carries ${data.present.map((p) => p.title).join(", ")}`) : null));
@@ -51,28 +54,31 @@ export function show(root, context) {
   function slider(e, p) {
     const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off, step = (p.high - p.low) / 400;
     const range = h("input", { type: "range", min: p.low, max: p.high, step: "any", value, "aria-label": `${words(p.name)} [${p.unit}]`, "data-parameter": p.name, oninput: () => set(Number(range.value)) });
-    const field = h("input", { type: "number", step: "any", value: number(value, 4).replace("−", "-"), "aria-label": `${words(p.name)}, number`, onchange: () => { range.value = field.value; set(Number(field.value)); } });
+    const field = h("input", { type: "number", step: "any", value: plain(value), "aria-label": `${words(p.name)}, number`, onchange: () => { range.value = field.value; set(Number(field.value)); } });
     range.addEventListener("keydown", (event) => { const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key]; if (by) { event.preventDefault(); range.value = Number(range.value) + by * step; set(Number(range.value)); } });
     const set = (v) => {
       if (Math.abs(v - p.off) < 1e-12 * Math.max(1, Math.abs(p.high))) delete values[p.name]; else values[p.name] = (v - p.offset) / p.factor;
-      if (document.activeElement !== field) field.value = number(v, 4).replace("−", "-");
+      if (document.activeElement !== field) field.value = plain(v);
       follow();
     };
     return h("div", { class: "slider" }, h("span", { class: "name", title: p.description }, `${words(p.name)}${p.unit ? ` [${p.unit}]` : ""}${p.amplitude ? "" : " · shape"}`), range, field, h("span", { class: "quiet small", style: { "grid-column": "1 / -1" } }, `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`));
   }
 
   // One request at a time; while it is on its way only the last position of the hand counts.
-  async function follow() {
+  async function follow(roughly = true) {
     if (!run) return;
     if (busy) { again = true; return; }
     busy = true;
-    const begun = performance.now(), asked = { model, run, values, ticket: ++ticket };
+    const begun = performance.now(), asked = { model, run, values, ticket: ++ticket, roughly };
     try {
       const [told_, rows] = await wordsAndRows("try/curve", asked, 4);
-      if (!told_.late) { last = { told: told_, rows }; drawCurve(performance.now() - begun); }
+      if (!told_.late) { last = { told: told_, rows }; drawCurve(roughly ? performance.now() - begun : null); }
     } catch (fault) { clear(faults, h("p", { class: "note bad" }, fault.message)); }
     busy = false;
-    if (again) { again = false; follow(); } else { clearTimeout(settle); settle = setTimeout(spread, 350); }
+    if (again) { again = false; await follow(); return; }
+    clearTimeout(settle);
+    // Exactly, and for all signals, when the hand rests.
+    if (roughly) settle = setTimeout(() => follow(false).then(spread), 300);
   }
 
   function drawCurve(took) {
@@ -85,8 +91,8 @@ export function show(root, context) {
     if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--a", width: 1.1 });
     if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--tried", width: 1.3 });
     plot.set({ xTitle: t.axis.title, loop: t.loop, panes: [{ title: `${t.title.split(" (")[0]} [${t.unit}]`, weight: 2, lines }, { title: `difference [${t.unit}]`, weight: 1, zero: true, lines: lower }] });
-    told.dataset.ms = String(Math.round(took));
-    clear(told, `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `, h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`), ` · ${summary()} · ${Math.round(took)} ms`, kept ? ` · A: ${keptName}` : "");
+    if (took !== null) told.dataset.ms = String(Math.round(took));
+    clear(told, `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `, h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`), ` · ${summary()}`, kept ? ` · A: ${keptName}` : "");
   }
 
   // What it would do to each signal, when the hand rests.
