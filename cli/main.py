@@ -20,7 +20,6 @@ from cli.commands import (
     comparison,
     completion,
     doctor,
-    completion,
     effects,
     ensemble,
     example,
