@@ -119,8 +119,8 @@ class Workbench:
         folder = self.folder
         view = folder.recall("view")
         return {
-            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "reducers": available(), "view": view,
-            "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
+            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "reducers": available(),
+            "view": view, "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:
