@@ -8,7 +8,7 @@ from setuptools import find_namespace_packages, setup
 
 PARTS = (
     "cli", "discrepancy", "exports", "fmu_src", "orchestrator", "pages", "reducers", "reproduce", "rv_plant", "rv_reducer", "rvwear", "studies",
-    "wear_fmu",
+    "wear_fmu", "workbench",
 )  # fmt: skip
 LITTER = ["__pycache__/*", "*.py[co]"]
 EXAMPLES = "rvwear_examples"

@@ -14,7 +14,24 @@ import sys
 import warnings
 from typing import Any
 
-from cli.commands import build, campaign, comparison, completion, doctor, effects, ensemble, example, fmu, life, new_reducer, reducer, reproduce, schema, system
+from cli.commands import (
+    build,
+    campaign,
+    comparison,
+    completion,
+    doctor,
+    effects,
+    ensemble,
+    example,
+    fmu,
+    life,
+    new_reducer,
+    reducer,
+    reproduce,
+    schema,
+    system,
+    workbench,
+)  # fmt: skip
 from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
 from cli.parser import Parser
@@ -24,7 +41,7 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, effects, example, schema, doctor, completion)
+GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion)
 
 
 class PrintVersion(argparse.Action):

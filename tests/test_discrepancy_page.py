@@ -329,7 +329,7 @@ def test_speeds_stand_where_the_campaign_states_them(tmp_path):
 
 
 def area_of(trace):
-    """Area of all polygons of a band, whichever way round, by the shoelace formula."""
+    """Area of all polygons of a band by the shoelace formula; those of opposite sense take from each other, as they do where they are drawn."""
     xs, ys = ([[]], [[]])
     for x, y in zip(trace["x"], trace["y"]):
         if x is None:
@@ -338,7 +338,7 @@ def area_of(trace):
         else:
             xs[-1].append(x)
             ys[-1].append(y)
-    return sum(0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) for x, y in zip(xs, ys))
+    return abs(sum(0.5 * (np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) for x, y in zip(xs, ys)))
 
 
 def test_band_of_a_loop_covers_both_ways():

@@ -104,7 +104,7 @@ def modes(options: argparse.Namespace) -> int:
         found = {(held, loaded): natural_modes(reducer, settings if loaded else [*settings, unloaded], held) for held, loaded in cases}
     if options.json:
         told = [{"input": "held" if held else "free", "loaded": loaded, "modes": [vars(mode) for mode in some]} for (held, loaded), some in found.items()]
-        screen.json_text({"reducer": reducer.name} | ({"cases": told} if options.every else told[0]))
+        screen.json_text({"reducer": reducer.name, "cases": told} if options.every else {"reducer": reducer.name, **told[0]})
     else:
         for (held, loaded), some in found.items():
             show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)
