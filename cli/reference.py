@@ -10,18 +10,19 @@ from pathlib import Path
 from typing import Any
 
 from cli.main import parser
-from cli.schemas import KINDS, explained, schema_of, settable, tables
+from cli.schemas import KINDS, explained, schema_of, settable
 from fmu_src.project import NAME
 from fmu_src.source_hash import ROOT
-from rv_plant.dimension import FILE
+from reducers.reducer import every_table, must_be_stated
 
 REFERENCE, SCHEMAS = ROOT / "docs" / "reference", ROOT / "docs" / "schema"
+PLAIN_KINDS = {"string": "text", "number": "number", "integer": "whole number", "boolean": "`true`, `false`", "object": "table"}
 MADE = "<!-- Made by python -m cli.reference: run it instead of editing this page. -->\n\n"
 # What stands above the table of keys: what the file is for, and the smallest that is of use.
 HEADS = {
     "reducer": (
         "A reducer: counts, and numbers with unit and source. Numbers that are `needed` must be there; all others have a default. It begins so;"
-        " `rvwear reducer new` completes one from a few numbers ([how](../new_reducer.md)), a [tutorial](../tutorials/your_reducer.md) leads through one's own.",
+        " `rvwear reducer new` completes one from a few numbers ([how](../new_reducer.md)), [a tutorial](../tutorials/your_reducer.md) shows one's own.",
         '[reducer]\nname = "mine"\n[topology]\ndiscs = 2\ncranks = 2\npins = 40\nlobes = 39\nrollers = 16\n'
         '[pin]\nradius = { value = 2.0, unit = "mm", source = "drawing 12" }',
     ),
@@ -114,17 +115,17 @@ def kind_of(entry: dict[str, Any]) -> str:
     inner = entry.get("additionalProperties")
     if entry.get("type") == "object" and isinstance(inner, dict) and inner.get("$ref"):
         return f"tables by name: {words_of(inner['$ref'].rpartition('/')[2])}"
-    return {"string": "text", "number": "number", "integer": "whole number", "boolean": "`true`, `false`", "object": "table"}.get(str(entry.get("type")), "anything")
+    return PLAIN_KINDS.get(str(entry.get("type")), "anything")
 
 
 def numbers_table() -> str:
     """All that a reducer file may state, with what a file that leaves it out gets."""
     rows = ["\n## Numbers\n", "A name `pin.radius` is the key `radius` in the section `[pin]`.\n", "| name | default | meaning |", "|---|---|---|"]
-    for path, v in settable(tables()).items():
+    for path, v in settable(every_table()).items():
         if "." in path and not path.startswith("effects."):
             number = f"{v.start:.6g} {v.unit}".removesuffix(" 1")
             usual = f"`{v.choices[int(v.start)]}`" if v.choices else number
-            rows.append(f"| `{path}` | {'needed' if v.source == FILE else usual} | {cell(explained(v))} |")
+            rows.append(f"| `{path}` | {'needed' if must_be_stated(v) else usual} | {cell(explained(v))} |")
     return "\n".join(rows) + "\n\nEffects' parameters may be stated, too: [effects](../effects.md).\n"
 
 

@@ -13,12 +13,9 @@ from fmu_src.strict_file import Strict
 from fmu_src.table import Table
 from fmu_src.variables import SETTABLE, Variable
 from orchestrator.scenario import ScenarioFile
-from reducers.reducer import EVERY_PART, Counts, Entry, Head
-from rv_plant.variables import plant_table
-from rv_reducer.variables import reducer_table
+from reducers.reducer import Counts, Entry, Head, every_table
 from studies.duty import DutyFile
 from studies.ensemble.ensemble_file import Content as EnsembleContent
-from wear_fmu.variables import wear_table
 
 Schema = dict[str, Any]
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -43,11 +40,6 @@ def of_model(model: type[Strict], kind: str) -> Schema:
             if (said := words.get(f"{name}.{key}")) is not None:
                 entry["description"] = said
     return found
-
-
-def tables() -> tuple[Table, Table, Table]:
-    """Of a reducer that lacks no part."""
-    return plant_table(EVERY_PART), wear_table(EVERY_PART), reducer_table(EVERY_PART)
 
 
 def settable(of: Iterable[Table]) -> dict[str, Variable]:
@@ -90,7 +82,7 @@ def reducer_schema() -> Schema:
         chosen = {"properties": {"value": {"enum": list(v.choices)}}} if v.choices else {}
         return referred("Entry", explained(v)) | chosen
 
-    groups = nested({path: v for path, v in settable(tables()).items() if "." in path}, leaf)
+    groups = nested({path: v for path, v in settable(every_table()).items() if "." in path}, leaf)
     head = {"reducer": of_model(Head, "reducer"), "topology": of_model(Counts, "reducer")}
     return {
         "type": "object", "properties": head | groups["properties"], "required": list(head), "additionalProperties": False,
@@ -106,7 +98,7 @@ def referred(name: str, text: str) -> Schema:
 def model_schema() -> Schema:
     found = of_model(ModelContent, "model")
     found.setdefault("$defs", {})["Number"] = of_model(Number, "model")
-    found["properties"]["settings"] |= nested(settable(tables()), setting)
+    found["properties"]["settings"] |= nested(settable(every_table()), setting)
     effects: Schema = {}
     for name, effect in every_effect().items():
         parameters = {p.variable.path.rpartition(".")[2]: referred("Number", explained(p.variable)) for p in effect.parameters}
@@ -126,7 +118,7 @@ def campaign_schema() -> Schema:
     partial = {key: value for key, value in run.items() if key != "required"}
     found["$defs"]["Layout"] = partial
     found["properties"]["layouts"] = {"type": "object", "additionalProperties": {"$ref": "#/$defs/Layout"}, "description": "what several runs have in common"}
-    unknowns = nested(settable(tables()[:2]), lambda v: referred("NuisanceEntry", explained(v)))
+    unknowns = nested(settable(every_table()[:2]), lambda v: referred("NuisanceEntry", explained(v)))
     # Numbers of the measuring chain are known by short names.
     found["properties"]["nuisances"] |= unknowns | {"additionalProperties": {"$ref": "#/$defs/NuisanceEntry"}}
     # A layout may state what runs leave out.
@@ -144,7 +136,7 @@ def scenario_schema() -> Schema:
 def ensemble_schema() -> Schema:
     found = of_model(EnsembleContent, "ensemble")
     entry = {"$ref": "#/$defs/Entry"}
-    wanted = {path: v for path, v in settable(tables()[:2]).items() if not v.choices}
+    wanted = {path: v for path, v in settable(every_table()[:2]).items() if not v.choices}
     scattered = nested(wanted, lambda v: referred("Entry", explained(v)))
     scattered["properties"] |= dict.fromkeys(("duty_torque_factor", "duty_speed_factor"), entry)
     found["properties"]["parameters"] |= scattered
