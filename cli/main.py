@@ -28,6 +28,7 @@ from cli.commands import (
     new_reducer,
     reducer,
     reproduce,
+    schema,
     system,
     workbench,
 )  # fmt: skip
@@ -40,7 +41,7 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, doctor, completion)
+GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion)
 
 
 class PrintVersion(argparse.Action):
