@@ -44,14 +44,19 @@ class Fineness:
     def __init__(self, records: Sequence[Record]):
         noise: dict[Group, float] = {}
         counts: dict[Group, int] = {}
+        whole: set[Group] = set()
         scatter = scatter_of_orders(records)
         for record in records:
             # Orders are computed as the curve that has them.
             group = (ERROR if record.quantity == ORDERS else record.quantity, record.condition)
             counts[group] = counts.get(group, 0) + len(record.values)
+            if record.quantity != ORDERS:
+                whole.add(group)
             own = record.stated_noise or scatter if record.quantity == ORDERS else fast_noise(np.asarray(record.values, float))
             noise[group] = min(noise.get(group, np.inf), own)
         self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
+        # Where only orders were measured, nodes for these may do: what lies between shows as their error.
+        self.first = {group: 0 if group in whole else COARSEST for group in counts}
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
         self.shapes: set[str] = set()
@@ -74,7 +79,7 @@ class Fineness:
         amounts = self.amounts(away)
         if not amounts:
             if group not in self.base:
-                self.base[group] = self.found(self.allowed[group], 0.0, errs)
+                self.base[group] = self.found(self.allowed[group], 0.0, errs, self.first[group])
             return self.base[group]
         off = np.abs(np.array(list(amounts.values())))
         known = self.added.setdefault(added(group, amounts), [])
@@ -104,7 +109,7 @@ class Fineness:
     def elsewhere(self, levels: Mapping[Added, Known], group: Group, amounts: Mapping[str, float], level_of: Callable[[Known], int]) -> int:
         """Where to begin: roughly, with the least level that the same change needs in other conditions."""
         if not self.rough:
-            return 0
+            return self.first[group]
         others = [levels[added(g, amounts)] for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
         return min((level_of(known) for known in others), default=COARSEST)
 
