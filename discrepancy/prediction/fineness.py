@@ -119,8 +119,8 @@ class Fineness:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
 
     def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0, banded: float = 1.0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change, and below ``banded`` of that
-        between the few nodes of a band.
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change,
+        and below ``banded`` of that between the few nodes of a band.
 
         An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
         """
