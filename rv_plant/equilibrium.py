@@ -12,6 +12,7 @@ from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.assembly import assemble, assemble_beside
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.linear import cholesky_solve
+from rv_plant.mesh import forget_phases
 from rv_plant.near_mesh import missed
 from rv_plant.output_pins import has_output_pins
 
@@ -183,6 +184,14 @@ def refine(r, ideal_output, cage_angle, load_torque):
 
 
 @kernel
+def start_anew(r):
+    """Ideal places, and contacts where they are ideally."""
+    for i in range(r.z.shape[0]):
+        r.z[i] = 0.0
+    forget_phases(r)
+
+
+@kernel
 def equilibrium(r, ideal_output, cage_angle, load_torque):
     """Equilibrium at an input angle, given as the output angle [rad] of ideal kinematics.
 
@@ -194,8 +203,7 @@ def equilibrium(r, ideal_output, cage_angle, load_torque):
     if newton(r, ideal_output, cage_angle, load_torque):
         return True
     for steps in (4, 16, 64):
-        for i in range(r.z.shape[0]):
-            r.z[i] = 0.0
+        start_anew(r)
         reached = True
         for s in range(steps):
             if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps):

@@ -19,6 +19,8 @@ SIZES = ("pin_radius", "pin_circle_radius", "mesh_width", "eccentricity", "crank
 STIFFNESSES = ("mesh_stiffness", "roller_stiffness", "output_stiffness")
 ERRORS = ("_error", "_error_radial", "_error_tangential")
 CHOICES = ("contact_law", "damping_law", "joints", "pins", "sliding_form", "mesh_wear_law", "raceway_wear_law")
+# Young's modulus [Pa] of what is called steel.
+STEEL = 1e11
 # One of so many sets has one number anywhere in its range, so that refusals are tried too.
 ONE_ASTRAY = 10
 
@@ -44,17 +46,21 @@ def draw(reducer: Reducer, table: Table, number: int) -> Drawn:
     values["outer_race_radius"] = float(values["inner_race_radius"]) + 2.0 * float(values["roller_radius"])
     for name in STIFFNESSES:
         values[name] = float(start[name]) * float(np.exp(random.normal(0.0, 0.5)))
+    of_plastic = float(start["elastic_modulus"]) < STEEL
     for name in CHOICES:
-        values[name] = int(random.integers(len(table.by_name[name].choices)))
+        # Janakiraman's laws, the last two, are for steel.
+        values[name] = int(random.integers(2 if of_plastic and name.endswith("wear_law") else len(table.by_name[name].choices)))
     if reducer.specification("rv_reducer")["sizes"]["topology"]["output_pins"] == 0:
         values["fidelity"] = int(random.random() < 0.25)
         values["bearing_clearance"] = random.uniform(-3e-6, 30e-6)
-    share = 0.0 if random.random() < 0.1 else random.uniform(-2.0, 2.0)
-    values["load_torque"] = float(start["load_torque"]) * size**3 * share
+    # No load, or up to so many times the rated one of a reducer of this size; a drive of plastic skips teeth at twice.
+    most = 1.0 if reducer.specification("rv_reducer")["sizes"]["topology"]["output_pins"] else 2.0
+    share = 0.0 if random.random() < 0.1 else random.uniform(-most, most)
+    values["load_torque"] = float(start["load_torque"]) * size**2 * share
     values["input_speed"] = float(start["input_speed"]) * random.uniform(0.05, 1.5) * random.choice([-1.0, 1.0])
     values["temperature"] = random.uniform(253.0, 363.0)
     for name in ("equidistant_modification", "shift_modification"):
-        values[name] = random.uniform(-2e-5, 2e-5)
+        values[name] = float(start[name]) + random.uniform(-2e-5, 2e-5)
     for name in ("mesh_wear_coefficient", "raceway_wear_coefficient"):
         values[name] = float(start[name]) * 10.0 ** random.uniform(-1.0, 1.0)
     values["load_exponent"] = random.uniform(0.0, 1.0)

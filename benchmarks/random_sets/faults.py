@@ -30,6 +30,12 @@ def holes_overlap(r: Record) -> bool:
     return not 2.0 * hole < neighbours or not float(r["output_circle_radius"]) - hole > float(r["outer_race_radius"] + r["crank_circle_radius"])
 
 
+def is_worn_through(r: Record) -> bool:
+    """Of the record of RvReducer, by its surfaces and not by the depths that it gives."""
+    rollers = 0.5 * float(r["outer_race_radius"] - r["inner_race_radius"])
+    return not (float(r["disc_wear"].max()) < float(r["pin_radius"]) and float(max(r["inner_race_wear"].max(), r["outer_race_wear"].max())) < rollers)
+
+
 def is_true(code: int, r: Record) -> bool:
     """Whether the geometry or the settings have the fault; of equilibria and motion see ``is_found_patiently``."""
     pins, rollers = r["pin_x"].shape[0], r["roller_force"].shape[2]

@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks.random_sets.balance import Bodies, stored_energy
 from benchmarks.random_sets.draw import Drawn, draw
-from benchmarks.random_sets.faults import is_found_patiently, is_true
+from benchmarks.random_sets.faults import is_found_patiently, is_true, is_worn_through
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.package import build_native
 from fmu_src.state import HEADER_SIZE
@@ -19,6 +19,8 @@ from orchestrator.component import Component, InProcess, unit_of
 from orchestrator.fmu import Fmu
 from reducers.reducer import load_reducer
 from rv_plant.faults import NO_EQUILIBRIUM, NO_MOTION
+from rv_reducer.reducer import OF_WEAR
+from wear_fmu.accumulator import WORN_THROUGH
 
 REDUCERS = ("RV20E-121", "BX-40E", "cycloidal-actuator")
 # Of a crank turn and of the worn part behind it.
@@ -205,5 +207,6 @@ class Audit:
                 self.tally.findings.append(f"set {self.drawn.number}: refused {when}, yet there is an equilibrium: {said[-330:-90]} ({self.drawn.astray or 'nothing astray'})")
         else:
             self.tally.outcomes[f"refused with cause: {kind}"] += 1
-            if not code or not is_true(code % 100, self.record):
+            worn = code == OF_WEAR + WORN_THROUGH
+            if not code or not (is_worn_through(self.unit.records[0]) if worn else is_true(code % OF_WEAR, self.record)):
                 self.tally.findings.append(f"set {self.drawn.number}: an untrue fault: {said[-250:]} ({self.drawn.astray or 'nothing astray'})")
