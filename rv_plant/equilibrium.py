@@ -20,6 +20,8 @@ from rv_plant.output_pins import has_output_pins
 LONGEST_STEP = 3e-5
 # With output pins, whose clearance may be a tenth of a millimetre and more.
 LONGEST_STEP_IN_PLAY = 2e-4
+# So many times the iterations where an equilibrium is looked for anew: without load the last contacts come slowly.
+PATIENCE = 16
 # The residual is weighed with at least this force [N]; rounding leaves 1e-8 N.
 LEAST_FORCE = 30.0
 # Stiffness that stands for "a typical diagonal" [N/m].
@@ -133,11 +135,11 @@ def slope_along(r):
 
 
 @kernel
-def newton(r, ideal_output, cage_angle, load_torque):
-    """Iterate r.z to equilibrium from where it stands; True if the residual is met."""
+def newton(r, ideal_output, cage_angle, load_torque, most):
+    """Iterate r.z to equilibrium from where it stands, ``most`` times; True if the residual is met."""
     assemble(r, ideal_output, cage_angle, load_torque)
     r.residual = relative_residual(r, load_torque)
-    for _ in range(r.max_iterations):
+    for _ in range(most):
         if r.residual <= r.tolerance:
             if r.residual + missed(r) <= r.tolerance:
                 return True
@@ -200,13 +202,13 @@ def equilibrium(r, ideal_output, cage_angle, load_torque):
     ``iterations``; False if no equilibrium was found.
     """
     r.iterations = 0
-    if newton(r, ideal_output, cage_angle, load_torque):
+    if newton(r, ideal_output, cage_angle, load_torque, r.max_iterations):
         return True
     for steps in (4, 16, 64):
         start_anew(r)
         reached = True
         for s in range(steps):
-            if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps):
+            if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps, PATIENCE * r.max_iterations):
                 reached = False
                 break
         if reached:

@@ -69,6 +69,8 @@ def draw(reducer: Reducer, table: Table, number: int) -> Drawn:
     for effect in (*PLANT.values(), *WEAR.values()):
         if random.random() < 0.35:
             draw_effect(effect, table, random, values)
+    # Where play comes and goes there is as much of it at least, as the effect says.
+    values["backlash"] = float(values.get("backlash", 0.0)) + sum(abs(values.get(f"first_stage_play_{part}", 0.0)) for part in ("cos", "sin"))
     if random.random() < 1.0 / ONE_ASTRAY:
         drawn.astray = go_astray(table, random, values)
     # What a topology lacks is not to be set.

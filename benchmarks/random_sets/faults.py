@@ -58,18 +58,14 @@ def is_true(code: int, r: Record) -> bool:
     return code in claims and claims[code]()
 
 
-def is_found_patiently(unit: Unit, records: Records) -> bool:
-    """Whether the parts find an equilibrium after all where they stand: with many more iterations, or loaded bit by bit."""
+def is_found_patiently(unit: Unit, records: Records, at_start: bool) -> bool:
+    """Whether the parts find an equilibrium after all where they stand and as warm as they are, from ideal places with many more iterations.
+
+    ``at_start`` nothing was warmed or moved yet: then as an initialisation.
+    """
     patient = records.copy()
     plant = patient["plant"]
     plant["z"] = plant["phase_shift"] = 0.0
     patient["max_iterations"], patient["fidelity"] = 1000, 0
-    initialise, _ = unit.bound(patient)
-    if initialise() == 0:
-        return True
-    load, code = float(patient["load_torque"][0]), 1
-    for share in np.geomspace(1e-4, 1.0, 40):
-        # Each start is warm: the places of the parts stay in the record.
-        patient["load_torque"] = load * share
-        code = initialise()
-    return code == 0
+    initialise, step = unit.bound(patient)
+    return (initialise() if at_start else step(0.0, 0.0)) == 0
