@@ -16,7 +16,7 @@ def cross(a: Any, b: Any) -> Any:
     return (np.conj(a) * b).imag
 
 
-def round_about(count: int) -> np.ndarray:
+def round_about(count: int) -> Any:
     return np.exp(2j * np.pi * np.arange(count) / count)
 
 
@@ -60,13 +60,13 @@ class Bodies:
         ring = r["ring_scale"] * (r["pin_x"] + 1j * r["pin_y"]) * np.exp(1j * z[-1])
         self.pin_centre = ring + (r["ring_offset_x"] + 1j * r["ring_offset_y"])[:, None]
 
-    def curve(self, phi: np.ndarray, order: int) -> np.ndarray:
+    def curve(self, phi: Any, order: int) -> Any:
         """Path of a pin's centre in the disc's frame (root on the real axis), or a derivative of it."""
         circle = self.r["pin_circle_radius"] + self.r["shift_modification"] + self.r["profile_circle_added"]
         slow, fast = 1j / self.lobes, 1j * (self.lobes + 1) / self.lobes
         return circle * slow**order * np.exp(slow * phi) - self.r["eccentricity"] * fast**order * np.exp(fast * phi)
 
-    def normals(self) -> np.ndarray:
+    def normals(self) -> Any:
         """Outward normals of the flanks where they are nearest to the pins [disc, pin]."""
         r, disc = self.r, np.arange(self.discs)[:, None]
         offset = 2 * np.pi * disc / self.discs
@@ -83,7 +83,7 @@ class Bodies:
         first = self.curve(phi, 1)
         return -1j * first / abs(first) * frame
 
-    def output_pins(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def output_pins(self) -> tuple[Any, Any, Any]:
         """(forces of the output pins on the discs, centres of the pins, of their holes) [disc, pin]; no forces without such pins."""
         r = self.r
         count = r["output_pin_force"].shape[1]

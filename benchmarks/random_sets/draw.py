@@ -22,7 +22,7 @@ CHOICES = ("contact_law", "damping_law", "joints", "pins", "sliding_form", "mesh
 # Young's modulus [Pa] of what is called steel.
 STEEL = 1e11
 # One of so many sets has one number anywhere in its range, so that refusals are tried too.
-ONE_ASTRAY = 10
+ONE_ASTRAY = 6
 
 
 @dataclass
@@ -70,7 +70,8 @@ def draw(reducer: Reducer, table: Table, number: int) -> Drawn:
         if random.random() < 0.35:
             draw_effect(effect, table, random, values)
     # Where play comes and goes there is as much of it at least, as the effect says.
-    values["backlash"] = float(values.get("backlash", 0.0)) + sum(abs(values.get(f"first_stage_play_{part}", 0.0)) for part in ("cos", "sin"))
+    varying = sum(abs(float(values.get(f"first_stage_play_{part}", 0.0))) for part in ("cos", "sin"))
+    values["backlash"] = float(values.get("backlash", 0.0)) + varying
     if random.random() < 1.0 / ONE_ASTRAY:
         drawn.astray = go_astray(table, random, values)
     # What a topology lacks is not to be set.
@@ -110,11 +111,17 @@ def drawn_value(parameter: EffectParameter, v: Variable, random: np.random.Gener
 def go_astray(table: Table, random: np.random.Generator, values: dict[str, Value]) -> str:
     """One number from anywhere in its range, small and large ones alike."""
     scalars = [v for v in table.of_role("parameter", "input") if not v.shape and v.name not in ("largest_crank_step", "largest_sweep", "max_iterations")]
+    if random.random() < 0.5:
+        # Sizes that do not fit each other are what refusals are mostly about.
+        scalars = [table.by_name[name] for name in (*SIZES, "outer_race_radius") if table.by_name[name].role in SETTABLE]
     v = scalars[int(random.integers(len(scalars)))]
     if v.is_integer:
         values[v.name] = int(random.integers(int(v.minimum), min(int(v.maximum), 1000) + 1))
     else:
         largest = v.maximum if v.minimum >= 0.0 or random.random() < 0.5 else v.minimum
         least = max(abs(v.minimum), 1e-9 * abs(largest)) if v.minimum > 0.0 else 1e-9 * abs(largest)
+        if v.name in values and random.random() < 0.5:
+            values[v.name] = float(np.clip(float(values[v.name]) * np.exp(random.normal(0.0, 1.0)), v.minimum, v.maximum))
+            return v.name
         values[v.name] = float(np.clip(np.sign(largest) * np.exp(random.uniform(np.log(least), np.log(abs(largest)))), v.minimum, v.maximum)) if largest else 0.0
     return v.name
