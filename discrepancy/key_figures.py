@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.linalg import solve_banded
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, stream_of
@@ -123,9 +123,11 @@ def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) ->
     spacing = float(np.median(np.abs(np.diff(position)))) if len(position) > 1 else 1.0
     rho = float(np.exp(-spacing / stream.length)) if stream.length > 0.0 else 0.0
     random = np.random.default_rng(0)
+    # Each deviation is the one before, weaker, and something new.
+    chain = np.array([np.ones(len(predicted)), np.full(len(predicted), -rho)])
     found = []
     for _ in range(DRAWS):
-        slow = lfilter([np.sqrt(1.0 - rho**2)], [1.0, -rho], random.standard_normal(len(predicted)))
+        slow = np.sqrt(1.0 - rho**2) * solve_banded((1, 0), chain, random.standard_normal(len(predicted)))
         noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(predicted)))
         found.append(reading(predicted + noise))
     return found

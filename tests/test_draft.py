@@ -140,7 +140,7 @@ from discrepancy.prediction.observe import OBSERVED
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
 
-bench, found = Bench(load_reducer("RV20E-121"), {}), {}
+bench, found = Bench(load_reducer("RV20E-121-rigid"), {}), {}
 for name, (quantity, tags, axes, factors, values) in json.loads(sys.stdin.read()).items():
     axes = {k: np.array(v) for k, v in axes.items()}
     size = len(next(iter(axes.values())))

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cli.ending import exit_code
+from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path, settings_of
 from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault
@@ -38,6 +39,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     start.add_argument("--restart", action="store_true", help="discard a checkpoint and start anew")
     start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
     add_json(hours)
+    add_exports(hours)
     hours.set_defaults(run=life)
 
     dynamics = sub.add_parser("dynamics-wear", help="wear of bodies in motion against equilibria: where dynamics matters")
@@ -55,6 +57,11 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     page.add_argument("result", help="result file of rvwear life (.nc)")
     page.add_argument("--output", help="report file (default beside the result)")
     page.set_defaults(run=report)
+    files = sub.add_parser("export", help="a result file (.nc) for other programs, or as pictures for a paper")
+    files.add_argument("result", help="result file of rvwear life or rvwear run (.nc)")
+    files.add_argument("files", nargs="+", metavar="FILE", help="what to write: .csv, .parquet, .mat, .xlsx; of a life .svg, .pdf, .png too")
+    files.add_argument("--width", metavar="WIDTH", help=WIDTH_HELP)
+    files.set_defaults(run=export)
 
 
 def life(options: argparse.Namespace) -> int:
@@ -63,6 +70,7 @@ def life(options: argparse.Namespace) -> int:
     from studies.kept_life import WantedLife
     from studies.life import LifeSettings
 
+    check_exports(options)
     reducer, settings, positions = chosen(options)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
     life_settings.check()
@@ -128,6 +136,11 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) ->
         print(f"result  {path}")
         if not options.no_report:
             print(f"report  {page}")
+    if options.export or options.picture:
+        from exports.tables import tables_of
+        from studies.report.page import figures_of
+
+        write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
     return 0
 
 
@@ -168,4 +181,19 @@ def report(options: argparse.Namespace) -> int:
     except Damaged as fault:
         raise Damaged(f"{fault}; {REMEDY}") from None
     print(page)
+    return 0
+
+
+def export(options: argparse.Namespace) -> int:
+    """``rvwear export``: a result file in other forms."""
+    from exports.tables import tables_of
+    from orchestrator import netcdf
+    from pages.paper import ENDINGS
+    from studies.report.page import figures_of
+
+    options.picture = [name for name in options.files if Path(name).suffix.lower() in ENDINGS]
+    options.export = [name for name in options.files if name not in options.picture]
+    check_exports(options)
+    dataset = netcdf.read(Path(options.result))
+    write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
     return 0

@@ -14,7 +14,9 @@ from fmu_src.arrays import Floats
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
 SEEN = 2.0
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
-ROUGHLY = 0.1
+ROUGHLY = 0.15
+# The few nodes of a band are for searches; what is reported may err by so much less there.
+BANDED = 0.2
 # What is changed to first order is changed by such a share of a typical amplitude.
 STEP = 0.01
 # A level's error over that of the one before, and what it may be of the change, where finer ones are no better.
@@ -102,11 +104,11 @@ class Fineness:
         return self.slopes[key]
 
     def elsewhere(self, levels: Mapping[Added, Known], group: Group, amounts: Mapping[str, float], level_of: Callable[[Known], int]) -> int:
-        """Where to begin: roughly, with the least level that the same change needs in other conditions."""
+        """Where to begin: roughly, with the least level that the same change needs in other conditions; a single one may be the hardest."""
         if not self.rough:
-            return 0
-        others = [levels[added(g, amounts)] for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
-        return min((level_of(known) for known in others), default=COARSEST)
+            return COARSEST
+        others = [level_of(levels[added(g, amounts)]) for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
+        return COARSEST if others == [EVERY_SAMPLE] else min(others, default=COARSEST)
 
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
@@ -122,7 +124,7 @@ class Fineness:
             if at is None:
                 return EVERY_SAMPLE
             error, size = at
-            least = max(allowed, share * size)
+            least = max(allowed, share * size) * (BANDED if level < 0 and not share else 1.0)
             if error <= least or NO_LESS * before < error < most * size:
                 return level
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
