@@ -23,7 +23,7 @@ from fmu_src.strict_file import NAME, Piece, Strict, keys_at
 from fmu_src.table import Table
 from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import SETTABLE, ValueFault
+from fmu_src.variables import SETTABLE, ValueFault, Variable
 from reducers.library import LIBRARY, available
 from rv_plant.dimension import FILE
 from rv_plant.topology import Topology
@@ -112,6 +112,16 @@ class Reducer:
         return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
 
 
+def every_table() -> tuple[Table, Table, Table]:
+    """The tables of plant, wear unit and both in one, of a reducer that lacks no part: for names."""
+    return plant_table(EVERY_PART), wear_table(EVERY_PART), reducer_table(EVERY_PART)
+
+
+def must_be_stated(v: Variable) -> bool:
+    """Whether a reducer file without it is none."""
+    return v.source == FILE and v.role in SETTABLE
+
+
 def kernels_name(written: str, place: str) -> str:
     """What kernels call the variable of plant or wear unit of a name; one of no variable, whatever the reducer, stays as it is."""
     found = found_by_name((plant_table(EVERY_PART), wear_table(EVERY_PART)), written, place)
@@ -171,7 +181,7 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
             starts[name], sources[name] = value, entry.source
             if (span := range_of(tables, group, key, entry, place)) is not None:
                 ranges[name] = span
-    missing = sorted({v.path for t in tables for v in t.variables if v.source == FILE and v.role in SETTABLE and v.name not in starts})
+    missing = sorted({v.path for t in tables for v in t.variables if must_be_stated(v) and v.name not in starts})
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:

@@ -325,12 +325,6 @@ def test_many_columns_without_names_are_asked(tmp_path):
         propose([tmp_path], Wishes())
 
 
-def test_sheets_are_refused_with_the_way_out(tmp_path):
-    (tmp_path / "te_1.xlsx").write_bytes(b"PK")
-    with pytest.raises(InputFault, match=r"te_1\.xlsx: sheets are not read; save the sheet as CSV"):
-        propose([tmp_path / "te_1.xlsx"], Wishes())
-
-
 def test_the_reducer_is_asked_for(tmp_path, capsys):
     write(tmp_path, "plain")
     assert main(["campaign", "from", str(tmp_path), "--json"]) == 2

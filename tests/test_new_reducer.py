@@ -202,6 +202,6 @@ def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch)
     assert told["dial"] == "K1" and told["share"] == pytest.approx(0.4)
     assert "The parts to scale" in page.read_text(encoding="utf-8")
     assert main(words) == 0
-    assert "eccentricity times pins over pin circle radius" in capsys.readouterr().out
+    assert "eccentricity times pins over pin circle" in capsys.readouterr().out
     assert main([*RIG, "--output", str(tmp_path / "other.toml"), "--html", str(tmp_path / "rig.pdf")]) == 2
     assert "must end in .html" in capsys.readouterr().err and not (tmp_path / "other.toml").exists()

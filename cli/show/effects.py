@@ -2,16 +2,14 @@
 
 from rich.table import Table
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, styled
 from discrepancy.catalogue.catalogue import Entry
 from discrepancy.catalogue.signature import Signature, number
 
-# Wide enough for all columns.
-WIDTH = 132
 
-
-def show_list(entries: list[Entry]) -> None:
-    table = Table(title="effects; all are off by default", title_justify="left", show_lines=True)
+def show_list(entries: list[Entry], word: str | None = None) -> None:
+    title = f"effects in which {word!r} stands" if word else "effects; all are off by default"
+    table = Table(title=title, title_justify="left", show_lines=True)
     for head in ("", "name", "acts in", "law", "signature"):
         table.add_column(head, overflow="fold")
     for e in entries:
