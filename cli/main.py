@@ -23,6 +23,7 @@ from cli.commands import (
     effects,
     ensemble,
     example,
+    family,
     fmu,
     life,
     new_reducer,
@@ -41,7 +42,9 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion)
+GROUPS = (
+    reducer, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion,
+)  # fmt: skip
 
 
 class PrintVersion(argparse.Action):
