@@ -60,7 +60,7 @@ def scenarios(count: int = 50) -> list[Scenario]:
         # What a topology lacks is not to be set.
         table = unit_of(scenario.specification).table
         scenario.values = {name: value for name, value in scenario.values.items() if table.by_name[name].role in SETTABLE}
-    return [*found, *random_ones(max(0, count - len(found)))]
+    return [*found, *random_ones(max(0, count - len(found)))][:count]
 
 
 def random_ones(count: int) -> Iterator[Scenario]:
