@@ -15,6 +15,7 @@ import warnings
 from typing import Any
 
 from cli.commands import (
+    bench,
     build,
     campaign,
     comparison,
@@ -43,7 +44,7 @@ from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (
-    reducer, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion,
+    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion,
 )  # fmt: skip
 
 
