@@ -152,7 +152,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     drop = tmp_path / "drop"
     drop.mkdir()
     conditions = tomllib.loads((EXAMPLE / "campaign.toml").read_text(encoding="utf-8"))["conditions"]
-    heads = {"loop": ("torque,y", "torque [Nm],turning [arcmin]"), "torque": ("input_speed,y", "input_speed [rpm],input_torque [Nm]")}
+    heads = {"loop": ("torque,y", "torque [Nm],turning [arcsec]"), "torque": ("input_speed,y", "input_speed [rpm],input_torque [Nm]")}
     for path in sorted(EXAMPLE.glob("*.csv")):
         # As a bench names its files.
         condition, kind, number = path.stem.split("_")
@@ -175,7 +175,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     bench.view("diagnose")
     page.locator("#diagnose:enabled").click()
     page.locator("#work", has_text="screening").wait_for()
-    page.locator("#sofar", has_text="by temperature").wait_for()
+    page.locator("#sofar", has_text="changing with temperature").wait_for()
     page.locator("#stop").click()
     page.locator("#verdict", has_text="interrupted").wait_for()
     page.locator("#diagnose:enabled", has_text="Go on").click()

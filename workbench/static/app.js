@@ -68,7 +68,7 @@ export async function start(kind, given = {}) {
 }
 
 export function modelChooser(label = "model") {
-  const state = context.state, reducers = context.reducers ?? [];
+  const state = context.state, reducers = state?.library ?? [];
   const known = [...(state?.models ?? []), ...reducers];
   return h("label", { class: "inline" }, label, choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }));
 }

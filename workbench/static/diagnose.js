@@ -97,7 +97,7 @@ export function show(root, context) {
 
   draw();
   load();
-  const mark = (state) => JSON.stringify(["diagnose", "next", "extend", "build"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old])) + context.model() + state.models;
+  const mark = (state) => JSON.stringify(["diagnose", "next", "extend", "build"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old])) + context.model() + state.models + state.saved + Object.values(state.jobs).some((j) => j.state === "running");
   let seen = context.state ? mark(context.state) : "";
   return { update(state) { const now = mark(state); if (now !== seen) { seen = now; load(); } else progress(); }, recolour: () => recolour(root) };
 }

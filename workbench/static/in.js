@@ -22,7 +22,6 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (choices) context.reducers = choices.reducers;
     if (found && choices && !closed) { data = found; draw(); }
   }
 
@@ -50,11 +49,18 @@ export function show(root, context) {
   const put_in = (part, key, value) => wish((w) => { w[part] = { ...w[part] }; if (value === "" || value === null) delete w[part][key]; else w[part][key] = value; });
 
   function draw() {
-    if (!data.files.length) { clear(body, empty()); return; }
+    if (!data.files.length && !data.saved) { clear(body, empty()); return; }
+    if (data.saved && !data.own) { clear(body, data.fault ? note(data.fault, "bad") : null, elsewhere(), found()); return; }
     const held = document.activeElement?.id;
-    clear(body, head(), data.fault ? note(data.fault, "bad") : null, data.gone.map((text) => note(text)), data.proposal ? [questions(), runs(), conditions(), saved(), textOf()] : files());
+    clear(body, head(), data.fault ? note(data.fault, "bad") : null, data.gone.map((text) => note(text)), data.proposal ? [questions(), runs(), conditions(), saved(), found(), textOf()] : files());
     if (held) document.getElementById(held)?.focus();
   }
+
+  // A campaign that the page did not write is shown as it is read.
+  const elsewhere = () => h("div", { class: "panel" }, h("h1", {}, data.campaign ? `Campaign ${data.campaign.name}` : "campaign.toml"), h("p", { class: "quiet" }, "campaign.toml was written by hand or by the command line: it is used as it stands, and corrected there."),
+    data.campaign ? table(["quantity", "runs", "held out", "conditions", "repetitions"], data.campaign.quantities.map((q) => [words(q.quantity), String(q.runs), String(q.held_out), String(q.conditions), String(q.replicates)]), [1, 2, 3, 4]) : null,
+    h("div", { class: "row" }, h("button", { type: "button", class: "main", onclick: () => { context.go("look"); context.start("compare"); } }, "Compare")));
+  const found = () => (data.findings?.length ? h("details", { open: data.findings.some((f) => f.level === "problem") || data.findings.length < 4 }, h("summary", {}, `${data.findings.length} finding${data.findings.length === 1 ? "" : "s"} of the check`), data.findings.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : ""))) : null);
 
   const chooseFiles = (text = "Choose files") => h("button", { type: "button", class: "main", onclick: () => input.click() }, text);
   const empty = () => h("div", { class: "empty drop" }, h("h1", {}, "Drop what the bench wrote"),

@@ -1,6 +1,7 @@
 // Life: wear over the hours as it grows; paused, gone on with, its report at the end.
 
 import { clear, command, h, note, number } from "./dom.js";
+import { ensemble } from "./ensemble.js";
 import { get } from "./net.js";
 import { Plot } from "./plot.js";
 
@@ -8,12 +9,14 @@ const COLOURS = ["--predicted", "--measured", "--tried", "--residual"];
 
 export function show(root, context) {
   let live = null, result = null, hours = "10000", torque = "", plot = null;
-  const top = h("div"), words = h("div"), chart = h("div", { class: "panel", hidden: true }), below = h("div");
-  root.append(top, words, chart, below);
+  const top = h("div"), words = h("div"), chart = h("div", { class: "panel", hidden: true }), below = h("div"), many = h("section");
+  root.append(top, words, chart, below, many);
+  const lives = ensemble(many, context, () => hours);
 
   async function load() {
     const job = context.state?.jobs.life;
     live = job?.state ? await get("results/life/live").catch(() => null) : null;
+    if (!live?.now) live = null;
     result = job?.result && job.state === "done" ? await get("results/life").catch(() => null) : null;
     draw();
   }
@@ -54,5 +57,6 @@ export function show(root, context) {
   return { update(state) {
     const job = state.jobs.life, now = `${job?.state}${job?.begun}${job?.result}${state.view?.model}${job?.tasks?.map((t) => t.done).join()}${Object.values(state.jobs).some((j) => j.state === "running")}`;
     if (now !== seen) { seen = now; load(); }
-  }, recolour: () => plot?.later(), close: () => plot?.destroy() };
+    lives.update(state);
+  }, recolour: () => { plot?.later(); lives.recolour(); }, close: () => { plot?.destroy(); lives.close(); } };
 }

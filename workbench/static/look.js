@@ -119,7 +119,8 @@ export function show(root, context) {
   }
 
   function singles(signal) {
-    return h("div", { class: "panel" }, h("h3", {}, `${signal.title}, single numbers [${signal.unit}]`), table(["run", "condition", "measured", "noise", "model", "off, in noise"], signal.singles.flatMap((run) => run.measured.map((value, i) => [run.run, h("span", {}, run.condition, run.held_out ? h("span", { class: "tag held" }, "held out") : ""), value, h("span", { class: "quiet" }, `± ${run.noise}`), run.predicted[i], h("span", { class: tone(Math.abs(run.off[i])) }, number(run.off[i], 3))])), [2, 3, 4, 5]));
+    const count = signal.singles.reduce((n, run) => n + run.measured.length, 0);
+    return h("details", { class: "panel", open: count <= 30 }, h("summary", {}, h("b", {}, `${signal.title}: ${count} single number${count === 1 ? "" : "s"} [${signal.unit}]`)), table(["run", "condition", "measured", "noise", "model", "off, in noise"], signal.singles.flatMap((run) => run.measured.map((value, i) => [run.run, h("span", {}, run.condition, run.held_out ? h("span", { class: "tag held" }, "held out") : ""), value, h("span", { class: "quiet" }, `± ${run.noise}`), run.predicted[i], h("span", { class: tone(Math.abs(run.off[i])) }, number(run.off[i], 3))])), [2, 3, 4, 5]));
   }
 
   const fails = () => (result.places.length ? h("section", {}, h("h2", {}, "Where the model fails"), h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together."), h("div", { class: "panel" }, table(["signal", "what", "depends on", "share of the misfit", "p"],

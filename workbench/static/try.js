@@ -39,6 +39,7 @@ export function show(root, context) {
   const shown = (name, value) => { const p = parameters().find((q) => q.name === name); return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3); };
 
   function drawList() {
+    if (!data) return;
     const on = (e) => e.parameters.some((p) => p.name in values);
     const fits = (e) => !search || `${e.title} ${e.says ?? ""} ${e.parameters.map((p) => p.name).join(" ")}`.toLowerCase().includes(search);
     const effects = data.effects.filter((e) => fits(e) || on(e)).sort((p, q) => on(q) - on(p));
