@@ -6,6 +6,7 @@ All state is here: a page that is loaded anew, a second tab and a server that wa
 import json
 import os
 import re
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 from discrepancy.campaign.readers import kind_of
 from fmu_src.checked_file import replacing, write_text
 from fmu_src.faults import InputFault
+from reducers.library import available
 
 MEMORY = ".workbench"
 CAMPAIGN, MODEL = "campaign.toml", "model.toml"
@@ -79,6 +81,15 @@ class Folder:
         if not name:
             raise InputFault("which model is held against the measurements has to be said first: choose a reducer or a model file")
         return self.inside(name) if name.endswith(".toml") else name
+
+    def measured(self) -> str:
+        """The reducer that campaign.toml says was measured, if it is one of the library or of the folder."""
+        try:
+            content = tomllib.loads(self.campaign.read_text(encoding="utf-8"))
+            name = str(content["campaign"]["reducer"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return ""
+        return name if name in available() or name in self.models() else ""
 
     # what the page remembers ----------------------------------------------------------------
     def recall(self, name: str) -> dict[str, Any]:

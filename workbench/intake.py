@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from fmu_src.faults import InputFault
 from pages.look import significant
@@ -99,7 +101,9 @@ def view(folder: Folder) -> dict[str, Any]:
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
     }  # fmt: skip
-    if not files:
+    if found["saved"]:
+        found |= checked_campaign(folder)
+    if not files or (found["saved"] and not found["own"]):
         return found
     try:
         proposal, found["gone"] = proposed(folder, given)
@@ -113,6 +117,19 @@ def view(folder: Folder) -> dict[str, Any]:
     found["text"] = text_of(folder, proposal)
     found["command"] = command(folder, given)
     return found
+
+
+def checked_campaign(folder: Folder) -> dict[str, Any]:
+    """What campaign.toml holds as it is read, and what ``rvwear campaign check`` finds."""
+    try:
+        campaign = load_campaign(folder.root)
+        check = check_campaign(campaign)
+    except InputFault as fault:
+        return {"fault": str(fault).replace(f"{folder.root}/", "")}
+    return {
+        "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
+        "findings": [{"level": f.level, "text": f.text, "remedy": f.remedy} for f in check.findings],
+    }
 
 
 @lru_cache(maxsize=4096)
