@@ -121,13 +121,8 @@ class Workbench:
         if not view.get("model"):
             view["model"] = folder.measured()
         return {
-<<<<<<< HEAD
-            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "reducers": available(),
-            "view": view, "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
-=======
             "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "view": view,
             "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
->>>>>>> wb18
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:

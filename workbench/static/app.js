@@ -112,11 +112,6 @@ export async function start(kind, given = {}) {
 }
 
 export function modelChooser(label = "model") {
-<<<<<<< HEAD
-  const state = context.state;
-  const known = [...(state?.models ?? []), ...(state?.reducers ?? [])];
-  return h("label", { class: "inline" }, label, choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }));
-=======
   const state = context.state,
     reducers = state?.library ?? [];
   const known = [...(state?.models ?? []), ...reducers];
@@ -126,7 +121,6 @@ export function modelChooser(label = "model") {
     label,
     choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }),
   );
->>>>>>> wb18
 }
 
 // what is being computed ----------------------------------------------------------------------

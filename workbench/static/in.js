@@ -33,14 +33,10 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-<<<<<<< HEAD
-    if (found && choices && !closed) { data = found; draw(); }
-=======
     if (found && choices && !closed) {
       data = found;
       draw();
     }
->>>>>>> wb18
   }
 
   async function upload(files) {
