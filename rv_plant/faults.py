@@ -16,7 +16,7 @@ NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
 OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
-    " {residual:.3g} of the load after {iterations} iterations."
+    " {residual:.3g} of the load after {iterations} iterations, contacts at {reducer_temperature:.4g} K."
     " Lower the load, or check clearances and profile errors (they are in m, not um)",
     PRIMED: "the trochoid has loops: crank.eccentricity {eccentricity:.6g} m times the number of pins must be less than"
     " the generating pin circle radius {pin_circle_radius:.6g} m. Reduce crank.eccentricity or enlarge pin.circle_radius",

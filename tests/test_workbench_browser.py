@@ -162,7 +162,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     bench.view("in")
     page.set_input_files("#files", sorted(map(str, drop.iterdir())))
     page.get_by_text("26 runs in 26 files, 10 conditions").wait_for()
-    page.select_option("#measured", "RV20E-121")
+    page.select_option("#measured", "RV20E-121-rigid")
     page.locator("#save:enabled").click()
     # Look.
     page.locator("#curves canvas").first.wait_for()
@@ -175,6 +175,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     bench.view("diagnose")
     page.locator("#diagnose:enabled").click()
     page.locator("#work", has_text="screening").wait_for()
+    page.locator("#sofar", has_text="by temperature").wait_for()
     page.locator("#stop").click()
     page.locator("#verdict", has_text="interrupted").wait_for()
     page.locator("#diagnose:enabled", has_text="Go on").click()

@@ -21,6 +21,7 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from fmu_src.faults import InputFault, RunFault
+from reducers.library import available
 from workbench import jobs
 from workbench.folder import Folder
 from workbench.guard import REPORT_POLICY, Guard, new_token
@@ -118,8 +119,8 @@ class Workbench:
         folder = self.folder
         view = folder.recall("view")
         return {
-            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "view": view,
-            "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
+            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "reducers": available(),
+            "view": view, "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:

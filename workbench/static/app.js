@@ -68,8 +68,8 @@ export async function start(kind, given = {}) {
 }
 
 export function modelChooser(label = "model") {
-  const state = context.state, reducers = context.reducers ?? [];
-  const known = [...(state?.models ?? []), ...reducers];
+  const state = context.state;
+  const known = [...(state?.models ?? []), ...(state?.reducers ?? [])];
   return h("label", { class: "inline" }, label, choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }));
 }
 

@@ -22,7 +22,6 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (choices) context.reducers = choices.reducers;
     if (found && choices && !closed) { data = found; draw(); }
   }
 
