@@ -44,7 +44,8 @@ from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (
-    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion,
+    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema,
+    doctor, completion,
 )  # fmt: skip
 
 
