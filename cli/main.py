@@ -12,7 +12,7 @@ import sys
 import warnings
 from typing import Any
 
-from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, fmu, life, new_reducer, reducer, reproduce, system
+from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, fmu, forecast, life, new_reducer, reducer, reproduce, system
 from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
 from cli.progress import new_screen
@@ -21,7 +21,7 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, effects, example, completion)
+GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, forecast, effects, example, completion)
 
 
 class PrintVersion(argparse.Action):
