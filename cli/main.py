@@ -14,7 +14,6 @@ import sys
 import warnings
 from typing import Any
 
-<<<<<<< HEAD
 from cli.commands import (
     bench,
     build,
@@ -27,6 +26,7 @@ from cli.commands import (
     example,
     family,
     fmu,
+    forecast,
     life,
     new_reducer,
     reducer,
@@ -35,9 +35,6 @@ from cli.commands import (
     system,
     workbench,
 )  # fmt: skip
-=======
-from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, fmu, forecast, life, new_reducer, reducer, reproduce, system
->>>>>>> rig17
 from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
 from cli.parser import Parser
@@ -47,14 +44,27 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-<<<<<<< HEAD
 GROUPS = (
-    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema,
-    doctor, completion,
-)  # fmt: skip
-=======
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, forecast, effects, example, completion)
->>>>>>> rig17
+    reducer,
+    bench,
+    new_reducer,
+    family,
+    system,
+    life,
+    ensemble,
+    reproduce,
+    build,
+    fmu,
+    campaign,
+    comparison,
+    forecast,
+    workbench,
+    effects,
+    example,
+    schema,
+    doctor,
+    completion,
+)
 
 
 class PrintVersion(argparse.Action):
