@@ -72,10 +72,12 @@ class Flavours:
 
     def plain_python(self, scenario: Scenario) -> np.ndarray:
         """The kernels without a compiler, in a process that was started so."""
-        out = self.folder / "plain.npy"
+        values, out = self.folder / "values.npz", self.folder / "plain.npy"
+        np.savez(values, **{name: np.asarray(value) for name, value in scenario.values.items()})
         program = "import sys; from benchmarks.equality.__main__ import run_plainly; run_plainly(*sys.argv[1:])"
         environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", "PYTHONPATH": str(ROOT)}
-        subprocess.run([sys.executable, "-c", program, scenario.reducer, scenario.name, str(out)], cwd=ROOT, env=environment, check=True)
+        given = [scenario.reducer, scenario.unit, repr(float(scenario.step)), str(values), str(out)]
+        subprocess.run([sys.executable, "-c", program, *given], cwd=ROOT, env=environment, check=True)
         found: np.ndarray = np.load(out)
         return found
 
