@@ -102,6 +102,18 @@ def test_a_link_leads_nowhere_else(tmp_path):
     (folder.root / "link.csv").symlink_to(tmp_path / "secret.csv")
     with pytest.raises(InputFault, match="outside"):
         folder.inside("link.csv")
+    assert folder.measurements() == []
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd.toml", "../other.toml", "../../x", "/etc/hosts", "RV20E-122"])
+def test_no_model_is_read_from_elsewhere(tmp_path, name):
+    (tmp_path / "other.toml").write_text("[reducer]")
+    folder = opened(tmp_path / "in")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.remember("wishes", {"reducer": name})
+    with pytest.raises(InputFault, match="outside|no such reducer"):
+        folder.model({"model": name})
+    assert "outside" in view(folder)["fault"] or "no such reducer" in view(folder)["fault"]
 
 
 def test_a_dropped_file_overwrites_nothing(tmp_path):
