@@ -40,15 +40,15 @@ def chromium():
 class Bench:
     """The command, its folder, and a page; what the page asks of others or complains of is kept."""
 
-    def __init__(self, chromium, folder: Path):
-        self.folder, self.chromium = folder, chromium
+    def __init__(self, chromium, folder: Path, **more: str):
+        self.folder, self.chromium, self.more = folder, chromium, more
         self.trouble: list[str] = []
         self.start()
         self.page = self.tab()
 
     def start(self):
         command = [sys.executable, "-m", "cli", "workbench", str(self.folder), "--no-browser"]
-        self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, env=os.environ | self.more)
         assert self.process.stdout
         assert self.process.stdout.readline().startswith("workbench of ")
         self.address = self.process.stdout.readline().strip()
@@ -77,8 +77,10 @@ class Bench:
 
 
 @pytest.fixture
-def bench(chromium, tmp_path):
-    there = Bench(chromium, tmp_path / "bench 1")
+def bench(chromium, tmp_path, request):
+    # A diagnosis that is remembered from an earlier run could not be stopped.
+    fresh = {"XDG_CACHE_HOME": str(tmp_path / "cache")} if request.node.get_closest_marker("campaign") else {}
+    there = Bench(chromium, tmp_path / "bench 1", **fresh)
     yield there
     there.close()
     assert not there.trouble

@@ -75,8 +75,7 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[s
     """The proposal, and corrections that no longer fit anything: conditions are named anew where the pattern of names changes."""
     files = folder.measurements()
     reducer = given.get("reducer")
-    own = folder.root / str(reducer)
-    wishes = wishes_of({**given, "reducer": str(own) if reducer and own.is_file() else reducer})
+    wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
     name = campaign_name(folder.root)
     try:
         return propose(files, wishes, name), []

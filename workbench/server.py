@@ -194,7 +194,7 @@ class Workbench:
         given = await content(request)
         words, rows = await run_in_threadpool(
             lambda: self.hand().curve(self.folder, str(given.get("model") or ""), str(given.get("run")), dict(given.get("values") or {}),
-                                      int(given.get("ticket", 0)), bool(given.get("roughly"))))  # fmt: skip
+                                      int(given.get("ticket", 0)), bool(given.get("roughly")), str(given.get("beside") or "")))  # fmt: skip
         return Response(json.dumps(words | {"count": rows.shape[1]}).encode() + b"\n" + rows.astype("<f4").tobytes(), media_type="application/octet-stream")
 
     async def everywhere(self, request: Request) -> Response:

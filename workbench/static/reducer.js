@@ -100,7 +100,7 @@ export function show(root, context) {
               h("code", {}, n.name),
               h("span", { class: n.outside ? "bad" : "" }, n.value),
               n.unit,
-              n.range || h("span", { class: "quiet" }, "–"),
+              n.range,
               h("span", { class: "small" }, n.meaning),
               h(
                 "span",

@@ -3,8 +3,7 @@
 import { choose, clear, h, number, table, words } from "./dom.js";
 import { post, wordsAndRows } from "./net.js";
 import { Plot } from "./plot.js";
-
-const plain = (value) => String(Number(value.toPrecision(4)));
+import { entry } from "./try_effects.js";
 
 export function show(root, context) {
   let data = null,
@@ -18,6 +17,7 @@ export function show(root, context) {
     search = "",
     settle = 0,
     last = null,
+    beside = "",
     model = "";
   const faults = h("div"),
     top = h("div"),
@@ -133,7 +133,20 @@ export function show(root, context) {
               "Let A go",
             )
           : null,
-        data.present.length ? h("span", { class: "tag" }, `the model carries ${data.present.map((p) => p.title).join(", ")}`) : null,
+        h(
+          "label",
+          { class: "inline" },
+          "beside",
+          choose(
+            [["", "no other model"], ...[...context.state.models, ...context.state.library].filter((m) => m !== model).map((m) => [m, m])],
+            beside,
+            (v) => {
+              beside = v;
+              follow();
+            },
+            { id: "beside" },
+          ),
+        ),
       ),
     );
   }
@@ -148,6 +161,7 @@ export function show(root, context) {
     return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3);
   };
 
+  const shownEntry = (e) => entry(e, { values, search, drawList, follow });
   function drawList() {
     if (!data) return;
     const on = (e) => e.parameters.some((p) => p.name in values);
@@ -156,7 +170,7 @@ export function show(root, context) {
     const numbers = data.numbers.filter((e) => fits(e) || on(e));
     clear(
       list,
-      effects.map(entry),
+      effects.map(shownEntry),
       numbers.length
         ? h(
             "li",
@@ -165,78 +179,10 @@ export function show(root, context) {
               "details",
               { open: numbers.some(on) || !!search },
               h("summary", {}, `${numbers.length} numbers of the reducer that are not known for sure`),
-              numbers.map(entry),
+              numbers.map(shownEntry),
             ),
           )
         : null,
-    );
-  }
-
-  function entry(e) {
-    const on = e.parameters.some((p) => p.name in values);
-    return h(
-      "li",
-      {},
-      h(
-        "details",
-        { open: on || (!!search && search.length > 2) },
-        h("summary", { title: e.law }, e.title, on ? h("span", { class: "tag good", style: { "margin-left": "6px" } }, "on") : null),
-        e.law ? h("p", { class: "quiet small" }, e.law) : null,
-        e.says ? h("p", { class: "quiet small" }, e.says) : null,
-        e.parameters.map((p) => slider(e, p)),
-        e.source ? h("p", { class: "quiet small" }, `source: ${e.source}`) : null,
-      ),
-    );
-  }
-
-  function slider(e, p) {
-    const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off,
-      step = (p.high - p.low) / 400;
-    const range = h("input", {
-      type: "range",
-      min: p.low,
-      max: p.high,
-      step: "any",
-      value,
-      "aria-label": `${words(p.name)} [${p.unit}]`,
-      "data-parameter": p.name,
-      oninput: () => set(Number(range.value)),
-    });
-    const field = h("input", {
-      type: "number",
-      step: "any",
-      value: plain(value),
-      "aria-label": `${words(p.name)}, number`,
-      onchange: () => {
-        range.value = field.value;
-        set(Number(field.value));
-      },
-    });
-    range.addEventListener("keydown", (event) => {
-      const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
-      if (by) {
-        event.preventDefault();
-        range.value = Number(range.value) + by * step;
-        set(Number(range.value));
-      }
-    });
-    const set = (v) => {
-      if (Math.abs(v - p.off) < 1e-12 * Math.max(1, Math.abs(p.high))) delete values[p.name];
-      else values[p.name] = (v - p.offset) / p.factor;
-      if (document.activeElement !== field) field.value = plain(v);
-      follow();
-    };
-    return h(
-      "div",
-      { class: "slider" },
-      h("span", { class: "name", title: p.description }, `${words(p.name)}${p.unit ? ` [${p.unit}]` : ""}${p.amplitude ? "" : " · shape"}`),
-      range,
-      field,
-      h(
-        "span",
-        { class: "quiet small", style: { "grid-column": "1 / -1" } },
-        `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`,
-      ),
     );
   }
 
@@ -249,9 +195,9 @@ export function show(root, context) {
     }
     busy = true;
     const begun = performance.now(),
-      asked = { model, run, values, ticket: ++ticket, roughly };
+      asked = { model, run, values, ticket: ++ticket, roughly, beside };
     try {
-      const [told_, rows] = await wordsAndRows("try/curve", asked, 4);
+      const [told_, rows] = await wordsAndRows("try/curve", asked, 5);
       if (!told_.late) {
         last = { told: told_, rows };
         drawCurve(roughly ? performance.now() - begun : null);
@@ -273,7 +219,7 @@ export function show(root, context) {
   function drawCurve(took) {
     const {
         told: t,
-        rows: [x, measured, base, tried],
+        rows: [x, measured, base, tried, other],
       } = last,
       own = Object.keys(values).length > 0;
     const lines = [
@@ -282,9 +228,11 @@ export function show(root, context) {
     ];
     if (kept && kept.rows[0].length === x.length) lines.push({ name: "A", x, y: kept.rows[3], colour: "--a", width: 1.6 });
     if (own) lines.push({ name: "with what is tried", x, y: tried, colour: "--tried", width: 2 });
+    if (beside) lines.push({ name: beside, x, y: other, colour: "--b", width: 1.6 });
     const difference = (y) => measured.map((v, i) => v - y[i]);
     const lower = [{ name: "measured − model", x, y: difference(base), colour: "--predicted", width: 1.1 }];
     if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--a", width: 1.1 });
+    if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--b", width: 1.1 });
     if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--tried", width: 1.3 });
     plot.set({
       xTitle: t.axis.title,
