@@ -15,6 +15,7 @@ import warnings
 from typing import Any
 
 from cli.commands import (
+    bench,
     build,
     campaign,
     comparison,
@@ -25,6 +26,7 @@ from cli.commands import (
     example,
     family,
     fmu,
+    forecast,
     life,
     new_reducer,
     reducer,
@@ -43,8 +45,26 @@ from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (
-    reducer, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion,
-)  # fmt: skip
+    reducer,
+    bench,
+    new_reducer,
+    family,
+    system,
+    life,
+    ensemble,
+    reproduce,
+    build,
+    fmu,
+    campaign,
+    comparison,
+    forecast,
+    workbench,
+    effects,
+    example,
+    schema,
+    doctor,
+    completion,
+)
 
 
 class PrintVersion(argparse.Action):
