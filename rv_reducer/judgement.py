@@ -10,11 +10,8 @@ short a time drowns in the equilibrium's tolerance; it is taken as proportional 
 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
-<<<<<<< HEAD
 from rv_plant.supports import twist_compliance
-=======
 from rv_reducer.estimate import estimate, start_estimate
->>>>>>> rig17
 from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
