@@ -84,7 +84,8 @@ class Context:
         return made
 
     def reducer(self, name: str) -> Reducer:
-        return self.once(("reducer", name), lambda: load_reducer(name))
+        """As the sources have it: on rigid supports, without losses; by a name of the library that has no ``-rigid``, otherwise as it is."""
+        return self.once(("reducer", name), lambda: load_reducer(f"{name}-rigid" if name in (BX, RV) else name))
 
     def settings(self, name: str, texts: tuple[str, ...]) -> list[Setting]:
         reducer = self.reducer(name)

@@ -27,6 +27,7 @@ from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import crank_position
 from rv_plant.prepared import prepare, retune
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
+from rv_plant.supports import twist_compliance
 
 effects = compose("rv_plant.effects", HOOKS)
 start_effects, advance_states, heat_effects = effects.start, effects.advance, effects.heat
@@ -110,7 +111,7 @@ def publish(r, output_speed):
     r.crank_speed = -lobes * output_speed
     r.cage_angle = r.cage
     r.cage_speed = r.cage_share * cage_rate(r.crank_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
-    twist = r.carrier_compliance * r.load_torque
+    twist = twist_compliance(r) * r.load_torque
     r.output_angle = r.ideal_output + turning - twist
     r.output_speed = output_speed
     r.transmission_error = turning - twist
