@@ -15,6 +15,7 @@ import warnings
 from typing import Any
 
 from cli.commands import (
+    bench,
     build,
     campaign,
     comparison,
@@ -23,11 +24,13 @@ from cli.commands import (
     effects,
     ensemble,
     example,
+    family,
     fmu,
     life,
     new_reducer,
     reducer,
     reproduce,
+    schema,
     system,
     workbench,
 )  # fmt: skip
@@ -40,7 +43,10 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, doctor, completion)
+GROUPS = (
+    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema,
+    doctor, completion,
+)  # fmt: skip
 
 
 class PrintVersion(argparse.Action):

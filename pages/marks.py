@@ -55,6 +55,8 @@ def line_of(axes: Any, trace: Trace) -> None:
     opacity = trace.get("opacity", 1.0)
     if trace.get("fill") == "toself":
         axes.fill(x, y, facecolor=colour_of(trace.get("fillcolor", "#98a3af")), edgecolor="none", label=name_of(trace), zorder=1.2)
+        if stroke.get("width"):
+            axes.plot(x, y, color=colour_of(stroke.get("color", "#0b4f94")), linewidth=STROKE * float(stroke["width"]))
         return
     if trace.get("fill") == "tozeroy":
         axes.fill_between(x, 0.0, y, facecolor=colour_of(trace.get("fillcolor", "#98a3af")), edgecolor="none", zorder=1.2)

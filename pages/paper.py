@@ -85,6 +85,9 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
 
     lines = any(trace.get("type") in ("scatter", "scatterpolar") for trace in figure.data)
     height = max(FLATTEST if lines else LOWEST / width, figure.height / (SCREEN_COLUMN * max(figure.columns, 6))) * width
+    if figure.aspect:
+        across, _, along = figure.aspect.partition("/")
+        height = width * float(along or 1.0) / float(across)
     with mpl.rc_context(STYLE):
         picture = Picture(figsize=(width / INCH, height / INCH), layout="constrained")
         traces = [trace for trace in figure.data if trace.get("visible", True) is True]

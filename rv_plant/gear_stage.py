@@ -28,7 +28,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
                  minimum=0.0, maximum=0.7, source="assumed: standard gearing", path="first_stage.pressure_angle"),
         Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
-                 source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
+                 maximum=1000.0, source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
         local("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0, path="first_stage.tooth_force"),
         state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
         state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
@@ -83,3 +83,17 @@ def crank_turn_per_shift(direction, crank_circle_radius, first_stage_ratio, pres
     c, s = math.cos(direction), math.sin(direction)
     outward = side * math.tan(pressure_angle)
     return (-s + outward * c) / radius, (c + outward * s) / radius
+
+
+@kernel
+def fall_back(r, lag, rate):
+    """The output falls back by ``lag`` [rad], growing by ``rate`` per radian of its own turning: all cranks turn, as if their teeth lacked it."""
+    lobes, pins = r.lobe_gap_added.shape[1], r.pin_x.shape[0]
+    turn = lobes + crank_turn_per_carrier_turn(r.first_stage_ratio)
+    against = total_ratio(r.first_stage_ratio, pins, lobes) - 1.0
+    lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
+    for c in range(r.tooth_gap.shape[0]):
+        r.crank_turn_added[c] += turn * lag
+        r.crank_turn_rate[c] += turn * rate / against
+        r.tooth_gap[c] += turn * lag * lever
+        r.tooth_gap_rate[c] += turn * rate / against * lever

@@ -43,6 +43,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     rv.add_argument("--orders", type=float, nargs="+", metavar="K", help="orders per turn of the output to take from curves (default: the ten of the source)")
     rv.add_argument("--noise", metavar="NUMBER", help='standard deviation of each number of an order, for instance "0.3 arcsec" (default: that, assumed)')
     rv.add_argument("--held-out", type=float, default=0.2, metavar="SHARE", help="share of the whole conditions that is held out (default 0.2)")
+    rv.add_argument("--means", action="store_true", help="use the means (order 0), too: all runs share one unknown zero")
     add_json(rv, "print what was made as JSON, nothing else")
     rv.set_defaults(run=run_from_rv_te)
 
@@ -99,7 +100,7 @@ def run_from_rv_te(options: argparse.Namespace) -> int:
     from discrepancy.campaign.write_rv_te import write_campaign
 
     runs, wrong = measured_in(Path(options.source), options.orders or ORDERS)
-    files = write_campaign(Path(options.folder), runs, options.reducer, options.rated, options.noise, options.held_out)
+    files = write_campaign(Path(options.folder), runs, options.reducer, options.rated, options.noise, options.held_out, options.means)
     conditions = len({run.condition for run in runs})
     if options.json:
         json_text({"files": [str(path) for path in files], "runs": len(runs), "conditions": conditions, "left_out": wrong})

@@ -31,10 +31,7 @@ lower = -180
 upper = 180
 per = "mounting"
 
-# The mean (order 0) stands in the table and is not used unless its zero is said to be known:
-# [quantities.transmission_order]
-# zero = "absolute"
-
+{means}
 [layouts.orders]
 quantity = "transmission_order"
 noise = "{noise}"                        # standard deviation of each of an order's two numbers{assumed}
@@ -61,10 +58,24 @@ replicate = {replicate}
 where = {{ run = "{id}" }}
 """
 NOISE = "0.3 arcsec"
+UNUSED = """\
+# The mean (order 0) stands in the table and is not used unless its zero is said to be known:
+# [quantities.transmission_order]
+# zero = "absolute"
+"""
+# One zero for all runs: an offset that is the same everywhere is a sensor's.
+USED = """\
+[quantities.transmission_order]
+zero = "absolute"
+"""
 
 
-def write_campaign(folder: Path, runs: Sequence[Measured], reducer: str | None, rated: float, noise: str | None, share: float) -> list[Path]:
-    """Write the campaign; a ``share`` of the whole conditions is held out.  Without a ``reducer`` its ratio and ``rated`` torque [N m] are stated."""
+def write_campaign(folder: Path, runs: Sequence[Measured], reducer: str | None, rated: float, noise: str | None, share: float,
+                   means: bool = False) -> list[Path]:  # fmt: skip
+    """Write the campaign; a ``share`` of the whole conditions is held out.  Without a ``reducer`` its ratio and ``rated`` torque [N m] are stated.
+
+    With ``means`` order 0 counts: all runs share one zero.
+    """
     if not 0.0 <= share < 1.0:
         raise InputFault(f"--held-out {share:g}: give a share of the conditions from 0 to below 1")
     for path in (folder / FILE, folder / TABLE):
@@ -77,7 +88,7 @@ def write_campaign(folder: Path, runs: Sequence[Measured], reducer: str | None, 
         reducer = os.path.relpath(reducer, folder).replace(os.sep, "/")
     stated = f'reducer = "{reducer}"' if reducer else f'ratio = {RATIO:g}                 # without a reducer file\nrated_torque = "{rated:g} N.m"'
     assumed = "" if noise else " (assumed)"
-    head = HEAD.format(name="rig of ratio 81", reducer=stated, noise=noise or NOISE, assumed=assumed, table=TABLE)
+    head = HEAD.format(name="rig of ratio 81", reducer=stated, noise=noise or NOISE, assumed=assumed, table=TABLE, means=USED if means else UNUSED)
     parts, lines, counted = [head], ["run,order,amplitude,phase"], Counter[str]()
     for name, r in conditions.items():
         text = CONDITION.format(name=name, speed=r.speed, torque=r.torque, temperature=r.temperature, direction=r.direction)

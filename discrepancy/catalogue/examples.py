@@ -117,6 +117,15 @@ CASES: dict[str, tuple[Case, ...]] = {
         Case("300 N m, whatever the load", {"tilting_moment_x": 300.0}),
     ),
     "first_stage_play": (Case("20 um more and less", {"first_stage_play_cos": 20 * UM}),),
+    "pin_seats": (
+        Case("seats yield 1e-8 m/N", {"pin_seat_compliance": 1e-8}),
+        Case("1e-9 m/N more and less, twice round", {"pin_seat_cos_2": 1e-9}),
+    ),
+    "carrier_stiffness": (
+        Case("2e-8 rad/(N m) more and less over the carrier's turn", {"carrier_turn_cos": 2e-8}),
+        Case("the same over the cranks' turn", {"carrier_crank_cos": 2e-8}),
+    ),
+    "friction_windup": (Case("1e-7 rad/(N m) at creeping speed", {"friction_windup": 1e-7}),),
     "support_hysteresis": (
         Case("100 N m/arcmin once it slips at 20 N m",
              {"support_slip_compliance": 1.0 / (100.0 * 3437.75), "support_slip_torque": 20.0}),
@@ -126,6 +135,8 @@ CASES: dict[str, tuple[Case, ...]] = {
         Case("11 Hz, half of the error over the spring", {"resonance_share": 0.5, "resonance_frequency": 11.0}),
     ),
     "encoder_eccentricity": (Case("5 um on 50 mm", {"encoder_cos1": 2e-4}),),
+    "torque_ripple": (Case("order 156 at 54 Hz, 1e-8 rad/(N m)", {"ripple_cos": 1e-8}),),
+    "encoder_distortion": (Case("10 arcsec, three screws", {"distortion_cos": 4.8e-5}),),
     "clock_slip": (Case("0.1 %", {"clock_slip": 1e-3}),),
     "sensor_gain": (Case("5 %", {"sensor_gain": 0.05}),),
     "sensor_offset": (Case("5 % of the mean", {"sensor_offset": 0.05}),),

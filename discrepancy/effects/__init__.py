@@ -23,7 +23,9 @@ class ChainModule(Protocol):
     def change(self, values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats: ...
 
 
-STAGES = ("torsional_resonance", "clock_slip", "encoder_eccentricity", "sensor_gain", "sensor_offset", "sensor_drift")
+STAGES = (
+    "torsional_resonance", "torque_ripple", "clock_slip", "encoder_eccentricity", "encoder_distortion", "sensor_gain", "sensor_offset", "sensor_drift",
+)  # fmt: skip
 MODULES = {name: cast(ChainModule, effect_modules(__name__)[name]) for name in STAGES}
 EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in MODULES.items()}
 # Values of the parameters that nobody has set.

@@ -46,14 +46,19 @@ class Fineness:
     def __init__(self, records: Sequence[Record]):
         noise: dict[Group, float] = {}
         counts: dict[Group, int] = {}
+        whole: set[Group] = set()
         scatter = scatter_of_orders(records)
         for record in records:
             # Orders are computed as the curve that has them.
             group = (ERROR if record.quantity == ORDERS else record.quantity, record.condition)
             counts[group] = counts.get(group, 0) + len(record.values)
+            if record.quantity != ORDERS:
+                whole.add(group)
             own = record.stated_noise or scatter if record.quantity == ORDERS else fast_noise(np.asarray(record.values, float))
             noise[group] = min(noise.get(group, np.inf), own)
         self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
+        # Where only orders were measured, nodes for these may do: what lies between shows as their error.
+        self.orders = set(counts) - whole
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
         self.shapes: set[str] = set()
@@ -76,7 +81,7 @@ class Fineness:
         amounts = self.amounts(away)
         if not amounts:
             if group not in self.base:
-                self.base[group] = self.found(self.allowed[group], 0.0, errs)
+                self.base[group] = self.found(self.allowed[group], 0.0, errs, COARSEST if group in self.orders else 0)
             return self.base[group]
         off = np.abs(np.array(list(amounts.values())))
         known = self.added.setdefault(added(group, amounts), [])
@@ -85,7 +90,7 @@ class Fineness:
             if self.rough or np.all(off <= FURTHER * distances):
                 return level
         first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
-        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first)
+        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first, banded=1.0 if self.rough or group in self.orders else BANDED)
         known.append((off, level))
         return level
 
@@ -113,8 +118,9 @@ class Fineness:
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
 
-    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change.
+    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0, banded: float = 1.0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change,
+        and below ``banded`` of that between the few nodes of a band.
 
         An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
         """
@@ -124,7 +130,7 @@ class Fineness:
             if at is None:
                 return EVERY_SAMPLE
             error, size = at
-            least = max(allowed, share * size) * (BANDED if level < 0 and not share else 1.0)
+            least = max(allowed, share * size) * (banded if level < 0 else 1.0)
             if error <= least or NO_LESS * before < error < most * size:
                 return level
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
