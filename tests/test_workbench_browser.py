@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fmu_src.faults import InputFault
 from workbench.folder import opened
 
 ROOT = Path(__file__).parents[1]
@@ -228,6 +229,13 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
             bench.view(name)
             page.wait_for_timeout(800)
             assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{name} is wider than {width}"
+
+
+def test_a_port_that_there_is_not_is_refused(tmp_path):
+    from workbench.server import serve
+
+    with pytest.raises(InputFault, match="65535"):
+        serve(opened(tmp_path), 80_000, 1, print)
 
 
 def test_the_command_says_what_is_missing(tmp_path):
