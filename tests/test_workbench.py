@@ -223,6 +223,19 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
 
 
+def test_of_many_samples_one_turn_is_tried():
+    import numpy as np
+
+    from discrepancy.problem import Record
+    from workbench.trying import FEW, thinned
+
+    angle = np.linspace(0.0, 20.0 * np.pi, 50_001)
+    many = Record("r", "transmission_error", "rad", "c", 1, np.sin(78 * angle), {"angle": angle}, {"direction": 1})
+    few = thinned(many)
+    assert 0.8 * FEW < len(few.values) <= FEW and few.axes["angle"].max() < 2.0 * np.pi
+    assert np.allclose(few.values, np.sin(78 * few.axes["angle"])) and thinned(few) is few
+
+
 def test_results_are_told_without_numbers_that_json_lacks(tmp_path):
     import numpy as np
 
