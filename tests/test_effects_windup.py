@@ -43,7 +43,7 @@ def test_mean_seat_is_a_spring_by_castigliano(bench):
     assert orders(bench, {"pin_seat_compliance": 1e-8}, replace(at, direction=-1))[0].real == pytest.approx(expected, rel=2e-3)
 
 
-@pytest.mark.parametrize("waves", (2, 4))
+@pytest.mark.parametrize("waves", [2, 4])
 def test_seats_that_differ_make_an_order_in_proportion_to_torque(bench, waves):
     at = rated(bench)
     values = {f"pin_seat_cos_{waves}": 1e-8, "pin_seat_direction": 0.6}

@@ -55,7 +55,8 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
 
     unit = limit.unit
     table = Table(title=f"{limit.quantity} up to {limit.value:g} {unit}, at {found.condition}", title_justify="left")
-    for head in ("inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh"):
+    heads = "inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh"
+    for head in heads:
         table.add_column(head, justify="right")
     for f in forecasts:
         table.add_row(f"{f.hours:g}", str(f.readings), text(f.remaining), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
@@ -69,5 +70,8 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
         within = "within" if expected.low - 2.0 * r.noise <= r.value <= expected.high + 2.0 * r.noise else "outside"
         print(f"not used: {readable(r.value, 4)} {unit} at {r.hours:g} h; expected {text(expected)}: {within}")
     slope = last.rate.middle / 3600.0
-    print(f"for RvReducer: life.expected_rate {slope:.3g} {unit}/s, life.rate_deviation {last.rate_deviation:.2g}, life.rate_drift {last.drift / 3600.0:.2g} 1/s,"
-          f" life.reading_noise {found.readings[-1].noise:.3g} {unit}")  # fmt: skip
+    if limit.quantity == "lost_motion":
+        print(
+            f"for RvReducer: --set life.expected_rate={slope:.3g}{unit}/s --set life.rate_deviation={last.rate_deviation:.2g}"
+            f" --set life.rate_drift={last.drift / 3600.0:.2g}1/s --set life.reading_noise={found.readings[-1].noise:.3g}{unit}"
+        )

@@ -41,7 +41,8 @@ def limit_of(text: str) -> Limit:
     quantity, equals, value = text.partition("=")
     quantity = quantity.strip()
     if not equals or quantity not in GROWING:
-        raise InputFault(f"--limit {text}: write QUANTITY=NUMBER UNIT with one of {', '.join(GROWING)}{nearest(quantity, GROWING, 1)}, for instance lost_motion=1arcmin")
+        known_ones = ", ".join(GROWING) + nearest(quantity, GROWING, 1)
+        raise InputFault(f"--limit {text}: write QUANTITY=NUMBER UNIT with one of {known_ones}; for instance lost_motion=1arcmin")
     known = QUANTITIES[quantity]
     number = amount(value.strip(), known.unit, f"--limit {quantity}")
     return Limit(quantity, number / to_si(known.usual_unit, known.unit, "")[0], known.usual_unit)
@@ -65,10 +66,13 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     for r in records:
         own = stated or r.stated_noise or repeated
         if not own:
-            raise InputFault(f"{campaign.folder}: run {r.name}: nothing says how exact {limit.quantity} is; state noise in the run, repeat one, or give --noise")
+            raise InputFault(
+                f"{campaign.folder}: run {r.name}: nothing says how exact {limit.quantity} is; state noise in the run, repeat one, or give --noise"
+            )
         hours = np.broadcast_to(np.asarray(r.axes.get("hours", r.factors.get("hours", 0.0)), np.float64), len(r.values)) / HOUR
         found[r.held_out] += [Reading(float(t), float(v) / factor, own / factor) for t, v in zip(hours, r.values) if math.isfinite(v)]
-    return Inspections(*(sorted(found[held], key=lambda r: r.hours) for held in (False, True)), condition=chosen)
+    training, held_out = (sorted(found[held], key=lambda r: r.hours) for held in (False, True))
+    return Inspections(training, held_out, chosen)
 
 
 def without_hours(record: Record) -> str:
