@@ -5,6 +5,7 @@
     python3 build.py test       set up, run the tests (further arguments go to pytest; --coverage shows what they reach)
     python3 build.py bench      set up, measure the cost of everything against others' (benchmarks/; --quick tries it out)
     python3 build.py fuzz [minutes]     set up, feed every reader with mutants of its files (benchmarks/fuzzing)
+    python3 build.py docs       set up, build the documentation site: results/site/index.html
     python3 build.py COMMAND    set up, then: rvwear COMMAND ...
 
 The main job co-simulates RvPlant.fmu and RvWear.fmu of the RV20E-121 at rated load over
@@ -103,7 +104,7 @@ def bench(arguments: list[str]) -> int:
 def main(arguments: list[str]) -> int:
     if sys.version_info < (3, 11):  # noqa: UP036
         sys.exit(f"build.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
-    set_up(for_tests=arguments[:1] in (["test"], ["bench"], ["fuzz"]))
+    set_up(for_tests=arguments[:1] in (["test"], ["bench"], ["fuzz"], ["docs"]))
     if arguments[:1] == ["test"]:
         tests = ["tests/measure_coverage.py"] if "--coverage" in arguments else ["-m", "pytest"]
         arguments = [argument for argument in arguments[1:] if argument != "--coverage"]
@@ -112,6 +113,8 @@ def main(arguments: list[str]) -> int:
         return bench(arguments[1:])
     if arguments[:1] == ["fuzz"]:
         return subprocess.run([str(SCRIPTS / "python"), "-m", "benchmarks.fuzzing", *arguments[1:]], cwd=HERE).returncode
+    if arguments[:1] == ["docs"]:
+        return subprocess.run([str(SCRIPTS / "python"), "-m", "sphinx", "-q", "-W", "--keep-going", "docs", "results/site"], cwd=HERE).returncode
     if arguments:
         return rvwear(*arguments)
     os.chdir(HERE)

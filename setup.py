@@ -7,8 +7,8 @@ everybody's: installed they are ``rvwear_examples``, from where ``rvwear example
 from setuptools import find_namespace_packages, setup
 
 PARTS = (
-    "cli", "discrepancy", "fmu_src", "orchestrator", "pages", "reducers", "reproduce", "rv_plant", "rv_reducer", "studies",
-    "wear_fmu",
+    "cli", "discrepancy", "exports", "fmu_src", "orchestrator", "pages", "reducers", "reproduce", "rv_plant", "rv_reducer", "rvwear", "studies",
+    "wear_fmu", "workbench",
 )  # fmt: skip
 LITTER = ["__pycache__/*", "*.py[co]"]
 EXAMPLES = "rvwear_examples"

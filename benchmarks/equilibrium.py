@@ -149,7 +149,7 @@ def twin_residual(record: Any) -> OfState:
 
 def measure(quick: bool = False) -> Measured:
     found = Measured()
-    for name in ("RV20E-121",) if quick else ("RV20E-121", "BX-40E"):
+    for name in ("RV20E-121-rigid",) if quick else ("RV20E-121-rigid", "BX-40E-rigid"):
         positions = 6 if quick else 72
         angles, wanted = reference(name, positions)
         first, _ = start(name)

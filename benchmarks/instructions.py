@@ -11,7 +11,7 @@ from fmu_src.native import object_code
 from reducers.reducer import load_reducer
 
 KEPT = Path(__file__).with_suffix(".json")
-REDUCERS = ("RV20E-121",)
+REDUCERS = ("RV20E-121-rigid",)
 FIDELITIES = ("equilibrium", "motion")
 
 

@@ -134,7 +134,7 @@ def measure(quick: bool = False) -> Measured:
         found.figures.append(Figure("limit", f"not measured: needs {', '.join(TOOLS)}", math.nan, "1"))
         return found
     scalar, widest = peak()
-    for name in ("RV20E-121",) if quick else ("RV20E-121", "BX-40E"):
+    for name in ("RV20E-121-rigid",) if quick else ("RV20E-121-rigid", "BX-40E-rigid"):
         reducer = load_reducer(name)
         code = object_code(reducer.specification("rv_plant"))
         contacts = 2 * reducer.topology.pins

@@ -253,7 +253,7 @@ def measure(quick: bool = False) -> Measured:
     """Each reducer in a process of its own: a call from Python of a kernel that two record types share costs peers three times as much."""
     found = Measured()
     with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as processes:
-        for one in processes.map(measure_one, ("RV20E-121",) if quick else ("RV20E-121", "BX-40E"), repeat(quick)):
+        for one in processes.map(measure_one, ("RV20E-121-rigid",) if quick else ("RV20E-121-rigid", "BX-40E-rigid"), repeat(quick)):
             found.ratios += one.ratios
             found.figures += one.figures
             found.curves += one.curves

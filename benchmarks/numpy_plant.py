@@ -160,12 +160,12 @@ class NumpyPlant:
         seat = r["crank_circle_radius"] * self.arms * np.exp(1j * q[carrier])
         body, body_rate = q[carrier + 1] + 1j * q[carrier + 2], v[carrier + 1] + 1j * v[carrier + 2]
         stretch, stretch_rate = crank - body - seat, crank_rate - body_rate - 1j * v[carrier] * seat
-        support = (stretch + delay * stretch_rate) / max(r["crank_support_compliance"], RIGID)
-        main = (body + delay * body_rate) / max(r["main_bearing_compliance"], RIGID) - support.sum()
+        support = (stretch + delay * stretch_rate) / max(r["crank_seat_compliance"] + r["crank_support_compliance"], RIGID)
+        main = (body + delay * body_rate) / max(r["carrier_seat_compliance"] + r["main_bearing_compliance"], RIGID) - support.sum()
         on_crank = on_crank + support
         out[carrier] -= cross(seat, support).sum()
-        out[ring] += (q[ring] + delay * v[ring]) / max(r["housing_compliance"], RIGID)
-        shaft = (q[carrier] - q[load] + delay * (v[carrier] - v[load])) / max(r["carrier_compliance"], RIGID)
+        out[ring] += (q[ring] + delay * v[ring]) / max(r["ring_seat_compliance"] + r["housing_compliance"], RIGID)
+        shaft = (q[carrier] - q[load] + delay * (v[carrier] - v[load])) / max(r["carrier_twist_compliance"] + r["carrier_compliance"], RIGID)
         out[carrier] += shaft
         out[load] += r["load_torque"] - shaft
         out[sun] -= r["input_torque"]
@@ -189,10 +189,10 @@ class NumpyPlant:
         turned = q[carrier] + np.angle(crank / (self.arms * np.exp(1j * q[carrier])))
         rolled = small * (q[sun] - turned) + self.planet * (cranks[:, 2] - turned)
         ca, sa = np.cos(r["pressure_angle"]), np.sin(r["pressure_angle"])
-        stiffness = 1.0 / max(r["first_stage_compliance"], RIGID_TOOTH)
+        stiffness = 1.0 / max(r["tooth_compliance"] + r["first_stage_compliance"], RIGID_TOOTH)
         total = np.zeros(self.cranks, complex)
         for s in (1.0, -1.0):
-            approach = s * rolled * ca - (distance - r["crank_circle_radius"]) * sa - 0.5 * r["backlash"]
+            approach = s * rolled * ca - (distance - r["crank_circle_radius"]) * sa - 0.5 * (r["tooth_backlash"] + r["backlash"])
             along = -s * ca * (small + self.planet) / distance**2
             by_place = along * 1j * crank - sa * crank / distance
             rate = (crank_rate * by_place.conj()).real + s * ca * (self.planet * crank_rates[:, 2] + small * v[sun])

@@ -7,21 +7,64 @@ Help and completion answer at once: a command imports what it computes with when
 """
 
 import argparse
+import contextlib
 import io
+import os
 import sys
 import warnings
 from typing import Any
 
-from cli.commands import build, campaign, comparison, completion, effects, ensemble, example, fmu, forecast, life, new_reducer, reducer, reproduce, system
+from cli.commands import (
+    bench,
+    build,
+    campaign,
+    comparison,
+    completion,
+    doctor,
+    effects,
+    ensemble,
+    example,
+    family,
+    fmu,
+    forecast,
+    life,
+    new_reducer,
+    reducer,
+    reproduce,
+    schema,
+    system,
+    workbench,
+)  # fmt: skip
 from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
+from cli.parser import Parser
 from cli.progress import new_screen
 from fmu_src.checked_file import OF_THE_DISK
 from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, forecast, effects, example, completion)
+GROUPS = (
+    reducer,
+    bench,
+    new_reducer,
+    family,
+    system,
+    life,
+    ensemble,
+    reproduce,
+    build,
+    fmu,
+    campaign,
+    comparison,
+    forecast,
+    workbench,
+    effects,
+    example,
+    schema,
+    doctor,
+    completion,
+)
 
 
 class PrintVersion(argparse.Action):
@@ -41,10 +84,14 @@ def main(arguments: list[str] | None = None) -> int:
     print_whatever_the_console_can()
     top = parser()
     answer_shell(top)
-    options = top.parse_args(arguments)
+    options = top.parsed(arguments)
     try:
-        with termination_heard(), told_to(new_screen()), warnings.catch_warnings():
+        with termination_heard(), contextlib.ExitStack() as around, warnings.catch_warnings():
             say_old_names()
+            if not options.quiet:
+                around.enter_context(told_to(new_screen()))
+            elif not getattr(options, "json", False):
+                around.enter_context(contextlib.redirect_stdout(around.enter_context(open(os.devnull, "w", encoding="utf-8"))))
             code = int(options.run(options))
         sys.stdout.flush()
         return code
@@ -101,13 +148,25 @@ def print_whatever_the_console_can() -> None:
             stream.reconfigure(errors="replace")
 
 
-def parser() -> argparse.ArgumentParser:
-    top = argparse.ArgumentParser(prog="rvwear", description="Dynamics and wear of RV reducers.")
+def parser() -> Parser:
+    top = Parser(prog="rvwear", description="Dynamics and wear of RV reducers.")
     top.add_argument("--version", action=PrintVersion)
     sub = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in GROUPS:
         group.add_commands(sub)
+    add_quiet(top)
     return top
+
+
+def add_quiet(parser: argparse.ArgumentParser) -> None:
+    """To every command: those of commands of commands too."""
+    parser.set_defaults(quiet=False)
+    inner = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+    for action in inner:
+        for command in {id(c): c for c in action.choices.values()}.values():
+            add_quiet(command)
+    if not inner:
+        parser.add_argument("-q", "--quiet", action="store_true", help="no tables, notes or progress: files, errors, the exit code and JSON alone")
 
 
 if __name__ == "__main__":

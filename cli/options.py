@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from reducers.reducer import Reducer
 
 USUAL_REDUCER = "RV20E-121"
+# On rigid supports, without losses: what an effect does shows by itself.
+IDEAL_REDUCER = "RV20E-121-rigid"
 # Exit code of an extension that unused runs did not bear out: no failure of the program.
 DID_NOT_HELP_CODE = 3
 REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_REDUCER})"
@@ -30,21 +32,23 @@ SHORTHANDS = {
     "contact_law": ("contact.law", ""),
 }
 
+PLAIN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*")
+
 
 def add_json(command: argparse.ArgumentParser, what: str = "print figures as JSON, nothing else") -> None:
     command.add_argument("--json", action="store_true", help=what)
 
 
-def add_reducer(command: argparse.ArgumentParser, text: str = REDUCER_HELP) -> None:
-    completed_by(command.add_argument("--reducer", default=USUAL_REDUCER, help=text), reducer_completions)
+def add_reducer(command: argparse.ArgumentParser, text: str = REDUCER_HELP, usual: str = USUAL_REDUCER) -> None:
+    completed_by(command.add_argument("--reducer", default=usual, help=text), reducer_completions)
 
 
 def add_reducer_options(command: argparse.ArgumentParser, positions: bool = True) -> None:
     add_reducer(command)
-    command.add_argument("--torque", type=float, metavar="NM", help="output torque [N m], opposing the motion")
-    command.add_argument("--bearing-clearance", type=float, metavar="UM", help="radial needle clearance [um]")
-    command.add_argument("--equidistant", type=float, metavar="UM", help="equidistant modification [um], > 0 is a gap")
-    command.add_argument("--shift", type=float, metavar="UM", help="shift modification [um], < 0 is a gap")
+    command.add_argument("--torque", metavar="NM", help="output torque, opposing the motion: 167 (N m), 167Nm, 17kgf.m")
+    command.add_argument("--bearing-clearance", metavar="UM", help="radial needle clearance: 10 (um), 0.01mm")
+    command.add_argument("--equidistant", metavar="UM", help="equidistant modification [um], > 0 is a gap")
+    command.add_argument("--shift", metavar="UM", help="shift modification [um], < 0 is a gap")
     command.add_argument("--stiffness-reading", metavar="SI|literal", help="how the printed stiffnesses are read")
     command.add_argument("--contact-law", metavar="LAW", help="line, lankarani-nikravesh or palmgren")
     command.add_argument(
@@ -64,12 +68,16 @@ def settings_of(options: argparse.Namespace, reducer: "Reducer") -> list["Settin
     """Settings from the shorthand options and ``--set``, in this order."""
     from orchestrator.settings import parse_setting
 
-    texts = [
-        f"{name}={value if isinstance(value, str) else repr(value)}{unit}"
-        for option, (name, unit) in SHORTHANDS.items()
-        if (value := getattr(options, option)) is not None
-    ]
-    return [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts + options.set]
+    tables = [reducer.plant, reducer.wear]
+    found = []
+    for option, (name, unit) in SHORTHANDS.items():
+        if (value := getattr(options, option)) is not None:
+            try:
+                # A number alone is in the option's own unit.
+                found.append(parse_setting(f"{name}={value}{unit if PLAIN.fullmatch(value) else ''}", tables))
+            except InputFault as fault:
+                raise InputFault(f"--{option.replace('_', '-')} {value}: {fault}") from None
+    return found + [parse_setting(text, tables) for text in options.set]
 
 
 def chosen(options: argparse.Namespace) -> tuple["Reducer", list["Setting"], int]:

@@ -3,11 +3,15 @@
 import json
 from collections.abc import Mapping
 
+from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from studies.figure_units import figure_unit
+
+# Wide enough for all tables, also where the output goes to a file.
+WIDTH = 100
 
 
 def console(width: int = 0) -> Console:
@@ -21,6 +25,11 @@ def console(width: int = 0) -> Console:
 def styled(*parts: str | tuple[str, str]) -> Text:
     """A line of texts; those with a style are given with it."""
     return Text.assemble(*parts)
+
+
+def dense(title: str) -> Table:
+    """A table of many columns, without lines between them; words that are too long for theirs go on below."""
+    return Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
 
 
 def json_text(content: Mapping[str, object]) -> None:

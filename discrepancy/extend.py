@@ -22,7 +22,6 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
 from discrepancy.verdict import Answer
 from fmu_src.faults import InputFault
-from studies import building
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
@@ -152,5 +151,8 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
 
 def build_units(file: ModelFile, folder: Path) -> list[Path]:
     """The FMUs of the extended model, its effects switched on."""
+    # Here, so that a diagnosis that builds nothing does not load what writes FMUs.
+    from studies import building
+
     built, packages = building.build_units(extended_reducer(file), folder)
     return [Path(entry["fmu"]) for entry in built] + packages

@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.linalg import solve_banded
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, stream_of
@@ -96,6 +96,18 @@ def calibrated_first(figures: Sequence[KeyFigure]) -> list[str]:
     return [*SPRINGS, *(FRICTION if wide else ()), *(PLAY if lost else ())]
 
 
+def too_soft(figures: Sequence[KeyFigure]) -> list[str]:
+    """What to do where the measured reducer is stiffer than the base by a factor: effects add springs, none takes one away."""
+    times = [f.measured / f.model for f in figures if f.name == STIFFNESS and f.off > CLEARLY and f.measured > SOFTER * f.model > 0.0]
+    if not times:
+        return []
+    return [
+        f"the measured reducer is {np.median(times):.2g} times as stiff as the model: effects add springs, none takes one away, so none of them can be named"
+        " from here; take a reducer file with stiffer supports (crank.support_compliance, carrier.compliance, housing.compliance ...; the library's"
+        " RV20E-121-rigid and BX-40E-rigid have none)"
+    ]
+
+
 def between_runs(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]]]) -> dict[tuple[str, str], float]:
     """Standard deviation of one run's figure, by signal and figure, over all conditions with repetitions; robust against one that is off."""
     deviations: dict[tuple[str, str], list[float]] = defaultdict(list)
@@ -123,9 +135,11 @@ def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) ->
     spacing = float(np.median(np.abs(np.diff(position)))) if len(position) > 1 else 1.0
     rho = float(np.exp(-spacing / stream.length)) if stream.length > 0.0 else 0.0
     random = np.random.default_rng(0)
+    # Each deviation is the one before, weaker, and something new.
+    chain = np.array([np.ones(len(predicted)), np.full(len(predicted), -rho)])
     found = []
     for _ in range(DRAWS):
-        slow = lfilter([np.sqrt(1.0 - rho**2)], [1.0, -rho], random.standard_normal(len(predicted)))
+        slow = np.sqrt(1.0 - rho**2) * solve_banded((1, 0), chain, random.standard_normal(len(predicted)))
         noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(predicted)))
         found.append(reading(predicted + noise))
     return found

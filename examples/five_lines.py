@@ -1,8 +1,8 @@
 """The pair of FMUs from its package: rvwear build --output dist, then python examples/five_lines.py"""
 
-from orchestrator.system import load
+import rvwear
 
-system = load("dist/RvReducer.ssp")
+system = rvwear.load_system("dist/RvReducer.ssp")
 system["wear.acceleration"] = 1e6
 system["plant.output.load_torque"] = "150 N.m"
 series = system.run(duration=0.2, record=["plant.output.lag", "wear.flank.depth"])

@@ -63,3 +63,17 @@ def of_installation(installed: Distribution) -> Project:
     facts = installed.metadata
     texts = tuple(installed.read_text(f"licenses/{name}") or "" for name in sorted(facts.get_all("License-File") or ()))
     return Project(facts["Version"], facts["Author"], facts["License-Expression"], texts)
+
+
+def requirements() -> dict[str, list[str]]:
+    """What is needed ("") and what the optional parts need, by part, as ``numpy>=2.4``."""
+    file = ROOT / "pyproject.toml"
+    if file.is_file() and entry_of(file).get("name") == NAME:
+        entry = entry_of(file)
+        return {"": list(entry["dependencies"])} | {part: list(names) for part, names in entry["optional-dependencies"].items()}
+    found: dict[str, list[str]] = {"": []}
+    for text in distribution(NAME).requires or []:
+        name, _, condition = text.partition(";")
+        part = condition.rpartition("extra ==")[2].strip(" '\"") if "extra ==" in condition else ""
+        found.setdefault(part, []).append(name.strip())
+    return found

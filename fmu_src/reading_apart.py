@@ -58,13 +58,13 @@ _lock = threading.Lock()
 _reader: FarReader | None = None
 
 
-def read_apart(function: str, path: Path, *arguments: object) -> Any:
+def read_apart(function: str, path: Path, *arguments: object, seconds_per_byte: float = SECONDS_PER_BYTE) -> Any:
     """What ``function`` ("module:name") makes of the path and the arguments, all of it data; its InputFault or ModuleNotFoundError.
 
     InputFault too if it crashes, takes too long, or asks for more memory than a file of this size should need.
     """
     size = path.stat().st_size
-    seconds = SECONDS + SECONDS_PER_BYTE * size
+    seconds = SECONDS + seconds_per_byte * size
     with _lock:
         reader = far_reader()
         try:

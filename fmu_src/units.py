@@ -20,6 +20,11 @@ FMI_BASE = {
     "mol": "mole", "cd": "candela", "rad": "radian",
 }
 
+# As people write units, which pint takes for others or for none.
+WRITTEN = {
+    "Nm": "N.m", "kNm": "kN.m", "mNm": "mN.m", "Ncm": "N.cm", "Nmm": "N.mm", "kgf.m": "kilogram_force.m", "kgfm": "kilogram_force.m", "Nm/arcmin": "N.m/arcmin",
+    "°": "deg", "°C": "degC", "U/min": "rpm", "r/min": "rpm",
+}  # fmt: skip
 
 # What pint made of its definitions: the files of its own cache in one that is checked.
 MARK = b"rvwear units 1\n"
@@ -69,6 +74,7 @@ def registry() -> "pint.UnitRegistry[float]":
 @cache
 def parse(text: str) -> "pint.Unit":
     """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
+    text = WRITTEN.get(text, text)
     try:
         unit = registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
     except Exception as problem:  # noqa: BLE001

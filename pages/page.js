@@ -1,5 +1,11 @@
 "use strict";
-(() => {
+(async () => {
+  // plotly.js comes packed.
+  const packed = Uint8Array.from(atob(document.getElementById("plotly").textContent), (c) => c.charCodeAt(0));
+  const library = document.createElement("script");
+  library.textContent = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
+  document.head.append(library);
+
   const content = JSON.parse(document.getElementById("content").textContent);
   const touch = matchMedia("(hover: none)").matches;
   const config = {

@@ -19,3 +19,8 @@ def number(value: float | None, digits: int = 3) -> str:
         return f"{value:.{digits - 1}e}"
     text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
     return text.replace("-", "−")
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 run``, ``2 runs``"""
+    return f"{count} {noun}" + ("" if count == 1 else "s")

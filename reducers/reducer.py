@@ -23,8 +23,9 @@ from fmu_src.strict_file import NAME, Piece, Strict, keys_at
 from fmu_src.table import Table
 from fmu_src.unit import Specification, Worn
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import SETTABLE, ValueFault
+from fmu_src.variables import SETTABLE, ValueFault, Variable
 from reducers.library import LIBRARY, available
+from reducers.usual import FILLED, filled
 from rv_plant.dimension import FILE
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
@@ -112,6 +113,16 @@ class Reducer:
         return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
 
 
+def every_table() -> tuple[Table, Table, Table]:
+    """The tables of plant, wear unit and both in one, of a reducer that lacks no part: for names."""
+    return plant_table(EVERY_PART), wear_table(EVERY_PART), reducer_table(EVERY_PART)
+
+
+def must_be_stated(v: Variable) -> bool:
+    """Whether a reducer file without it is none: it neither follows from other numbers nor is there a usual one."""
+    return v.source == FILE and v.role in SETTABLE and v.path not in FILLED
+
+
 def kernels_name(written: str, place: str) -> str:
     """What kernels call the variable of plant or wear unit of a name; one of no variable, whatever the reducer, stays as it is."""
     found = found_by_name((plant_table(EVERY_PART), wear_table(EVERY_PART)), written, place)
@@ -171,12 +182,33 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
             starts[name], sources[name] = value, entry.source
             if (span := range_of(tables, group, key, entry, place)) is not None:
                 ranges[name] = span
+    fill(tables, topology, starts, sources, ranges)
     missing = sorted({v.path for t in tables for v in t.variables if v.source == FILE and v.role in SETTABLE and v.name not in starts})
     if missing:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:
         starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
     return Reducer(head.name, head.description, topology, starts, sources, path, ranges=ranges)
+
+
+def fill(
+    tables: tuple[Table, ...], topology: Topology, starts: dict[str, float], sources: dict[str, str], ranges: dict[str, tuple[float, float]]
+) -> None:
+    """Numbers that the file leaves out and that follow from others, or are usual, with where they are from."""
+    variables = {v.path: v for table in tables for v in table.variables}
+    have = {path: starts[v.name] for path, v in variables.items() if v.name in starts}
+    for one in filled(have, topology):
+        v = variables.get(one.path)
+        if v is not None and v.source == FILE:
+            starts[v.name], sources[v.name] = one.value, one.source
+            if one.range is not None:
+                ranges[v.name] = one.range
+
+
+def numbers_of(reducer: Reducer) -> dict[str, float]:
+    """All that its file states, and what was filled in, by structured name, SI."""
+    variables = {v.path: v for table in (reducer.plant, reducer.wear, reducer.joint) for v in table.variables}
+    return {path: reducer.starts[v.name] for path, v in variables.items() if v.name in reducer.starts}
 
 
 def checked(model: type[Piece], raw: object, path: Path, place: str) -> Piece:

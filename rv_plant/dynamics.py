@@ -26,6 +26,7 @@ from rv_plant.gear_stage import planet_radius, total_ratio
 from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import cage_rate, roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
+from rv_plant.supports import teeth_yield, twist_compliance
 
 # Stand for rigid: joints [m/N, rad/(N m)], below a thousandth of the stiffest
 # contact's compliance; teeth [m/N], whose small force would make a stiffer contact chatter.
@@ -176,7 +177,7 @@ def tooth_contact(r, c, rate_weight):
     rolled = small * (q[sun] - turned) + planet * (q[crank + 2] - turned)
     ca, sa = math.cos(r.pressure_angle), math.sin(r.pressure_angle)
     mesh_phase = r.sun_teeth * (q[sun] - q[carrier] + r.first_stage_phase)
-    compliance = max(r.first_stage_compliance, RIGID_TOOTH)
+    compliance = max(teeth_yield(r), RIGID_TOOTH)
     swing = r.tooth_stiffness_variation
     stiffness = (1.0 + swing * math.cos(mesh_phase)) / compliance
     slope = -swing * r.sun_teeth * math.sin(mesh_phase) / compliance
@@ -185,7 +186,8 @@ def tooth_contact(r, c, rate_weight):
     index, gradient = r.joint_index, r.joint_gradient
     for flank in range(2):
         s = 1.0 if flank == 0 else -1.0
-        approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - 0.5 * (r.backlash + r.tooth_play[c]) - error
+        apart = 0.5 * (r.tooth_backlash + r.backlash + r.tooth_play[c])
+        approach = s * (rolled * ca - r.tooth_gap[c]) - (distance - r.crank_circle_radius) * sa - apart - error
         if approach <= 0.0:
             continue
         # By x and y the angle turned changes by -y and x over distance^2.
@@ -231,7 +233,7 @@ def joint_springs(r, rate_weight):
     index[0] = ring
     spring(r, index, gradient, 1, q[ring], soft * r.compliance[ring], rate_weight)
     index[0], index[1], gradient[1] = carrier, load, -1.0
-    spring(r, index, gradient, 2, q[carrier] - q[load], soft * r.carrier_compliance, rate_weight)
+    spring(r, index, gradient, 2, q[carrier] - q[load], soft * twist_compliance(r), rate_weight)
 
 
 @kernel

@@ -12,6 +12,7 @@ from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.assembly import assemble, assemble_beside
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.linear import cholesky_solve
+from rv_plant.mesh import forget_phases
 from rv_plant.near_mesh import missed
 from rv_plant.output_pins import has_output_pins
 
@@ -21,6 +22,8 @@ LONGEST_STEP = 3e-5
 LONGEST_STEP_IN_PLAY = 2e-4
 # The residual is weighed with at least this force [N]; rounding leaves 1e-8 N.
 LEAST_FORCE = 30.0
+# So many times the iterations where one of a load of a few such forces, or none, is looked for anew: its last contacts come slowly.
+PATIENCE, WEAK = 16, 10.0
 # Stiffness that stands for "a typical diagonal" [N/m].
 TYPICAL_STIFFNESS = 1e8
 
@@ -132,11 +135,11 @@ def slope_along(r):
 
 
 @kernel
-def newton(r, ideal_output, cage_angle, load_torque):
-    """Iterate r.z to equilibrium from where it stands; True if the residual is met."""
+def newton(r, ideal_output, cage_angle, load_torque, most):
+    """Iterate r.z to equilibrium from where it stands, ``most`` times; True if the residual is met."""
     assemble(r, ideal_output, cage_angle, load_torque)
     r.residual = relative_residual(r, load_torque)
-    for _ in range(r.max_iterations):
+    for _ in range(most):
         if r.residual <= r.tolerance:
             if r.residual + missed(r) <= r.tolerance:
                 return True
@@ -183,6 +186,14 @@ def refine(r, ideal_output, cage_angle, load_torque):
 
 
 @kernel
+def start_anew(r):
+    """Ideal places, and contacts where they are ideally."""
+    for i in range(r.z.shape[0]):
+        r.z[i] = 0.0
+    forget_phases(r)
+
+
+@kernel
 def equilibrium(r, ideal_output, cage_angle, load_torque):
     """Equilibrium at an input angle, given as the output angle [rad] of ideal kinematics.
 
@@ -191,14 +202,15 @@ def equilibrium(r, ideal_output, cage_angle, load_torque):
     ``iterations``; False if no equilibrium was found.
     """
     r.iterations = 0
-    if newton(r, ideal_output, cage_angle, load_torque):
+    if newton(r, ideal_output, cage_angle, load_torque, r.max_iterations):
         return True
+    weak = abs(load_torque) < WEAK * LEAST_FORCE * r.pin_circle_radius
+    most = PATIENCE * r.max_iterations if weak else r.max_iterations
     for steps in (4, 16, 64):
-        for i in range(r.z.shape[0]):
-            r.z[i] = 0.0
+        start_anew(r)
         reached = True
         for s in range(steps):
-            if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps):
+            if not newton(r, ideal_output, cage_angle, load_torque * (s + 1) / steps, most):
                 reached = False
                 break
         if reached:

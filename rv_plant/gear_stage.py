@@ -28,7 +28,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         Variable("pressure_angle", "parameter", "rad", "pressure angle of the first stage", math.radians(20.0),
                  minimum=0.0, maximum=0.7, source="assumed: standard gearing", path="first_stage.pressure_angle"),
         Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
-                 source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
+                 maximum=1000.0, source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
         local("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0, path="first_stage.tooth_force"),
         state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
         state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),

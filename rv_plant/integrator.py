@@ -12,10 +12,11 @@ error and is repeated shorter.
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, scratch, state
 from rv_plant.constraints import CONSTRAINED, SETTLING, constrained_direction, start_multipliers
+from rv_plant.contact import NO_DAMPING
 from rv_plant.coordinates import moving_count
 from rv_plant.dynamics import RIGID, assemble_motion
 from rv_plant.linear import cholesky_solve
-from rv_plant.mesh import ring_coordinate
+from rv_plant.mesh import forget_phases, ring_coordinate
 
 SHORTEST_STEP = 1e-10
 # Internal steps of one communication step, and equilibrium iterations in it: some seconds each.
@@ -23,6 +24,10 @@ MOST_SUBSTEPS = 100_000
 MOST_ITERATIONS = 1_000_000
 # Square of the frequency that stands in where nothing holds a body [1/s^2].
 FLOATING = 1e8
+# The last way to rest, and the longest at once where ways are shortened, over what is small.
+SETTLED, LONGEST_WAY = 1e-6, 30.0
+# Energy [J] that is no more than rest: it moves a disc at 0.2 mm/s, a hundredth of what the cranks do.
+AT_REST = 1e-8
 
 
 def variables(sizes: Sizes) -> list[Variable]:
@@ -89,38 +94,117 @@ def settle(r):
 def settle_on_springs(r):
     """Move the bodies, sun held, to where all forces balance the given accelerations; True if found.
 
-    Joints that statics takes as rigid get their small deflection here.
+    Joints that statics takes as rigid get their small deflection here.  Where Newton's steps lead to and fro
+    across clearance or backlash they are shortened.
     """
-    n, sun = r.q.shape[0], ring_coordinate(r) + 1
+    keep_start(r)
     for _ in range(40):
-        assemble_motion(r, 1.0)
-        free, worst = 0, 0.0
-        for i in range(n):
-            if i != sun:
-                r.unknown[free] = i
-                free += 1
-        # Bodies that float in clearance or backlash are held by a little of their inertia.
-        shift = 0.0
-        for _ in range(10):
-            for a in range(free):
-                i = r.unknown[a]
-                r.direction[a] = -(r.residual_vector[i] + r.mass[i] * r.acceleration[i])
-                r.factor_scale[a] = max(r.tangent[i, i], r.mass[i] * FLOATING)
-                for b in range(a, free):
-                    r.factor[a, b] = r.tangent[i, r.unknown[b]]
-            if cholesky_solve(r.factor, r.direction, r.factor_scale, free, shift):
-                break
-            shift = max(1e-9, 10.0 * shift)
-        else:
+        if not direction_to_rest(r):
+            break
+        worst = take_share(r, 1.0)
+        # A picometre is far below every tolerance and above rounding.
+        if worst < SETTLED:
+            return True
+    back_to_start(r)
+    forget_phases(r)
+    # Damping makes forces jump where contacts begin; at rest to each other the bodies feel none.
+    law, joints = r.damping_law, r.joint_damping_time
+    r.damping_law, r.joint_damping_time = NO_DAMPING, 0.0
+    settled = settle_gently(r)
+    r.damping_law, r.joint_damping_time = law, joints
+    return settled
+
+
+@kernel
+def settle_gently(r):
+    """The same by shortened ways."""
+    for _ in range(400):
+        if not direction_to_rest(r):
             return False
+        if way_along(r) < SETTLED:
+            return True
+        shorten_to_rest(r)
+    # What floats in clearance and backlash may creep on; when nothing is to be gained by it, it rests.
+    return direction_to_rest(r) and -force_along(r) < AT_REST
+
+
+@kernel
+def direction_to_rest(r):
+    """Newton's step of all coordinates but the sun's into r.direction; False if there is none."""
+    n, sun = r.q.shape[0], ring_coordinate(r) + 1
+    assemble_motion(r, 1.0)
+    free = 0
+    for i in range(n):
+        if i != sun:
+            r.unknown[free] = i
+            free += 1
+    # Bodies that float in clearance or backlash are held by a little of their inertia.
+    shift = 0.0
+    for _ in range(10):
         for a in range(free):
             i = r.unknown[a]
-            r.q[i] += r.direction[a]
-            worst = max(worst, abs(r.direction[a]) / r.length_scale[i])
-        # A picometre is far below every tolerance and above rounding.
-        if worst < 1e-6:
+            r.direction[a] = -(r.residual_vector[i] + r.mass[i] * r.acceleration[i])
+            r.factor_scale[a] = max(r.tangent[i, i], r.mass[i] * FLOATING)
+            for b in range(a, free):
+                r.factor[a, b] = r.tangent[i, r.unknown[b]]
+        if cholesky_solve(r.factor, r.direction, r.factor_scale, free, shift):
             return True
+        shift = max(1e-9, 10.0 * shift)
     return False
+
+
+@kernel
+def take_share(r, share):
+    """Move by a share of r.direction; how far that is at most, over what is small."""
+    worst = 0.0
+    for a in range(r.q.shape[0] - 1):
+        i = r.unknown[a]
+        r.q[i] += share * r.direction[a]
+        worst = max(worst, abs(share * r.direction[a]) / r.length_scale[i])
+    return worst
+
+
+@kernel
+def way_along(r):
+    """How far r.direction leads at most, over what is small."""
+    worst = 0.0
+    for a in range(r.q.shape[0] - 1):
+        worst = max(worst, abs(r.direction[a]) / r.length_scale[r.unknown[a]])
+    return worst
+
+
+@kernel
+def force_along(r):
+    """What is out of balance, along r.direction: below 0 as long as it leads towards balance."""
+    slope = 0.0
+    for a in range(r.q.shape[0] - 1):
+        i = r.unknown[a]
+        slope += r.direction[a] * (r.residual_vector[i] + r.mass[i] * r.acceleration[i])
+    return slope
+
+
+@kernel
+def shorten_to_rest(r):
+    """Go along r.direction until what is out of balance has halved or just begins to push back."""
+    slope, step = force_along(r), min(1.0, LONGEST_WAY / way_along(r))
+    low, low_slope, high, high_slope = 0.0, slope, 0.0, 0.0
+    taken = 0.0
+    for _ in range(40):
+        take_share(r, step - taken)
+        taken = step
+        assemble_motion(r, 1.0)
+        new = force_along(r)
+        if abs(new) <= 0.5 * abs(slope) or (high == 0.0 and new < 0.0):
+            break
+        # Illinois rule, as in the equilibrium.
+        if new > 0.0:
+            high, high_slope = step, new
+            low_slope *= 0.5
+        else:
+            low, low_slope = step, new
+            high_slope *= 0.5
+        step = low - low_slope * (high - low) / (high_slope - low_slope)
+        step = min(max(step, low + 0.02 * (high - low)), high - 0.02 * (high - low))
 
 
 @kernel

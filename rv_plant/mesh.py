@@ -84,6 +84,14 @@ def clear_offsets(r):
 
 
 @kernel
+def forget_phases(r):
+    """Contacts where they are ideally: where bodies went far off, the search for the closest point may have left its lobe."""
+    for d in range(r.phase_shift.shape[0]):
+        for j in range(r.phase_shift.shape[1]):
+            r.phase_shift[d, j] = 0.0
+
+
+@kernel
 def ring_coordinate(r):
     """Index of the pin ring's turning among the coordinates, after discs, carrier and cranks."""
     discs, cranks = r.roller_force.shape[:2]

@@ -29,6 +29,7 @@ from rv_plant.needle_bearing import cage_rate
 from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import disc_offset, seat
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
+from rv_plant.supports import teeth_yield, twist_compliance
 
 # Deflection that tolerances are relative to [m].
 TYPICAL_DEFLECTION = 1e-6
@@ -123,9 +124,9 @@ def start_motion(r):
         small = planet_radius(r.crank_circle_radius, r.first_stage_ratio) / r.first_stage_ratio
         pressed = 0.0
         for c in range(cranks):
-            pressed += abs(r.tooth_force[c]) / cranks * max(r.first_stage_compliance, RIGID_TOOTH)
+            pressed += abs(r.tooth_force[c]) / cranks * max(teeth_yield(r), RIGID_TOOTH)
         q[ring + 1] += side * pressed / (small * r.pressure_cosine * r.pressure_cosine)
-    q[ring + 2] = q[carrier] - r.carrier_compliance * r.load_torque
+    q[ring + 2] = q[carrier] - twist_compliance(r) * r.load_torque
     v[ring + 2] = speed
     settled = settle(r)
     for i in range(q.shape[0]):

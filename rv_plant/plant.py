@@ -17,7 +17,7 @@ from rv_plant.dimension import FILE
 from rv_plant.dynamics import assemble_motion
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, refine
-from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
+from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, NO_START, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
 from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
@@ -27,6 +27,7 @@ from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import crank_position
 from rv_plant.prepared import prepare, retune
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
+from rv_plant.supports import twist_compliance
 
 effects = compose("rv_plant.effects", HOOKS)
 start_effects, advance_states, heat_effects = effects.start, effects.advance, effects.heat
@@ -110,7 +111,7 @@ def publish(r, output_speed):
     r.crank_speed = -lobes * output_speed
     r.cage_angle = r.cage
     r.cage_speed = r.cage_share * cage_rate(r.crank_speed, output_speed, r.inner_race_radius, r.outer_race_radius)
-    twist = r.carrier_compliance * r.load_torque
+    twist = twist_compliance(r) * r.load_torque
     r.output_angle = r.ideal_output + turning - twist
     r.output_speed = output_speed
     r.transmission_error = turning - twist
@@ -197,7 +198,7 @@ def initialise(records):
     publish(r, r.input_speed / ratio)
     if r.fidelity == DYNAMIC:
         if not start_motion(r):
-            return NO_EQUILIBRIUM
+            return NO_START
         publish_motion(r)
     return 0
 

@@ -11,6 +11,7 @@ from rv_plant.faults import geometry_fault
 from rv_plant.mesh import clear_flanks
 from rv_plant.needle_bearing import clear_clearances
 from rv_plant.poses import clear_places
+from rv_plant.supports import take_supports
 
 effects = compose("rv_plant.effects", HOOKS)
 prepare_effects = effects.prepare
@@ -68,10 +69,9 @@ def retune(r):
 
 @kernel
 def clear_added(r):
-    """No effect adds anything to the ideal parts, whose supports are rigid."""
+    """No effect adds anything to the ideal parts and to the supports of the file."""
     clear_flanks(r)
     clear_places(r)
     clear_clearances(r)
-    for i in range(r.compliance.shape[0]):
-        r.compliance[i] = 0.0
+    take_supports(r)
     r.output_gap_added = 0.0

@@ -22,6 +22,7 @@ from rv_plant import (
     plant,
     poses,
     profiles,
+    supports,
 )
 from rv_plant.effects import EFFECTS
 from rv_plant.terminals import TERMINALS
@@ -29,7 +30,7 @@ from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, contact, assembly, equilibrium,
+    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, supports, contact, assembly, equilibrium,
     outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
 

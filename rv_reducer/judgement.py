@@ -10,6 +10,7 @@ short a time drowns in the equilibrium's tolerance; it is taken as proportional 
 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
+from rv_plant.supports import twist_compliance
 from rv_reducer.estimate import estimate, start_estimate
 from wear_fmu.contacts import read_profiles
 
@@ -32,7 +33,7 @@ def turning_under(p, load_torque, z):
     found = solve(p)
     for i in range(z.shape[0]):
         z[i] = p.z[i]
-    return found, p.z[3 * p.roller_force.shape[0]] - p.carrier_compliance * load_torque
+    return found, p.z[3 * p.roller_force.shape[0]] - twist_compliance(p) * load_torque
 
 
 @kernel

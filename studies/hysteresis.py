@@ -1,8 +1,9 @@
 """The standard stiffness test: input locked, output torque up and down both ways.
 
 The curve of turning against torque gives lost motion (the turning between +3 % and
--3 % of the rated torque) and torsional stiffness (the secant between half and full
-torque), as catalogues of RV reducers define them.
+-3 % of the rated torque, on the middle line of the loop) and torsional stiffness (the secant
+between half and full torque on the way up), as catalogues of RV reducers define them.  With friction
+the torque goes round once before anything is read: it is then where every further round finds it.
 """
 
 import math
@@ -19,6 +20,8 @@ from studies.solve import ARCMIN
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
+# By these a held output's place depends on the way to it.
+MEMORY = ("mesh_friction", "mesh_friction_excess", "friction_coefficient", "friction_excess", "support_slip_compliance")
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Hysteresis:
     stiffness_Nm_per_arcmin: float
     stiffness_reverse_Nm_per_arcmin: float
     loop_area_Nm_arcmin: float
+    # Between both ways at no torque.
+    width_arcmin: float
 
 
 def torque_way(rated: float, steps: int) -> Floats:
@@ -42,33 +47,37 @@ def torque_way(rated: float, steps: int) -> Floats:
 
 def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = 40, angles: int = 8) -> Hysteresis:
     """The test at ``angles`` positions of the input spread over a crank turn, averaged."""
-    rated = abs(InProcess("plant", reducer.specification("rv_plant")).number("load_torque"))
-    for setting in settings:
-        if setting.name == "load_torque":
-            rated = abs(setting.value)
+    plant = InProcess("plant", reducer.specification("rv_plant"))
+    apply(settings, {"plant": plant})
+    rated = abs(plant.number("load_torque"))
     if rated == 0.0:
         raise InputFault("load_torque = 0: the test turns the torque up and down to this value; give --torque")
+    remembers = any(plant.number(name) != 0.0 for name in MEMORY)
     torque = torque_way(rated, steps)
-    turning = np.mean([one_angle(reducer, settings, torque, k / angles) for k in range(angles)], axis=0)
-    quarter = len(torque) // 4 + 1
-    forward, backward = slice(0, quarter), slice(2 * quarter - 2, 3 * quarter - 2)
+    turning = np.mean([one_angle(reducer, settings, torque, k / angles, 2 if remembers else 1) for k in range(angles)], axis=0)
+    quarter = len(torque) // 4
+    up, down, back, home = (slice(k * quarter, (k + 1) * quarter + 1) for k in range(4))
 
     def at(part: slice, share: float) -> float:
         way = torque[part]
         order = np.argsort(way)
         return float(np.interp(share * rated, way[order], turning[part][order]))
 
+    def middle(there: slice, again: slice, share: float) -> float:
+        """On the middle line; without memory both ways are the same."""
+        return 0.5 * (at(there, share) + at(again, share)) if remembers else at(there, share)
+
     low = LOST_MOTION_SHARE
     return Hysteresis(
-        torque, turning, abs(at(forward, low) - at(backward, -low)),
-        0.5 * rated / abs(at(forward, 1.0) - at(forward, 0.5)),
-        0.5 * rated / abs(at(backward, -1.0) - at(backward, -0.5)),
-        float(abs(np.trapezoid(turning, torque))),
+        torque, turning, abs(middle(up, down, low) - middle(back, home, -low)),
+        0.5 * rated / abs(at(up, 1.0) - at(up, 0.5)),
+        0.5 * rated / abs(at(back, -1.0) - at(back, -0.5)),
+        float(abs(np.trapezoid(turning, torque))), abs(at(down, 0.0) - at(home, 0.0)),
     )
 
 
-def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: float) -> Floats:
-    """Turning of the output along the torques at one input angle, in the sense of the torque [arcmin]."""
+def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: float, rounds: int = 1) -> Floats:
+    """Turning of the output along the torques, the last of ``rounds``, at one input angle, in the sense of the torque [arcmin]."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings, {"plant": plant})
     plant.set("fidelity", 0)
@@ -77,8 +86,9 @@ def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: 
     plant.records["ideal_output"] = 2.0 * math.pi * share / reducer.topology.lobes
     plant.exit_initialisation()
     turning = np.zeros(len(torque))
-    for i, value in enumerate(torque):
-        plant.set("load_torque", float(value))
-        plant.step(0.0, 1.0)
-        turning[i] = -plant.number("transmission_error") * ARCMIN
+    for _ in range(rounds):
+        for i, value in enumerate(torque):
+            plant.set("load_torque", float(value))
+            plant.step(0.0, 1.0)
+            turning[i] = -plant.number("transmission_error") * ARCMIN
     return turning

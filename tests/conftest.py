@@ -35,12 +35,12 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def rv20e():
-    return load_reducer("RV20E-121")
+    return load_reducer("RV20E-121-rigid")
 
 
 @pytest.fixture(scope="session")
 def bx40e():
-    return load_reducer("BX-40E")
+    return load_reducer("BX-40E-rigid")
 
 
 UNITS = {"RvPlant": "rv_plant", "RvWear": "wear_fmu"}

@@ -27,7 +27,7 @@ from studies.solve import Turn
 
 # Places in each file where the disk is full: RVWEAR_WRITES=12 for more.
 POINTS = int(os.environ.get("RVWEAR_WRITES", "3"))
-REDUCER = load_reducer("RV20E-121")
+REDUCER = load_reducer("RV20E-121-rigid")
 
 
 def series(n):

@@ -1,5 +1,7 @@
 """What is made once per run of the tests, whichever worker of pytest-xdist asks first; what several tests ask."""
 
+import base64
+import gzip
 import os
 import re
 import time
@@ -66,3 +68,9 @@ def gone(group: int, seconds: float = 10.0) -> bool:
             return True
         time.sleep(0.1)
     return False
+
+
+def unpacked(page: str) -> str:
+    """The library that a page carries packed."""
+    packed = page.partition('id="plotly">')[2].partition("<")[0]
+    return gzip.decompress(base64.b64decode(packed)).decode()

@@ -227,6 +227,20 @@ def test_angles_that_are_none_or_not_of_one_reducer_are_a_fault(rv20e, name):
             assert records.tobytes() == before
 
 
+@pytest.mark.parametrize("name, place, depth", [("flank_depth", 1, 2e-3), ("inner_race_depth", (0, 1), 1.5e-3), ("outer_race_depth", (1, 0), np.inf)])
+def test_who_is_worn_through_wears_no_further(rv20e, name, place, depth):
+    """Deeper than what rolls or slides there is thick."""
+    records = records_of(rv20e.wear)
+    assert accumulator.initialise(records) == 0
+    records["crank_angle"] = 0.1
+    records[name][0][place] = 0.99 * min(depth, 1e-3)
+    assert accumulator.step(records, 0.0, 1.0) == 0
+    records[name][0][place] = depth
+    before = records.tobytes()
+    assert accumulator.step(records, 1.0, 1.0) == accumulator.WORN_THROUGH
+    assert records.tobytes() == before
+
+
 @pytest.mark.parametrize("sweep", [np.pi / 36, 1.0])
 def test_a_step_in_one_sweep_or_in_parts_takes_the_same_off(rv20e, sweep):
     path = np.arange(1, 10) * np.pi / 9

@@ -28,7 +28,7 @@ def compiler(request, monkeypatch):
 
 
 @pytest.mark.usefixtures("compiler")
-@pytest.mark.parametrize("name", ["RV20E-121", "BX-40E"])
+@pytest.mark.parametrize("name", ["RV20E-121-rigid", "BX-40E-rigid"])
 def test_residual_in_numpy_is_that_of_the_kernels(name):
     records, _ = start(name)
     r, residual = records[0], compiled(records.copy())[0]

@@ -11,7 +11,7 @@ from fmu_src.faults import InputFault
 HEAD = """
 [campaign]
 name = "small"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 
 [conditions.warm]
 output_speed = "15 rpm"

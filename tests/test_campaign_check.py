@@ -15,7 +15,7 @@ from discrepancy.campaign.template import write_template
 from fmu_src.faults import InputFault
 
 
-def campaign(folder, conditions: dict[str, str], runs: list[str], reducer="RV20E-121"):
+def campaign(folder, conditions: dict[str, str], runs: list[str], reducer="RV20E-121-rigid"):
     parts = [f'[campaign]\nname = "design"\nreducer = "{reducer}"\n']
     parts += [f"[conditions.{name}]\n{text}\n" for name, text in conditions.items()]
     parts += [f'[[runs]]\nid = "r{i}"\n{text}\n' for i, text in enumerate(runs)]

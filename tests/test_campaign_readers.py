@@ -20,7 +20,7 @@ ARCSEC = np.pi / 648_000
 HEAD = """
 [campaign]
 name = "small"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 [conditions.a]
 output_speed = "15 rpm"
 load_torque = "50 %"

@@ -140,7 +140,7 @@ from discrepancy.prediction.observe import OBSERVED
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
 
-bench, found = Bench(load_reducer("RV20E-121"), {}), {}
+bench, found = Bench(load_reducer("RV20E-121-rigid"), {}), {}
 for name, (quantity, tags, axes, factors, values) in json.loads(sys.stdin.read()).items():
     axes = {k: np.array(v) for k, v in axes.items()}
     size = len(next(iter(axes.values())))
@@ -233,7 +233,7 @@ def campaign_of(folder, law, seed, strength, size):
 
 def extended(campaign, folder, capsys):
     """What ``rvwear extend --draft`` says."""
-    code = main(["extend", "RV20E-121", str(campaign), "--draft", str(folder), "--output", str(folder / "better.toml"), "--json"])
+    code = main(["extend", "RV20E-121-rigid", str(campaign), "--draft", str(folder), "--output", str(folder / "better.toml"), "--json"])
     out = capsys.readouterr()
     assert code in (0, 1), out.err
     return json.loads(out.out)

@@ -261,7 +261,7 @@ def test_effects_act_whatever_their_files_are_called(tmp_path):
         "import numpy as np; from reducers.reducer import load_reducer; from rv_plant import plant\n"
         "for values in ({'housing_compliance': 4e-7}, {'housing_compliance': 1e-7, 'a_ring_size': 1e-7, 'ring_compliance_size': 1e-7,"
         " 'uneven_ring_size': 1e-7}):\n"
-        "    records = load_reducer('RV20E-121').plant.new_records().view(np.recarray)\n"
+        "    records = load_reducer('RV20E-121-rigid').plant.new_records().view(np.recarray)\n"
         "    for name, value in values.items(): records[name] = value\n"
         "    assert plant.initialise(records) == 0; print(records.transmission_error[0])\n"
     )
@@ -279,7 +279,7 @@ def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
         "from pathlib import Path; import fmpy, sys; from fmu_src.link import NativeFault, compiler, host_platform\n"
         "from fmu_src.package import build_fmu, build_native, validate; from orchestrator.component import InProcess\n"
         "from reducers.reducer import load_reducer\n"
-        "wanted = load_reducer('RV20E-121').specification('rv_plant'); folder = Path(sys.argv[1])\n"
+        "wanted = load_reducer('RV20E-121-rigid').specification('rv_plant'); folder = Path(sys.argv[1])\n"
         "paths = [build_fmu('RvPlant', wanted, 1e-3, 'test', folder)]\n"
         "try:\n    compiler(host_platform(), False); paths += build_native('RvPlant', wanted, 1e-3, 'test', folder)\n"
         "except NativeFault:\n    pass\n"

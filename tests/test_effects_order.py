@@ -112,7 +112,7 @@ def results(reducer):
 
 def compare_orders() -> None:
     assert not hasattr(plant.step, "py_func"), "the compiler is not switched off"
-    reducer = load_reducer("RV20E-121")
+    reducer = load_reducer("RV20E-121-rigid")
     take(reverse=False)
     first = results(reducer)
     acting = {name for name, value in first.items() if name.endswith(("_added", "friction_torque")) and np.any(value)}

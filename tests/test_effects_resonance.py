@@ -43,7 +43,7 @@ def expected(angle, direction=1.0, speed=SPEED, **parameters):
 CAMPAIGN = """
 [campaign]
 name = "two speeds"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 """ + "".join(f"""
 [conditions.{name}]
 input_speed = "{rpm} rpm"
@@ -139,7 +139,7 @@ def test_model_of_a_campaign_looks_for_it_at_several_frequencies(tmp_path):
     rows = "\n".join(f"{math.degrees(a):.6f},{0.0:.4f}" for a in EVEN)
     for name in ("slow", "fast"):
         (tmp_path / f"{name}.csv").write_text("angle,te\n" + rows + "\n", encoding="utf-8")
-    model = PhysicalModel(load_model("RV20E-121"), load_campaign(tmp_path))
+    model = PhysicalModel(load_model("RV20E-121-rigid"), load_campaign(tmp_path))
     candidate = next(c for c in model.candidates if c.name == "torsional_resonance")
     assert [p.name for p in candidate.parameters] == ["resonance_share", "resonance_frequency", "resonance_damping"]
     assert len(candidate.shape_grid) == 8 and set(candidate.shape_grid[0]) == {"resonance_frequency", "resonance_damping"}

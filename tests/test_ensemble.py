@@ -26,7 +26,7 @@ from studies.life import count_cycle
 from studies.pair import make_pair
 
 TEXT = """
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 samples = 2
 hours = 60
 tolerance = 0.1

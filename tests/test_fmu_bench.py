@@ -25,7 +25,7 @@ CANDIDATES = {"needle_clearance", "pin_position_errors.scatter", "stribeck_frict
 
 @pytest.fixture(scope="module")
 def model():
-    return load_model("RV20E-121")
+    return load_model("RV20E-121-rigid")
 
 
 @pytest.fixture(scope="module", params=["editable", "fmi2", "fmi3"])
@@ -80,7 +80,7 @@ def test_values_that_the_plant_refuses_end_a_run_and_not_the_bench(benches):
 
 def test_units_of_another_reducer_are_refused(fmus):
     with pytest.raises(InputFault, match="BX-40E"):
-        FmuBench(load_model("BX-40E"), {}, fmus)
+        FmuBench(load_model("BX-40E-rigid"), {}, fmus)
 
 
 def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):

@@ -38,7 +38,7 @@ from orchestrator.component import InProcess
 from reducers.reducer import load_reducer
 from test_forged_states import forged
 
-unit = InProcess("a", load_reducer("RV20E-121").specification(sys.argv[1]))
+unit = InProcess("a", load_reducer("RV20E-121-rigid").specification(sys.argv[1]))
 if "fidelity" in unit.signals:
     unit.set("fidelity", int(sys.argv[2]))
 unit.enter_initialisation(0.0)

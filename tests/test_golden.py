@@ -15,7 +15,7 @@ from studies.pair import make_pair
 from studies.solve import measure
 
 GOLDEN = Path(__file__).parent / "golden"
-REDUCERS = ("RV20E-121", "BX-40E")
+REDUCERS = ("RV20E-121", "RV20E-121-rigid", "BX-40E", "BX-40E-rigid")
 HOURS = 200.0
 # Relative, by figure: equilibria repeat to rounding, wear and angles of peaks to what a jump's control lets through.
 TOLERANCES = {"turn": 1e-6, "life": 1e-4}

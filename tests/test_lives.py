@@ -21,7 +21,7 @@ TIRED = {"wear_growth": 1.0}
 
 @pytest.fixture
 def bench():
-    return Bench(load_model("RV20E-121").reducer, {})
+    return Bench(load_model("RV20E-121-rigid").reducer, {})
 
 
 def record(quantity, values=(0.0,), condition="1", hours=HOURS, surface="flank", **more):

@@ -48,7 +48,7 @@ def campaign_of(file, truth, seed, held_out=True):
 
 @pytest.fixture(scope="module")
 def file():
-    return load_model("RV20E-121")
+    return load_model("RV20E-121-rigid")
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +110,7 @@ def test_gain_on_fitted_runs_alone_proves_nothing(file):
 
 def test_saved_settings_are_read_again(tmp_path):
     given, again = tmp_path / "given.toml", tmp_path / "again.toml"
-    given.write_text("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[settings]\nmesh_wear_law = 'constant'\nroughness = '0.3 um'\n")
+    given.write_text("[model]\nname = 'x'\nreducer = 'RV20E-121-rigid'\n[settings]\nmesh_wear_law = 'constant'\nroughness = '0.3 um'\n")
     save_model(load_model(given), again)
     assert load_model(again).settings == load_model(given).settings == {"mesh_wear_law": 0, "roughness": pytest.approx(3e-7)}
 
@@ -143,10 +143,10 @@ def test_record_counted_from_another_angle_is_aligned(file):
 
 @pytest.mark.parametrize(("text", "message"), [
     ("[model]\nname = 'x'\n", "model.reducer"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.phlogiston]\n", "phlogiston.*RVWEAR_EFFECTS=DIR"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nwind = { value = 1.0, unit = 'N.m' }\n", "wind"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[effects.drag]\nseal_torque = 0.1\n", "seal_torque"),
-    ("[model]\nname = 'x'\nreducer = 'RV20E-121'\n[settings]\nbearing_clearance = '3 kg'\n", "bearing_clearance"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121-rigid'\n[effects.phlogiston]\n", "phlogiston.*RVWEAR_EFFECTS=DIR"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121-rigid'\n[effects.drag]\nwind = { value = 1.0, unit = 'N.m' }\n", "wind"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121-rigid'\n[effects.drag]\nseal_torque = 0.1\n", "seal_torque"),
+    ("[model]\nname = 'x'\nreducer = 'RV20E-121-rigid'\n[settings]\nbearing_clearance = '3 kg'\n", "bearing_clearance"),
 ])  # fmt: skip
 def test_faulty_model_files_say_what_is_wrong(tmp_path, text, message):
     path = tmp_path / "model.toml"

@@ -10,7 +10,7 @@ import scipy.io
 
 from discrepancy.campaign.file_format import FILE
 
-PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "nptdms", "pyarrow", "wasmtime", "ziglang")
+PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "nptdms", "openpyxl", "pyarrow", "wasmtime", "ziglang")
 SCRIPT = """
 import contextlib, io, json, os, sys
 for name in {parts}:
@@ -61,7 +61,7 @@ def found(tmp_path_factory):
     assert code == 0, text
     plain = (folder / "plain" / FILE).read_text(encoding="utf-8")
     # A name of a file, and what stands in it.
-    contents = {"mf4": b"MDF     4.10", "tdms": b"TDSm", "parquet": b"PAR1", "hdf.mat": 512 * b" " + b"\x89HDF\r\n\x1a\n"}
+    contents = {"mf4": b"MDF     4.10", "tdms": b"TDSm", "parquet": b"PAR1", "xlsx": b"PK", "hdf.mat": 512 * b" " + b"\x89HDF\r\n\x1a\n"}
     commands = {"csv": ["campaign", "check", "plain"]}
     for ending, content in contents.items():
         (folder / ending).mkdir()
@@ -84,7 +84,7 @@ def found(tmp_path_factory):
 
 
 @pytest.mark.parametrize("command, package, part", [
-    ("mf4", "asammdf", "measurements"), ("tdms", "nptdms", "measurements"), ("parquet", "pyarrow", "measurements"),
+    ("mf4", "asammdf", "measurements"), ("tdms", "nptdms", "measurements"), ("parquet", "pyarrow", "measurements"), ("xlsx", "openpyxl", "measurements"),
     ("hdf.mat", "h5py", "measurements"), ("template", "pyarrow", "measurements"), ("drawing", "SALib", "ensembles"),
     ("processes", "joblib", "ensembles"), ("cluster", "distributed", "ensembles"), ("platforms", "zig", "build"),
 ])  # fmt: skip

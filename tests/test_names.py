@@ -41,7 +41,7 @@ step = { value = 1.3, unit = "ms" }
 duration = { value = 5.2, unit = "ms" }
 
 [components.plant]
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 unit = "plant"
 parameters = { PARAMETER = "100 N.m" }
 record = ["RECORD"]
@@ -217,7 +217,7 @@ def test_the_command_line_says_an_old_name_once_in_a_line(capsys):
 MODEL = """
 [model]
 name = "gearbox 7"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 
 [settings]
 CLEARANCE = "3 um"

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from conftest import UNITS
 
+from benchmarks import fuzz
 from fmu_src import audit
 from fmu_src.compiler.loading import LIBM
 from fmu_src.link import FMI_HEADERS
@@ -72,16 +73,28 @@ def test_c_program_runs_the_unit_without_python(rv20e, native_fmus, tmp_path):
     assert done.stdout.splitlines()[-1] == f"0.100 s  lag {inside.get('lag'):.17g} rad"
 
 
-@pytest.mark.skipif(shutil.which("cc") is None, reason="a C compiler")
-def test_random_calls_under_the_sanitizers(codes, tmp_path):
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    import fuzz
+@pytest.fixture(scope="module")
+def fuzzers(tmp_path_factory):
+    """Folder in which the fuzzers have the instrumented shell in common."""
+    return tmp_path_factory.mktemp("fuzzers")
 
+
+def call_at_random(folder, unit, seconds, seed):
     try:
-        fuzzer = fuzz.build("rv_plant", tmp_path, code=next(iter(codes["RvPlant"].values())))
-    except subprocess.CalledProcessError:
-        pytest.skip("the C compiler has no sanitizers")
-    finally:
-        sys.path.pop(0)
-    done = subprocess.run([fuzzer, "3", "5"], cwd=tmp_path, capture_output=True, text=True)
+        fuzzer = fuzz.build(unit, folder)
+    except (subprocess.CalledProcessError, FileNotFoundError):
+        pytest.skip("no C compiler with sanitizers")
+    done = subprocess.run([fuzzer, str(seconds), str(seed)], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-3000:]
+
+
+@pytest.mark.parametrize("unit", fuzz.UNITS)
+def test_random_calls_under_the_sanitizers(fuzzers, unit):
+    call_at_random(fuzzers, unit, 1, 5)
+
+
+@pytest.mark.campaign
+@pytest.mark.parametrize("seed", [6, 7])
+@pytest.mark.parametrize("unit", fuzz.UNITS)
+def test_minutes_of_random_calls_under_the_sanitizers(fuzzers, unit, seed):
+    call_at_random(fuzzers, unit, 90, seed)

@@ -130,7 +130,7 @@ def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
     assert complete(Given(81, 40, 1600.0)).doubts == []
 
 
-@pytest.mark.parametrize("reducer, rated, tested, outside", [("RV20E-121", "167", 8, {"pin.radius"}), ("BX-40E", "412", 4, set())])
+@pytest.mark.parametrize("reducer, rated, tested, outside", [("RV20E-121-rigid", "167", 8, {"pin.radius"}), ("BX-40E-rigid", "412", 4, set())])
 def test_the_librarys_reducers_from_catalogue_numbers_alone(tmp_path, capsys, reducer, rated, tested, outside):
     path = tmp_path / "new.toml"
     words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", rated, "--output", str(path), "--overwrite", "--against", reducer]
@@ -202,6 +202,6 @@ def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch)
     assert told["dial"] == "K1" and told["share"] == pytest.approx(0.4)
     assert "The parts to scale" in page.read_text(encoding="utf-8")
     assert main(words) == 0
-    assert "eccentricity times pins over pin circle radius" in capsys.readouterr().out
+    assert "eccentricity times pins over pin circle" in capsys.readouterr().out
     assert main([*RIG, "--output", str(tmp_path / "other.toml"), "--html", str(tmp_path / "rig.pdf")]) == 2
     assert "must end in .html" in capsys.readouterr().err and not (tmp_path / "other.toml").exists()

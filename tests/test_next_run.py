@@ -110,7 +110,7 @@ def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():
 
 def test_a_rival_of_the_measuring_chain_predicts_what_was_not_measured_yet():
     """A clock that slips is a rival in transmission error; the experiment may be a loop."""
-    reducer = load_reducer("RV20E-121")
+    reducer = load_reducer("RV20E-121-rigid")
     factors = {"speed": 101.4, "load": 100.0, "temperature": 293.15, "hours": 0.0, "direction": 1.0}
     torque = Record("t1", "input_torque", "N.m", "c", 1, np.array([0.8]), {}, factors)
     model = PhysicalModel(ModelFile(reducer.name, reducer), replace(CAMPAIGN, reducer=reducer, records=(torque,)))

@@ -38,7 +38,7 @@ def over_torque(noise: float = 0.0) -> Record:
 @pytest.fixture(scope="module")
 def benches():
     """Of a campaign that is computed at nodes, and at every sample."""
-    reducer = load_model("RV20E-121").reducer
+    reducer = load_model("RV20E-121-rigid").reducer
     at_nodes, directly = Bench(reducer, {}), Bench(reducer, {})
     at_nodes.fineness = Fineness([over_angle(), over_torque()])
     return at_nodes, directly

@@ -17,7 +17,7 @@ ORDERS = (1, 2, 3, 39, 40, 78, 80, 120, 156, 160)
 HEAD = """
 [campaign]
 name = "rig"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 [conditions.{name}]
 output_speed = "{speed} rpm"
 load_torque = "{load} N.m"
@@ -65,7 +65,7 @@ CONDITIONS = {
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("orders")
-    return PhysicalModel(load_model("RV20E-121"), write(folder, CONDITIONS, empty(CONDITIONS)))
+    return PhysicalModel(load_model("RV20E-121-rigid"), write(folder, CONDITIONS, empty(CONDITIONS)))
 
 
 def complex_of(record, values):
@@ -92,7 +92,7 @@ columns.value = {{ column = "v", unit = "rad" }}
     (tmp_path / "campaign.toml").write_text(text)
     (tmp_path / "te.csv").write_text("a,v\n" + "\n".join(f"{a:.12g},0" for a in angle))
     values = HIDDEN | {"encoder_cos1[1]": 3e-5}
-    curve = PhysicalModel(load_model("RV20E-121"), load_campaign(tmp_path), zeros={}).predict(values)[0]
+    curve = PhysicalModel(load_model("RV20E-121-rigid"), load_campaign(tmp_path), zeros={}).predict(values)[0]
     expected, _ = measured_orders(angle, curve, ORDERS, "none", None, "x")
     found = complex_of(made.records[place], made.predict(values, [place])[0])
     assert np.array(list(found.values())) == pytest.approx(expected, abs=0.01 * ARCSEC)
@@ -123,7 +123,7 @@ def test_a_resonance_lifts_what_it_meets(made):
 
 def test_the_mean_counts_where_the_zero_is_known(tmp_path):
     table = {name: {0: 0j, **found} for name, found in empty(CONDITIONS).items()}
-    model = PhysicalModel(load_model("RV20E-121"), write(tmp_path, CONDITIONS, table, 'zero = "absolute"'))
+    model = PhysicalModel(load_model("RV20E-121-rigid"), write(tmp_path, CONDITIONS, table, 'zero = "absolute"'))
     means = [values[0] for values in model.predict({})]
     assert means[1] < means[2] < 0.0 < means[3]
 
@@ -143,11 +143,11 @@ def test_orders_that_are_no_whole_numbers_take_more_turns():
 def test_compared_and_localised_by_order(tmp_path):
     """A run-out of the encoder, which the model lacks, is said to be order 1; the noise is the stated one."""
     table = {}
-    model = PhysicalModel(load_model("RV20E-121"), write(tmp_path, CONDITIONS, empty(CONDITIONS)))
+    model = PhysicalModel(load_model("RV20E-121-rigid"), write(tmp_path, CONDITIONS, empty(CONDITIONS)))
     for record, predicted in zip(model.records, model.predict({"encoder_cos1[1]": 1e-4})):
         table[record.name] = complex_of(record, predicted)
     conditions = CONDITIONS | {"back": (*CONDITIONS["back"][:3], "held_out = true")}
-    result = compare(load_model("RV20E-121"), write(tmp_path, conditions, table))
+    result = compare(load_model("RV20E-121-rigid"), write(tmp_path, conditions, table))
     assert {(s["signal"], s["held_out"]) for s in result.signals} == {("transmission_order", False), ("transmission_order", True)}
     assert all(s["noise_floor"] == pytest.approx(0.05 * ARCSEC, rel=0.01) for s in result.signals)
     assert all(s["error"] == pytest.approx(1e-4 / np.sqrt(2 * len(ORDERS)), rel=0.01) for s in result.signals)
@@ -160,9 +160,9 @@ def test_compared_and_localised_by_order(tmp_path):
 def test_one_order_that_is_far_off_hides_no_other(tmp_path):
     """A run-out of 21 arcsec at order 1 and a resonance that lifts order 80 with the speed: both are said, the latter over the speed."""
     conditions = {f"c{k}": (speed, load, "forward", "") for k, (speed, load) in enumerate((s, t) for s in (4.0, 9.0, 15.0) for t in (40.0, 80.0, 120.0, 160.0))}
-    model = PhysicalModel(load_model("RV20E-121"), write(tmp_path, conditions, empty(conditions)))
+    model = PhysicalModel(load_model("RV20E-121-rigid"), write(tmp_path, conditions, empty(conditions)))
     shown = model.predict({name: v for name, v in HIDDEN.items() if name.startswith("resonance")} | {"encoder_cos1[1]": 1e-4})
     table = {record.name: complex_of(record, predicted) for record, predicted in zip(model.records, shown)}
-    found = compare(load_model("RV20E-121"), write(tmp_path, conditions, table)).diagnostician.localisation.findings
+    found = compare(load_model("RV20E-121-rigid"), write(tmp_path, conditions, table)).diagnostician.localisation.findings
     assert ("orders: output shaft, 1", "everywhere") in {(g.feature, g.dependence) for g in found}
     assert ("orders: crank against carrier, 80", "speed") in {(g.feature, g.dependence) for g in found}

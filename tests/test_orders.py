@@ -17,7 +17,7 @@ WAVES = {1: (61.9, 0.3), 39: (2.7, -1.6), 78: (1.2, 2.9), 240: (0.8, -2.4)}
 CAMPAIGN = """
 [campaign]
 name = "rig"
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 [conditions.a]
 output_speed = "15 rpm"
 load_torque = "100 N.m"

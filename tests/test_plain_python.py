@@ -86,7 +86,7 @@ def test_a_unit_in_process_runs_as_plain_python():
     """As commands have it: the records that it makes have fields as attributes."""
     program = (
         "from orchestrator.component import InProcess\nfrom reducers.reducer import load_reducer\n"
-        "plant = InProcess('plant', load_reducer('RV20E-121').specification('rv_plant'))\n"
+        "plant = InProcess('plant', load_reducer('RV20E-121-rigid').specification('rv_plant'))\n"
         "plant.enter_initialisation(0.0); plant.exit_initialisation(); print(repr(plant.get('lag')))\n"
     )
     said = [float(subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True,

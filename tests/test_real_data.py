@@ -88,5 +88,5 @@ def test_nothing_is_added_to_the_milling_cutter():
 @pytest.mark.parametrize("reducer", ["RV20E-121", pytest.param("BX-40E", marks=pytest.mark.campaign)])
 def test_the_compliance_missing_from_the_catalogue_stiffness_is_named(reducer):
     campaign = load_campaign(EXAMPLES / "catalogue_stiffness" / reducer)
-    answer = diagnose(load_model(reducer), replace(campaign))
+    answer = diagnose(load_model(f"{reducer}-rigid"), replace(campaign))
     assert answer.verdict == "one effect" and names(answer) == ["support_compliance"]

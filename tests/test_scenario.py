@@ -13,13 +13,13 @@ step = { value = 1.3, unit = "ms" }
 duration = { value = 26, unit = "ms" }
 
 [components.plant]
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 unit = "plant"
 parameters = { output.load_torque = "100 N.m", bearing.clearance = "4 um", contact.law = "line" }
 record = ["output.lag", "mesh.force", "mesh.force[1,3]"]
 
 [components.wear]
-reducer = "RV20E-121"
+reducer = "RV20E-121-rigid"
 unit = "wear"
 parameters = { acceleration = 1e6 }
 record = ["flank.depth"]
@@ -52,7 +52,7 @@ def test_pair_from_a_file_runs_and_records(tmp_path):
 
 
 def test_fmu_from_a_file(tmp_path, fmus):
-    text = PAIR.replace('reducer = "RV20E-121"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
+    text = PAIR.replace('reducer = "RV20E-121-rigid"\nunit = "plant"', f'fmu = "{fmus / "RvPlant.fmu"}"')
     theirs = load(write(tmp_path, text)).run()
     ours = load(write(tmp_path, PAIR)).run()
     assert theirs["wear.flank.depth"] == pytest.approx(ours["wear.flank.depth"], rel=1e-12)
@@ -63,7 +63,7 @@ def test_fmu_from_a_file(tmp_path, fmus):
     ('unit = "ms" }\nduration', 'unit = "mm" }\nduration', "'mm' does not fit"),
     ("value = 1.3", "value = -1.3", "both positive"),
     ('unit = "plant"', 'unit = "plnt"', "components.plant.unit"),
-    ('reducer = "RV20E-121"\nunit = "plant"', "", "give either fmu"),
+    ('reducer = "RV20E-121-rigid"\nunit = "plant"', "", "give either fmu"),
     ('"output.lag"', '"output.lagg"', "did you mean output.lag"),
     ('"100 N.m"', '"100 kg"', r"output.load_torque = '100 kg'.*'kg' does not fit"),
     ('"100 N.m"', "nan", "not a finite number"),

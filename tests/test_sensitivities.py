@@ -13,7 +13,7 @@ ANGLES = np.linspace(0.3, 0.8, 40)
 
 @pytest.fixture(scope="module")
 def bench():
-    return Bench(load_model("RV20E-121").reducer, {})
+    return Bench(load_model("RV20E-121-rigid").reducer, {})
 
 
 def changes(bench, base, name, step):

@@ -24,7 +24,7 @@ hours = "0 h"
 
 def planned_torque(folder, speeds) -> None:
     """Input torque at some speeds and one load, nothing measured yet."""
-    lines = ['[campaign]\nname = "plan"\nreducer = "RV20E-121"\n']
+    lines = ['[campaign]\nname = "plan"\nreducer = "RV20E-121-rigid"\n']
     for k, speed in enumerate(speeds):
         lines.append(CONDITION.format(k=k, speed=speed, load=100, temperature=20))
         lines.append(f'[[runs]]\nid = "r{k}"\nquantity = "input_torque"\ncondition = "c{k}"\nnoise = "0.01 N.m"\nfile = "t{k}.csv"\n'
@@ -81,6 +81,6 @@ def test_samples_that_no_effect_needs_are_left_out(tmp_path):
 def test_without_a_model_nothing_can_be_told(tmp_path):
     planned_torque(tmp_path, [500])
     file = tmp_path / "campaign.toml"
-    file.write_text(file.read_text(encoding="utf-8").replace('reducer = "RV20E-121"', "ratio = 121.0"), encoding="utf-8")
+    file.write_text(file.read_text(encoding="utf-8").replace('reducer = "RV20E-121-rigid"', "ratio = 121.0"), encoding="utf-8")
     with pytest.raises(InputFault, match="state \\[campaign\\] reducer"):
         separability(load_campaign(tmp_path))

@@ -47,7 +47,7 @@ def test_completion_prints_what_the_shell_sources(shell, word):
 
 
 @pytest.mark.parametrize("line, offered", [
-    ("rvwear hys", ["hysteresis"]), ("rvwear solve --reducer RV", ["RV20E-121"]), ("rvwear compare BX", ["BX-40E"]),
+    ("rvwear hys", ["hysteresis"]), ("rvwear solve --reducer RV", ["RV20E-121", "RV20E-121-rigid"]), ("rvwear compare BX", ["BX-40E", "BX-40E-rigid"]),
     ("rvwear life --first", ["--first-jump"]), ("rvwear completion f", ["fish"]),
 ])  # fmt: skip
 def test_the_shell_is_offered_commands_options_and_reducers(tmp_path, line, offered):

@@ -176,12 +176,12 @@ def test_a_campaign_is_diagnosed_and_the_model_extended(ran):
     ran("rvwear", "example", "hidden_effect")
     below = "examples/hidden_effect"
     ran("rvwear", "campaign", "check", "campaign", below=below)
-    ran("rvwear", "compare", "RV20E-121", "campaign", "--html", "compare.html", below=below)
-    ran("rvwear", "extend", "RV20E-121", "campaign", "--effect", "thermal_expansion.expansion", "--output", "better.toml", below=below)
+    ran("rvwear", "compare", "RV20E-121-rigid", "campaign", "--html", "compare.html", below=below)
+    ran("rvwear", "extend", "RV20E-121-rigid", "campaign", "--effect", "thermal_expansion.expansion", "--output", "better.toml", below=below)
     ran("rvwear", "ladder", "better.toml", "--html", "ladder.html", below=below)
     ran("rvwear", "example", "raceway_depths")
-    ran("rvwear", "diagnose", "RV20E-121", "examples/raceway_depths", "--html", "diagnosis.html")
-    ran("rvwear", "next", "RV20E-121", "examples/raceway_depths", "--html", "next.html")
+    ran("rvwear", "diagnose", "RV20E-121-rigid", "examples/raceway_depths", "--html", "diagnosis.html")
+    ran("rvwear", "next", "RV20E-121-rigid", "examples/raceway_depths", "--html", "next.html")
 
 
 @pytest.mark.campaign

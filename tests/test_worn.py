@@ -134,5 +134,5 @@ def test_life_that_is_not_lived_is_told(rv20e, monkeypatch):
         raise RunFault("RvPlant at time 3 s: no equilibrium")
 
     monkeypatch.setattr("studies.worn.live", worn_out)
-    with pytest.raises(InputFault, match="worn = 80000 h: RV20E-121 does not live as long at its rated speed and torque: RvPlant at time 3 s"):
+    with pytest.raises(InputFault, match="worn = 80000 h: RV20E-121-rigid does not live as long at its rated speed and torque: RvPlant at time 3 s"):
         worn_reducer(rv20e, 80_000.0)

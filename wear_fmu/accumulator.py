@@ -34,7 +34,7 @@ MOST_SWEEPS = 100_000
 # Whether the inputs are those of a step's end or of its beginning.
 UNDECIDED, ON_TIME, LATE = 0, 1, 2
 
-PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY = range(1, 5)
+PRIMED, UNDERCUT, LONG_STEP, CAGE_ASTRAY, WORN_THROUGH = range(1, 6)
 FAULTS = {
     PRIMED: "the trochoid has loops: crank.eccentricity {eccentricity:.6g} m times the number of pins must be less than"
     " pin.circle_radius {pin_circle_radius:.6g} m. Reduce crank.eccentricity or enlarge pin.circle_radius",
@@ -45,6 +45,9 @@ FAULTS = {
     CAGE_ASTRAY: "carrier or cages moved more than half a turn further than the cranks in one communication step, output.angle to"
     " {output_angle:.6g} rad, cage.angle to {cage_angle:.6g} rad: the wear cannot be placed. Connect crank.angle, output.angle and"
     " cage.angle of the same reducer",
+    WORN_THROUGH: "worn through: a flank has lost more than pin.radius {pin_radius:.6g} m in depth, or a raceway more than the rollers' radius"
+    " between inner_race.radius {inner_race_radius:.6g} m and outer_race.radius {outer_race_radius:.6g} m. Reduce acceleration"
+    " {acceleration:.6g} or the wear coefficients; of wear.mesh_law and wear.race_law Janakiraman's are for steel alone",
 }
 CAUTIONS = {
     "coarse_steps": "between two communication points the cranks turned by more than 20 degrees, or to and fro by more than 1: where the"
@@ -166,6 +169,19 @@ def wear_part(r, count, i, duration):
     advance_effects(r, time)
 
 
+@kernel
+def is_worn_through(r):
+    """Whether more was taken off than what rolls or slides there is thick: no law of wear means that."""
+    worn = False
+    for d in range(r.flank_depth.shape[0]):
+        if not r.flank_depth[d] < r.pin_radius:
+            worn = True
+        for c in range(r.inner_race_depth.shape[1]):
+            if not max(r.inner_race_depth[d, c], r.outer_race_depth[d, c]) < 0.5 * (r.outer_race_radius - r.inner_race_radius):
+                worn = True
+    return worn
+
+
 @entry_point
 def take_off(records, duration):
     """What the contacts take off on their way to the present input angles."""
@@ -176,6 +192,8 @@ def take_off(records, duration):
     carried, rolled = abs(r.output_angle - r.output_angle_before), abs(r.cage_angle - r.cage_angle_before)
     if not (carried <= math.pi + turned and rolled <= math.pi + turned):
         return CAGE_ASTRAY
+    if is_worn_through(r):
+        return WORN_THROUGH
     receive(r)
     if not r.path <= MOST_SWEEPS * r.largest_sweep:
         return LONG_STEP

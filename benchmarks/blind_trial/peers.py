@@ -19,7 +19,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
 from fmu_src.arrays import Floats
 
-MODEL = "RV20E-121"
+MODEL = "RV20E-121-rigid"
 MOST_TERMS = 5
 # Of every candidate the numbers of its columns.
 Owners = list[tuple[str, list[int]]]

@@ -16,7 +16,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
 from fmu_src.threads import Once
 
-MODEL = "RV20E-121"
+MODEL = "RV20E-121-rigid"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
 SHARED = Once(4_000)
 # Seconds after which no answer is the answer: nobody waits longer.

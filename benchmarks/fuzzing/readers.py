@@ -1,5 +1,7 @@
 """Each reader as it is called on a file of unknown contents."""
 
+import io
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -61,6 +63,19 @@ def measurement(path: Path) -> None:
             faults.append(fault)
     if faults:
         raise faults[0]
+
+
+def workbook_part(path: Path) -> None:
+    """A sound workbook with one of its parts, named in the first line, as the file has it."""
+    from benchmarks.fuzzing.seeds import xlsx
+
+    name, _, part = path.read_bytes().partition(b"\n")
+    (whole,) = KNOWN.setdefault("workbook", [next(xlsx())])
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        parts = {member: archive.read(member) for member in archive.namelist()}
+    known = name.decode("latin-1")
+    path.with_suffix(".xlsx").write_bytes(zipped(parts | {known if known in parts else "xl/worksheets/sheet1.xml": part}))
+    measurement(path.with_suffix(".xlsx"))
 
 
 def ssp(path: Path) -> None:
@@ -165,7 +180,7 @@ KNOWN: dict[str, list[Any]] = {}
 READERS: dict[str, tuple[str, Callable[[Path], None]]] = {
     "reducer": ("a.toml", reducer), "model": ("a.toml", model), "duty": ("a.toml", duty), "ensemble": ("a.toml", ensemble), "scenario": ("a.toml", scenario),
     "campaign": ("campaign.toml", campaign), "csv": ("a.csv", measurement), "mat": ("a.mat", measurement), "mdf": ("a.mf4", measurement),
-    "tdms": ("a.tdms", measurement), "parquet": ("a.parquet", measurement), "ssd": ("SystemStructure.ssd", ssp), "ssv": ("extra.ssv", ssp), "ssp": ("a.ssp", ssp),
+    "tdms": ("a.tdms", measurement), "parquet": ("a.parquet", measurement), "xlsx": ("a.xlsx", measurement), "xlsx_part": ("a.txt", workbook_part), "ssd": ("SystemStructure.ssd", ssp), "ssv": ("extra.ssv", ssp), "ssp": ("a.ssp", ssp),
     "fmu": ("a.fmu", fmu), "description": ("a.xml", description), "stamp": ("a.json", stamp), "reference_csv": ("a.csv", reference),
     "reference_netcdf": ("a.nc", reference), "result": ("a.nc", result), "checkpoint": ("a.checkpoint", checkpoint),
     "forged_checkpoint": ("a.checkpoint", forged_checkpoint), "lives": ("a.lives", lives), "forged_lives": ("a.lives", forged_lives), "setting": ("a.txt", setting),

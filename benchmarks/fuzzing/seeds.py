@@ -256,6 +256,25 @@ def parquet() -> Iterator[bytes]:
     yield saved(lambda path: frame.assign(torque=frame.torque.astype(str)).to_parquet(path, compression="gzip"), "a.parquet")
 
 
+def xlsx() -> Iterator[bytes]:
+    """Workbooks, compressed, and bare so that mutants reach their parts."""
+    import pandas as pd
+
+    frame = pd.DataFrame(COLUMNS)
+    yield saved(lambda path: frame.to_excel(path, index=False), "a.xlsx")
+    whole = saved(lambda path: frame.assign(torque=frame.torque.astype(str)).head(3).to_excel(path, index=False), "a.xlsx")
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        yield zipped({name: archive.read(name) for name in archive.namelist()}, zipfile.ZIP_STORED)
+
+
+def xlsx_part() -> Iterator[bytes]:
+    """The sheet, the workbook, the texts and the styles: which one is changed is seen from what stands in it."""
+    whole = next(xlsx())
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        for name in ("xl/worksheets/sheet1.xml", "xl/workbook.xml", "xl/styles.xml", "[Content_Types].xml"):
+            yield name.encode() + b"\n" + archive.read(name)
+
+
 def netcdf() -> Iterator[bytes]:
     from orchestrator.series import write_series
 
@@ -315,7 +334,7 @@ def files(*paths: Path) -> Iterator[bytes]:
 SEEDS: dict[str, Callable[[], Iterator[bytes]]] = {
     "reducer": lambda: files(*sorted(LIBRARY.glob("*.toml"))[:3]), "model": lambda: iter([MODEL]), "duty": lambda: files(EXAMPLES / "move_and_return.toml"),
     "ensemble": lambda: files(EXAMPLES / "ensemble.toml"), "scenario": lambda: iter([SCENARIO]),
-    "campaign": lambda: iter([CAMPAIGN, *files(*sorted(EXAMPLES.glob("*/campaign.toml"))[:2])]), "csv": csv, "mat": mat, "mdf": mdf, "tdms": tdms, "parquet": parquet,
+    "campaign": lambda: iter([CAMPAIGN, *files(*sorted(EXAMPLES.glob("*/campaign.toml"))[:2])]), "csv": csv, "mat": mat, "mdf": mdf, "tdms": tdms, "parquet": parquet, "xlsx": xlsx, "xlsx_part": xlsx_part,
     "ssd": lambda: iter([SSD]), "ssv": lambda: iter([SSV]), "ssp": ssp, "fmu": fmu, "description": lambda: iter([FMI2, FMI3]),
     "stamp": lambda: iter([b'{"source_hash": "x", "specification": {"unit": "rv_plant", "sizes": {}}}']),
     "reference_csv": lambda: iter([next(csv())]), "reference_netcdf": foreign_netcdf, "result": netcdf, "checkpoint": lambda: iter([checkpoint_content()]),

@@ -9,7 +9,7 @@ from benchmarks.integrators.comparison import compare, show
 from benchmarks.integrators.stretches import rated, reversal
 from reducers.reducer import load_reducer
 
-REDUCERS = ("RV20E-121", "BX-40E")
+REDUCERS = ("RV20E-121-rigid", "BX-40E-rigid")
 
 
 def main() -> None:

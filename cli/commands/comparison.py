@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from discrepancy.campaign.model import Campaign
+    from discrepancy.compare import Comparison
     from discrepancy.model_file import ModelFile
     from discrepancy.verdict import Answer
 
@@ -34,6 +36,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         command = sub.add_parser(name, help=text)
         add_common(command)
         command.set_defaults(run=run)
+        if name in ("compare", "diagnose"):
+            add_exports(command)
         if name != "next":
             command.add_argument("--fmus", metavar="FOLDER",
                                  help="step RvPlant.fmu and RvWear.fmu of this folder instead of their kernels in this process")
@@ -86,11 +90,22 @@ def write_html(options: argparse.Namespace, result: object) -> None:
         write_page(result, Path(options.html))
 
 
+def export(options: argparse.Namespace, result: "Comparison | Answer") -> None:
+    """As tables and pictures, if they are asked for."""
+    if not options.export and not options.picture:
+        return
+    from discrepancy.page.write import page_of
+    from discrepancy.tables import tables_of
+
+    write_exports(options, lambda: tables_of(result), lambda: [figure for section in page_of(result).sections for figure in section.figures])
+
+
 def run_compare(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_comparison
     from discrepancy.compare import compare
 
+    check_exports(options)
     with task("comparing"):
         comparison = compare(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, comparison)
@@ -98,6 +113,7 @@ def run_compare(options: argparse.Namespace) -> int:
         json_text(comparison.as_json())
     else:
         show_comparison(comparison)
+    export(options, comparison)
     return 0
 
 
@@ -125,6 +141,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
     from discrepancy.remembered import diagnosed
     from discrepancy.verdict import AnswerSoFar, diagnose
 
+    check_exports(options)
     with task("diagnosing"):
         file, campaign = inputs(options)
         fmus = folder(options.fmus)
@@ -144,6 +161,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
         show_answer(answer)
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
+    export(options, answer)
     if stopped:
         print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
     return stopped

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cli.options import add_json, add_reducer
+from cli.options import IDEAL_REDUCER, add_json, add_reducer
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
-    effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number (default: list all)")
-    add_reducer(effects, "reducer on the bench (default RV20E-121)")
+    effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number, or a word to look for: friction (default: list all)")
+    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER})", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
     effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own: what is wrong, and where")
@@ -28,19 +28,20 @@ def run_effects(options: argparse.Namespace) -> int:
         return check_files([Path(name) for name in options.check], options.json)
     from cli.screen import json_text
     from cli.show.effects import show_list, show_one
-    from discrepancy.catalogue.catalogue import entries, entry
+    from discrepancy.catalogue.catalogue import entries, found_by
 
-    chosen = [entry(options.name)] if options.name else entries()
-    computed = compute(chosen, options.reducer) if options.name and not options.html else {}
+    chosen = found_by(options.name) if options.name else entries()
+    one = bool(options.name) and len(chosen) == 1
+    computed = compute(chosen, options.reducer) if one and not options.html else {}
     if options.html:
         computed = write_page(chosen, options.reducer, Path(options.html))
     if options.json:
         found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
-        json_text(found[0] if options.name else {"effects": found})
-    elif options.name:
+        json_text(found[0] if one else {"effects": found})
+    elif one and not options.html:
         show_one(chosen[0], computed[chosen[0].name])
     elif not options.html:
-        show_list(chosen)
+        show_list(chosen, options.name)
     if options.html and not options.json:
         print(options.html)
     return 0

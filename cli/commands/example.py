@@ -22,8 +22,9 @@ EXAMPLES = {
     "milling_wear": "a negative control: milling cutters, to which no effect may be added (docs/real_data.md)",
     "move_and_return.toml": "a table of speeds and torques: rvwear life --duty examples/move_and_return.toml",
     "pair.toml": "the FMUs of plant and wear, connected: rvwear build, rvwear run examples/pair.toml",
-    "raceway_depths": "two depths after a test of 10,000 h: rvwear diagnose RV20E-121 examples/raceway_depths",
+    "raceway_depths": "two depths after a test of 10,000 h: rvwear diagnose RV20E-121-rigid examples/raceway_depths",
     "rv_reducer_te": "orders of a real RV reducer from your clone of public data: examples/rv_reducer_te/README.md",
+    "two_loops": "two torque loops as a bench wrote them, cold and warm: docs/tutorials/two_files.md",
     "robot_joint": "a joint with motor, drive and controller: python examples/robot_joint/robot_joint.py",
 }
 # Where a copy goes, so that every command in README, docs and the examples themselves finds it.

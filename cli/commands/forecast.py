@@ -44,9 +44,7 @@ def run_forecast(options: argparse.Namespace) -> int:
 
 
 def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> None:
-    from rich.table import Table
-
-    from cli.screen import console
+    from cli.screen import console, dense
     from discrepancy.campaign.amount import readable
     from discrepancy.forecast.forecast import COVERAGE
 
@@ -54,13 +52,14 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
         return f"{readable(scale * r.middle)} ({readable(scale * r.low)} to {readable(scale * r.high)})"
 
     unit = limit.unit
-    table = Table(title=f"{limit.quantity} up to {limit.value:g} {unit}, at {found.condition}", title_justify="left")
-    heads = "inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh"
+    table = dense(f"{limit.quantity} up to {limit.value:g} {unit}; read at {found.condition}")
+    heads = ("inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh")
     for head in heads:
         table.add_column(head, justify="right")
     for f in forecasts:
-        table.add_row(f"{f.hours:g}", str(f.readings), text(f.remaining), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
-    console(150).print(table)
+        intervals = (text(f.remaining), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
+        table.add_row(f"{f.hours:g}", str(f.readings), *(interval.replace(" (", "\n(") for interval in intervals))
+    console(100).print(table)
     last = forecasts[-1]
     print(f"middle and interval of {100.0 * COVERAGE:.0f} %; hours count from the last inspection, {last.hours:g} h")
     if last.beyond > 0.0:
@@ -70,8 +69,5 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
         within = "within" if expected.low - 2.0 * r.noise <= r.value <= expected.high + 2.0 * r.noise else "outside"
         print(f"not used: {readable(r.value, 4)} {unit} at {r.hours:g} h; expected {text(expected)}: {within}")
     slope = last.rate.middle / 3600.0
-    if limit.quantity == "lost_motion":
-        print(
-            f"for RvReducer: --set life.expected_rate={slope:.3g}{unit}/s --set life.rate_deviation={last.rate_deviation:.2g}"
-            f" --set life.rate_drift={last.drift / 3600.0:.2g}1/s --set life.reading_noise={found.readings[-1].noise:.3g}{unit}"
-        )
+    print(f"for RvReducer: life.expected_rate {slope:.3g} {unit}/s, life.rate_deviation {last.rate_deviation:.2g},"
+          f" life.rate_drift {last.drift / 3600.0:.2g} 1/s, life.reading_noise {found.readings[-1].noise:.3g} {unit}")  # fmt: skip

@@ -3,11 +3,11 @@
 import argparse
 import json
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cli.ending import exit_code
+from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path, settings_of
 from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault
@@ -17,10 +17,7 @@ from fmu_src.reading import reading
 if TYPE_CHECKING:
     import xarray as xr
 
-    from orchestrator.settings import Setting
-    from reducers.reducer import Reducer
-    from studies.duty import Segment
-    from studies.life import LifeSettings
+    from studies.kept_life import WantedLife
 
 REMEDY = "rvwear life with --reuse computes it again"
 
@@ -42,6 +39,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     start.add_argument("--restart", action="store_true", help="discard a checkpoint and start anew")
     start.add_argument("--reuse", action="store_true", help="show a finished result of the same inputs again, go on from its checkpoint, or start")
     add_json(hours)
+    add_exports(hours)
     hours.set_defaults(run=life)
 
     dynamics = sub.add_parser("dynamics-wear", help="wear of bodies in motion against equilibria: where dynamics matters")
@@ -59,105 +57,48 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     page.add_argument("result", help="result file of rvwear life (.nc)")
     page.add_argument("--output", help="report file (default beside the result)")
     page.set_defaults(run=report)
+    files = sub.add_parser("export", help="a result file (.nc) for other programs, or as pictures for a paper")
+    files.add_argument("result", help="result file of rvwear life or rvwear run (.nc)")
+    files.add_argument("files", nargs="+", metavar="FILE", help="what to write: .csv, .parquet, .mat, .xlsx; of a life .svg, .pdf, .png too")
+    files.add_argument("--width", metavar="WIDTH", help=WIDTH_HELP)
+    files.set_defaults(run=export)
 
 
 def life(options: argparse.Namespace) -> int:
     """``rvwear life``: jumps over the hours, with checkpoint, result file and report."""
-    from fmu_src.source_hash import source_hash
     from studies.duty import load_duty
+    from studies.kept_life import WantedLife
     from studies.life import LifeSettings
 
+    check_exports(options)
     reducer, settings, positions = chosen(options)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
     life_settings.check()
     duty = load_duty(options.duty) if options.duty else ()
-    inputs = {
-        "reducer": reducer.name, "starts": reducer.starts, "settings": {s.name: s.value for s in settings},
-        "life": vars(life_settings).copy(), "duty": [vars(s) for s in duty], "scheme": options.scheme, "positions": positions,
-        "units": "fmu" if options.fmus else "in process", "source_hash": source_hash(),
-    }  # fmt: skip
     path = result_path(options.output, f"{reducer.name}_life")
-    if any(setting.name == "acceleration" for setting in settings):
-        raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
+    wanted = WantedLife(reducer, settings, life_settings, positions, duty, options.scheme, folder(options.fmus))
     with held(path):
-        return live_and_write(options, Wanted(reducer, settings, positions, life_settings, duty, inputs), path)
+        return live_and_write(options, wanted, path)
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """What a life is to be of."""
-
-    reducer: "Reducer"
-    settings: "list[Setting]"
-    positions: int
-    life: "LifeSettings"
-    duty: "tuple[Segment, ...]"
-    inputs: dict[str, Any]
-
-
-def live_and_write(options: argparse.Namespace, wanted: Wanted, path: Path) -> int:
+def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path) -> int:
     """The life from where it stands, its result, and what is shown of it."""
     from cli.show.life import jump_line
-    from fmu_src.progress import say, task
-    from orchestrator import netcdf
-    from orchestrator.master import Master
-    from studies import results
-    from studies.checkpoint import load_checkpoint, save_checkpoint
-    from studies.coupled_master import CoupledMaster
-    from studies.life import Life, live
-    from studies.pair import make_pair
+    from fmu_src.progress import say
+    from studies.kept_life import Paused, belongs_to, checkpoint_of, live_to
 
-    inputs = wanted.inputs
-    checkpoint = path.with_suffix(".checkpoint")
-    if options.reuse and (known := known_result(path, inputs)) is not None:
+    checkpoint = checkpoint_of(path)
+    if options.reuse and (known := known_result(path, wanted.inputs)) is not None:
         return show_life(options, known, path)
-    resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, inputs))
+    resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, wanted.inputs))
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
-    with task("loading the units"):
-        pair = make_pair(wanted.reducer, wanted.settings, folder(options.fmus), options.scheme, wanted.positions, wanted.duty,
-                         # In this process many steps go into one compiled call.
-                         Master if options.fmus else CoupledMaster)
-    lived = Life(wanted.life)
-    first_orders = results.order_spectrum(pair, 0.0)
-    if resume:
-        lived, saved = load_checkpoint(checkpoint, inputs)
-        pair.master.restore(saved)
-
-    def keep(state: Life) -> None:
-        save_checkpoint(checkpoint, state, pair.master.save(), inputs)
-
     try:
-        with task("hours of life", total=round(wanted.life.hours)) as hours:
-
-            def show(state: Life) -> None:
-                hours.done = round(state.hours[-1])
-                say(jump_line(state))
-
-            live(pair, lived, show, keep)
-    except KeyboardInterrupt as interruption:
-        print(f"interrupted at {lived.hours[-1] if lived.hours else 0:g} h; go on with --resume", file=sys.stderr)
+        dataset = live_to(path, wanted, resume, lambda state: say(jump_line(state)))
+    except Paused as interruption:
+        print(f"interrupted at {interruption.hours:g} h; go on with --resume", file=sys.stderr)
         return exit_code(interruption)
-    orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
-    dataset = results.life_dataset(pair, lived, orders, inputs)
-    netcdf.write(dataset, path)
-    checkpoint.unlink(missing_ok=True)
-    pair.master.close()
     return show_life(options, dataset, path)
-
-
-def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
-    """Whether a run of these inputs left the checkpoint."""
-    from studies.checkpoint import load_checkpoint
-
-    try:
-        load_checkpoint(checkpoint, inputs)
-    except Damaged as fault:
-        print(f"{fault}: moved to {set_aside(checkpoint)}, the life starts anew", file=sys.stderr)
-        return False
-    except InputFault:
-        return False
-    return True
 
 
 def known_result(path: Path, inputs: dict[str, Any]) -> "xr.Dataset | None":
@@ -195,6 +136,11 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) ->
         print(f"result  {path}")
         if not options.no_report:
             print(f"report  {page}")
+    if options.export or options.picture:
+        from exports.tables import tables_of
+        from studies.report.page import figures_of
+
+        write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
     return 0
 
 
@@ -235,4 +181,19 @@ def report(options: argparse.Namespace) -> int:
     except Damaged as fault:
         raise Damaged(f"{fault}; {REMEDY}") from None
     print(page)
+    return 0
+
+
+def export(options: argparse.Namespace) -> int:
+    """``rvwear export``: a result file in other forms."""
+    from exports.tables import tables_of
+    from orchestrator import netcdf
+    from pages.paper import ENDINGS
+    from studies.report.page import figures_of
+
+    options.picture = [name for name in options.files if Path(name).suffix.lower() in ENDINGS]
+    options.export = [name for name in options.files if name not in options.picture]
+    check_exports(options)
+    dataset = netcdf.read(Path(options.result))
+    write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
     return 0

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cli.commands import check_reducer
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json
 from fmu_src.faults import InputFault
@@ -17,9 +18,11 @@ if TYPE_CHECKING:
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    group = sub.add_parser("reducer", help="reducer files: complete a new one from what a catalogue says")
+    group = sub.add_parser("reducer", help="reducer files: check one, or complete a new one from what a catalogue says")
     actions = group.add_subparsers(dest="action", required=True, metavar="ACTION")
 
+    check_reducer.add_command(actions)
+    check_reducer.add_list(actions)
     new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
     new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
     new.add_argument("--pins", type=int, required=True, help="pins in the ring: one more than a disc has lobes")

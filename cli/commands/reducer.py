@@ -1,16 +1,24 @@
 """``rvwear solve``, ``hysteresis`` and ``modes``: one reducer as it stands."""
 
 import argparse
+from typing import TYPE_CHECKING
 
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, add_reducer_options, chosen, settings_of
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     turn = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
     add_reducer_options(turn)
     add_json(turn)
+    add_exports(turn)
     turn.set_defaults(run=solve)
 
     loop = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
@@ -18,39 +26,31 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     loop.add_argument("--steps", type=int, default=40, help="torques per quarter of the loop (default 40)")
     loop.add_argument("--angles", type=int, default=8, help="input angles averaged (default 8)")
     add_json(loop)
+    add_exports(loop)
     loop.set_defaults(run=hysteresis)
 
-    shapes = sub.add_parser("modes", help="natural frequencies and mode shapes under load, input held")
+    shapes = sub.add_parser("modes", help="natural frequencies and mode shapes, under load or without, input held or free")
     add_reducer_options(shapes)
     add_json(shapes)
+    shapes.add_argument("--free", action="store_true", help="the input turns freely with its inertia (sun.inertia); otherwise it is held")
+    shapes.add_argument("--all", action="store_true", dest="every", help="held and free, under load and without: four tables")
     shapes.set_defaults(run=modes)
 
 
 def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     from cli import screen
-    from orchestrator.component import InProcess
-    from orchestrator.master import Master
-    from orchestrator.settings import apply
-    from studies.pair import Pair, crank_turn_time
-    from studies.solve import figures_of, record_turn
+    from studies.turn import crank_turn
 
+    check_exports(options)
     reducer, settings, positions = chosen(options)
-    plant = InProcess("plant", reducer.specification("rv_plant"))
-    apply(settings, {"plant": plant})
-    torque = plant.number("load_torque")
     with task("equilibria of one crank turn"):
-        master = Master({"plant": plant}, [], crank_turn_time(reducer, plant) / positions)
-        pair = Pair(reducer, master, plant, plant, positions)
-        master.initialise()
-        full = record_turn(pair, positions)
-        plant.set("load_torque", 0.5 * torque)
-        half = record_turn(pair, positions)
-        figures = figures_of(reducer, plant, full, half, torque)
+        found = crank_turn(reducer, settings, positions)
     if options.json:
-        screen.json_text({"reducer": reducer.name, "positions": positions} | figures)
+        screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures)
     else:
-        screen.figures(f"{reducer.name} over one crank turn", figures)
+        screen.figures(f"{reducer.name} over one crank turn", found.figures)
+    export(options, found.dataset)
     return 0
 
 
@@ -59,39 +59,53 @@ def hysteresis(options: argparse.Namespace) -> int:
     from cli import screen
     from reducers.reducer import load_reducer
     from studies.hysteresis import hysteresis as measure
+    from studies.turn import loop_dataset, loop_figures
 
     if options.steps < 4 or options.angles < 1:
         raise InputFault(f"steps = {options.steps}, angles = {options.angles}: at least 4 and 1 are needed")
+    check_exports(options)
     reducer = load_reducer(options.reducer)
     with task("loading torques at locked input"):
         loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles)
-    figures = {
-        "rated_torque_Nm": float(loop.torque.max()),
-        "lost_motion_arcmin": loop.lost_motion_arcmin,
-        "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
-        "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,
-        "loop_area_Nm_arcmin": loop.loop_area_Nm_arcmin,
-    }
+    figures = loop_figures(loop)
     if options.json:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
         screen.json_text({"reducer": reducer.name} | figures | curve)
     else:
         screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
+    export(options, lambda: loop_dataset(reducer, loop))
     return 0
+
+
+def export(options: argparse.Namespace, result: "Callable[[], xr.Dataset]") -> None:
+    """A turn or a loop as tables and pictures, if they are asked for."""
+    if not options.export and not options.picture:
+        return
+    from exports.tables import tables_of
+    from studies.report.turn import loop_figures, turn_figures
+
+    dataset = result()
+    write_exports(options, lambda: tables_of(dataset), lambda: (loop_figures if "turning" in dataset else turn_figures)(dataset))
 
 
 def modes(options: argparse.Namespace) -> int:
     """``rvwear modes``: natural frequencies about the loaded equilibrium."""
     from cli import screen
     from cli.show.modes import show_modes
+    from orchestrator.settings import parse_setting
     from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 
     reducer = load_reducer(options.reducer)
+    settings = settings_of(options, reducer)
+    cases = [(held, loaded) for held in (True, False) for loaded in (True, False)] if options.every else [(not options.free, True)]
+    unloaded = parse_setting("output.load_torque=0", [reducer.plant, reducer.wear])
     with task("linearising the plant in motion"):
-        found = natural_modes(reducer, settings_of(options, reducer))
+        found = {(held, loaded): natural_modes(reducer, settings if loaded else [*settings, unloaded], held) for held, loaded in cases}
     if options.json:
-        screen.json_text({"reducer": reducer.name, "modes": [vars(mode) for mode in found]})
+        told = [{"input": "held" if held else "free", "loaded": loaded, "modes": [vars(mode) for mode in some]} for (held, loaded), some in found.items()]
+        screen.json_text({"reducer": reducer.name, "cases": told} if options.every else {"reducer": reducer.name, **told[0]})
     else:
-        show_modes(f"{reducer.name}: modes under load, input held", found)
+        for (held, loaded), some in found.items():
+            show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)
     return 0

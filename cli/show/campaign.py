@@ -2,21 +2,19 @@
 
 from rich.table import Table
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, dense, styled
 from discrepancy.campaign.check import Check
 from discrepancy.campaign.findings import PROBLEM
 from discrepancy.separability import Separability
 
 # Nothing here is proven by a measurement: no green.
 STATUS_STYLE = {"separable": "bold", "not separable": "yellow", "not visible": "dim"}
-# Wide enough for all columns.
-WIDTH = 132
 
 
 def show(check: Check) -> None:
     """Overview, findings, pairs."""
     out = console(WIDTH)
-    table = Table(title=f"{check.campaign.name}: what is measured (levels without held-out runs)", title_justify="left")
+    table = dense(f"{check.campaign.name}: what is measured (levels without held-out runs)")
     for name in check.summary[0]:
         first = name == "quantity"
         table.add_column(name.replace("_", "\n"), justify="left" if first else "right", no_wrap=first)

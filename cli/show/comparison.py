@@ -3,7 +3,7 @@
 from rich.console import Console
 from rich.table import Table
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, dense, styled
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
@@ -15,7 +15,6 @@ from discrepancy.verdict import Answer
 from discrepancy.wording import base_texts, error_text, left_text, share_text
 
 LONGEST = 12
-WIDTH = 120
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
@@ -54,13 +53,14 @@ def show_figures(figures: list[KeyFigure], out: Console) -> None:
         worst.setdefault((f.signal, f.name), f)
     if not worst:
         return
-    table = Table(title="key figures, measured against the base model", title_justify="left")
+    table = dense("key figures, measured against the base model")
     for name in ("signal", "figure", "condition", "measured", "noise", "model", "off by"):
-        table.add_column(name, justify="left" if name in ("signal", "figure", "condition") else "right")
+        left = name in ("signal", "figure", "condition")
+        table.add_column(name, justify="left" if left else "right", overflow="fold" if left else "ellipsis", no_wrap=not left)
     for f in list(worst.values())[:LONGEST]:
         unit_of = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
         measured, noise, model = (shown(v, f.unit, unit_of) for v in (f.measured, f.noise, f.model))
-        table.add_row(f.signal, f.name, f.condition, measured, noise, model, f"{abs(f.off):.1f} noise")
+        table.add_row(f.signal.replace("[", "\n["), f.name, f.condition, measured, noise, model, f"{abs(f.off):.1f} noise")
     out.print(table)
     if len(figures) > min(len(worst), LONGEST):
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
@@ -73,7 +73,7 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
     if not findings:
         out.print("no place, order or dependence carries a significant misfit")
         return
-    table = Table(title="where the model fails (significant over all tests together)", title_justify="left")
+    table = dense("where the model fails (significant over all tests together)")
     for name in ("signal", "what", "depends on", "share", "p"):
         table.add_column(name, justify="right" if name in ("share", "p") else "left")
     for g in findings[:LONGEST]:

@@ -1,11 +1,9 @@
 """What ``rvwear extend --draft`` shows on the screen beside the extension itself."""
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, styled
 from discrepancy.draft.choose import Draft
 from discrepancy.draft.write import over
 from discrepancy.verdict import Answer
-
-WIDTH = 120
 
 
 def show_draft(answer: Answer, draft: Draft, reasons: list[str]) -> None:

@@ -2,16 +2,14 @@
 
 from rich.table import Table
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, dense, styled
 from discrepancy.catalogue.catalogue import Entry
 from discrepancy.catalogue.signature import Signature, number
 
-# Wide enough for all columns.
-WIDTH = 132
 
-
-def show_list(entries: list[Entry]) -> None:
-    table = Table(title="effects; all are off by default", title_justify="left", show_lines=True)
+def show_list(entries: list[Entry], word: str | None = None) -> None:
+    title = f"effects in which {word!r} stands" if word else "effects; all are off by default"
+    table = Table(title=title, title_justify="left", show_lines=True)
     for head in ("", "name", "acts in", "law", "signature"):
         table.add_column(head, overflow="fold")
     for e in entries:
@@ -27,9 +25,9 @@ def show_one(entry: Entry, found: list[Signature]) -> None:
     out.print(styled((e.title, "bold"), f"  {entry.name}, number {entry.number} of the physics audit, acts in the {entry.part}"))
     for head, text in (("law", e.law), ("source", e.source), ("signature", e.signature), ("shows in", ", ".join(e.signals) or "every quantity")):
         out.print(f"  {head:<10}{text}")
-    table = Table(title="parameters", title_justify="left")
+    table = dense("parameters")
     for head in ("name", "kind", "unit", "off or start", "bounds", "meaning"):
-        table.add_column(head, justify="right" if head == "off or start" else "left", overflow="fold")
+        table.add_column(head, justify="right" if head == "off or start" else "left", overflow="fold", no_wrap=head in ("name", "kind", "unit"))
     for p in e.parameters:
         v = p.variable
         table.add_row(v.path, p.kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)

@@ -2,12 +2,7 @@
 
 from typing import Any
 
-from rich.table import Table
-
-from cli.screen import console
-
-# Of a console: wide enough for all columns, also where the output goes to a file.
-WIDTH = 130
+from cli.screen import WIDTH, console, dense
 
 
 def show(found: dict[str, Any]) -> None:
@@ -19,9 +14,9 @@ def show(found: dict[str, Any]) -> None:
     if "distributions" not in found:
         out.print("too few lives for a distribution")
         return
-    table = Table(title="at the end, with 95 % intervals", title_justify="left")
+    table = dense("at the end, with 95 % intervals")
     for head in ("figure", "mean", "5 %", "50 %", "95 %"):
-        table.add_column(head, justify="left" if head == "figure" else "right", no_wrap=True)
+        table.add_column(head, justify="left" if head == "figure" else "right", overflow="fold")
     for name, values in found["distributions"].items():
         table.add_row(name, *(cell(value) for value in values.values()))
     if "life_hours" in found:
@@ -32,7 +27,7 @@ def show(found: dict[str, Any]) -> None:
     shown = {name: rows for name, rows in found.get("sensitivity", {}).items() if rows}
     if not shown:
         return
-    table = Table(title="share of the variance that a parameter makes, alone / with all interactions", title_justify="left")
+    table = dense("share of the variance that a parameter makes, alone / with all interactions")
     table.add_column("parameter")
     for name in shown:
         table.add_column(name.rpartition("_")[0].replace("_", "\n"), justify="right")

@@ -2,13 +2,13 @@
 
 from rich.table import Table
 
-from cli.screen import console, styled
+from cli.screen import WIDTH, console, styled
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
 
 
 def show(proposal: Proposal) -> None:
     """Runs, what each column was taken for and why, conditions, what is not sure, what is needed."""
-    out = console()
+    out = console(WIDTH)
     table = Table(title=f"{proposal.name}: {len(proposal.runs)} runs", title_justify="left")
     for column in ("run", "quantity", "condition", "repetition"):
         table.add_column(column)

@@ -7,12 +7,12 @@ from studies.modes import Mode
 
 
 def show_modes(title: str, found: list[Mode]) -> None:
-    """Frequency, damping and the bodies that move."""
+    """Frequency, damping, what moves, and the bodies' shares of the kinetic energy."""
     table = Table(title=title, title_justify="left")
-    for head in ("frequency Hz", "damping %", "kinetic energy in"):
-        table.add_column(head, justify="left" if "energy" in head else "right")
+    for head in ("frequency Hz", "damping %", "what moves", "kinetic energy in"):
+        table.add_column(head, justify="right" if "%" in head or "Hz" in head else "left")
     for mode in found:
         shares = sorted(mode.energy_share.items(), key=lambda item: -item[1])
         bodies = ", ".join(f"{body} {100 * share:.0f} %" for body, share in shares if share > 0.02)
-        table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", bodies)
+        table.add_row(f"{mode.frequency_Hz:.1f}", f"{100 * mode.damping_ratio:.2f}", mode.moves, bodies)
     console().print(table)

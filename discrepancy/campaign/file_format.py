@@ -110,7 +110,7 @@ class Run(Strict):
     table: dict[str, Inline] = {}
     value: Stated | None = None
     # How the file is read.
-    format: Literal["csv", "parquet", "mat", "mdf", "tdms"] | None = None
+    format: Literal["csv", "parquet", "mat", "mdf", "tdms", "xlsx"] | None = None
     delimiter: str | None = Field(default=None, min_length=1, max_length=1)
     decimal: Literal[".", ","] | None = None
     thousands: str | None = Field(default=None, min_length=1, max_length=1)
@@ -119,6 +119,7 @@ class Run(Strict):
     units_line: bool = False
     skip_lines: int = Field(default=0, ge=0)
     group: str | None = None
+    sheet: str | None = None
     align: str | None = None
     # Which of its rows are used, and how.
     where: dict[str, float | str | Range] = {}

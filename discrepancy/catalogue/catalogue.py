@@ -8,7 +8,7 @@ from discrepancy.catalogue.examples import Case, cases, part_of
 from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.model_file import every_effect
 from fmu_src.effect import Effect, EffectParameter
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,13 @@ class Entry:
     def number(self) -> str:
         """Its number in the physics audit; the measuring chain's own have none."""
         return str(self.effect.number) if self.effect.number else "-"
+
+    @property
+    def text(self) -> str:
+        """All that is said of it, to look for words in."""
+        e = self.effect
+        said = (self.name, e.title, self.part, e.law, e.signature, e.source, *e.signals, *(f"{p.variable.path} {p.variable.description}" for p in e.parameters))
+        return " ".join(said).lower().replace("_", " ")
 
     def as_json(self) -> dict[str, Any]:
         e = self.effect
@@ -52,4 +59,16 @@ def entry(name: str) -> Entry:
     for found in entries():
         if name in (found.name, found.number) and name != "-":
             return found
-    raise InputFault(f"no effect {name!r}; rvwear effects lists them")
+    raise InputFault(f"no effect {name!r}{nearest(name, [e.name for e in entries()], 2) or ';'} rvwear effects lists them")
+
+
+def found_by(word: str) -> list[Entry]:
+    """The effect of this name or number; else all that have all the words in their name, law, signature, signals, source or parameters.
+
+    InputFault with the nearest name if there is none.
+    """
+    every = entries()
+    exact = [e for e in every if word in (e.name, e.number) and word != "-"]
+    words = word.lower().replace("_", " ").split()
+    found = exact or [e for e in every if words and all(part in e.text for part in words)]
+    return found or [entry(word)]

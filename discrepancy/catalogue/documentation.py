@@ -25,7 +25,7 @@ HEAD = """# Effects
 
 Made by `python -m discrepancy.catalogue.documentation`. What a real reducer and its sensors may do beyond the ideal
 model: one file each, compiled into the units, off by default (then figures are the same to the last bit).
-*Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121 (quasi-static, radial
+*Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121-rigid (rigid supports, no losses; quasi-static, radial
 needle clearance 2.5 um, rated 167 N m at 2000 rpm): figure without and with the effect, the largest changes first
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
 turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.

@@ -65,7 +65,7 @@ class Signature:
         return next(r for r in self.rows if r.figure == figure and r.condition == condition)
 
 
-def new_bench(reducer: str = "RV20E-121") -> Bench:
+def new_bench(reducer: str = "RV20E-121-rigid") -> Bench:
     return Bench(load_reducer(reducer), {})
 
 

@@ -25,7 +25,8 @@ EFFECT = Effect(
     "one order of the transmission error, in proportion to the load, large where its frequency is that of the resonance and turned round beyond",
     (
         *(amplitude(f"ripple_{part}", "rad/(N.m)", f"slow turning per load torque, {part} of its order", 1e-9, -1e-5, 1e-5) for part in ("cos", "sin")),
-        shape("ripple_order", "1", "k: its order of the output's turn", 156.0, 1.0, 1e4, "assumed: four times a turn of 39 lobes' cranks"),
+        shape("ripple_order", "1", "k: its order of the output's turn", 156.0, 1.0, 1e4,
+              "assumed: four times a turn of the cranks that have 39 to one of the output"),
         shape("ripple_frequency", "Hz", "f_0: frequency of the load on the drive's spring", 54.0, 0.5, 5000.0, "assumed: 10 to 100 Hz",
               grid=(28.0, 42.0, 54.0, 63.0, 95.0)),
         shape("ripple_damping", "1", "z: its damping ratio", 0.01, 1e-3, 2.0, "assumed: 0.005 to 0.05"),
@@ -35,12 +36,12 @@ EFFECT = Effect(
 
 
 def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
-    if record.quantity != "transmission_error" or "angle" not in record.axes or at("ripple_cos") == at("ripple_sin") == 0.0:
+    if record.quantity != "transmission_error" or "angle" not in record.axes:
         return values
     order, damping = at("ripple_order"), at("ripple_damping")
     sense = record.factors.get("direction", 1.0)
     r = order * sense * at("output_speed") / (2.0 * math.pi * at("ripple_frequency"))
     answer = complex(at("ripple_cos"), -at("ripple_sin")) / complex(1.0 - r * r, 2.0 * damping * r)
     wave = np.exp(1j * order * np.asarray(record.axes["angle"], np.float64))
-    found: Floats = values + record.factors.get("load", 0.0) * np.real(answer * wave)
-    return found
+    changed: Floats = values + record.factors.get("load", 0.0) * (answer * wave).real
+    return changed

@@ -35,7 +35,8 @@ def samples(growth: Growth, hours: Floats, values: Floats, noise: Floats, seed: 
 
     def log_ratio(y: Floats) -> Floats:
         """Of the density to that of the normal law, at y = root^-1 (x - centre)."""
-        return log_density(centre + y @ root.T) + 0.5 * np.sum(y**2, axis=1)
+        found: Floats = log_density(centre + y @ root.T) + 0.5 * np.sum(y**2, axis=1)
+        return found
 
     y = rng.standard_normal((CHAINS, growth.dimensions))
     at = log_ratio(y)

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -35,7 +35,7 @@ def computed_wrongly(fit: Fit, coverage: float) -> list[BaseError]:
         return []
     scale = np.array([p.scale for p in fit.parameters])
     deviations = np.sqrt(np.maximum(np.diag(np.linalg.pinv(fit.normal * np.outer(scale, scale), rcond=1e-11, hermitian=True)), 0.0)) * scale
-    half = float(norm.ppf(0.5 + coverage / 2.0))
+    half = float(ndtri(0.5 + coverage / 2.0))
     return [
         BaseError(p.name, p.description, fit.values[p.name], (fit.values[p.name] - half * deviations[k], fit.values[p.name] + half * deviations[k]),
                   p.unit, p.off, (p.off - (p.prior or 0.0), p.off + (p.prior or 0.0)), None)

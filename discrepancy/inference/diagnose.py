@@ -17,6 +17,10 @@ from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, Candidate, Model
+from fmu_src.progress import say
+
+# So many of the nearest effects are said on the way.
+NEAREST = 3
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -110,12 +114,14 @@ class Diagnostician:
         """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
+        self.say_place()
         self.doing = "screening"
         rivals, start = self.calibrated(first)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
         self.screened(beside=start)
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
         p_screen = min(p_screen, p_first)
+        self.say_scores()
         p_local = min((g.p for g in local.groups), default=1.0)
         by_place = bool(local.findings)
         # where the misfit is beyond doubt, naming needs less
@@ -131,6 +137,7 @@ class Diagnostician:
         if start is None:
             rivals = selection.singles()
             start = likeliest(rivals, settings.margin)
+        say(f"best alone: {start.name}, {start.gain:.0f} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.simplified(selection.several(start, len(start.candidates) if first else 0))
         self.doing = f"looking for what could stand in place of {final.name}"
@@ -172,6 +179,21 @@ class Diagnostician:
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else judgement.held_out(members)
         return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def say_place(self) -> None:
+        """Where the misfit is, as soon as it is known."""
+        found = self.localisation.findings
+        if not found:
+            say("no place, order or dependence carries a significant misfit")
+            return
+        best, more = found[0], f", and {len(found) - 1} more" if len(found) > 1 else ""
+        where = "everywhere alike" if best.dependence == "everywhere" else f"changing with {best.dependence}"
+        say(f"misfit: {best.signal}, {best.feature}, {where} (p = {best.p:.1g}){more}")
+
+    def say_scores(self) -> None:
+        """Which effects come nearest before any is fitted in earnest."""
+        nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
+        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} (p = {s.p_adjusted:.1g})" for s in nearest))
 
     def stopped(self) -> Diagnosis:
         """What is known so far: base fit, localisation, scores, and the best fit."""

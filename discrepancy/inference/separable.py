@@ -17,7 +17,7 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -53,7 +53,7 @@ class Pair:
 
 def best_error(separation: float) -> float:
     """Error of the best test of two hypotheses at this d', with equal risks."""
-    return float(norm.sf(0.5 * separation))
+    return float(ndtr(-0.5 * separation))
 
 
 def effect_of(candidate: Candidate) -> str:

@@ -5,13 +5,13 @@ from typing import Any
 
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.key_figures import KeyFigure
-from discrepancy.page import amounts, maps, numbers, panels, series
+from discrepancy.page import amounts, maps, numbers, panels, series, spectra
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from pages.words import number
+from pages.words import counted, number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6
@@ -20,17 +20,21 @@ MOST_CARDS = 6
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
     runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
+    # What one asks first: numbers, then curves, then maps.
     sections = [
+        *figures_section(result.figures),
+        Section(
+            "runs",
+            "Measured against predicted",
+            "Every run of the campaign beside the model's prediction of it.",
+            run_figures("run", runs) + order_figures(runs),
+        ),
         errors(result),
         localisation_section(
             [asdict(g) for g in result.diagnostician.localisation.groups],
             result.diagnostician.localisation.conditions,
             result.diagnostician.localisation.level,
         ),
-        Section(
-            "runs", "Measured against predicted", "Every run of the campaign beside the model's prediction of it.", run_figures("run", runs)
-        ),
-        *figures_section(result.figures),
         nuisances(result),
     ]
     return Page(
@@ -54,7 +58,7 @@ def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     held = sum(run.record.held_out for run in runs)
     count = len({run.record.condition for run in runs})
     effects = ", ".join(name.replace("_", " ") for name in result.model.file.effects)
-    return f"{len(runs)} runs at {count} conditions, {held} of them held out; " + (
+    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}, {held} of them held out; " + (
         f"model with {effects}" if effects else "model without further effects"
     )
 
@@ -132,7 +136,8 @@ def errors(result: Comparison) -> Section:
     ]
     table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5))
     lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
-    return Section("errors", "Error against noise", lead, [heat] if cells else [], [table])
+    # A map of one condition says what the table says.
+    return Section("errors", "Error against noise", lead, [heat] if len({condition for _, condition in cells}) > 1 else [], [table])
 
 
 def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, dict[str, float]], level: float) -> Section:
@@ -146,9 +151,9 @@ def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, d
         if findings
         else "No place, order or dependence carries a significant misfit."
     )
-    figures = maps.localisation("place", places, level)
+    figures, tables = maps.localisation("place", places, level)
     cells = {(signal, c): float(v) ** 0.5 for signal, row in by_condition.items() for c, v in row.items()}
-    if cells:
+    if len({condition for _, condition in cells}) > 1:
         figures.insert(
             0,
             maps.grid(
@@ -159,7 +164,7 @@ def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, d
                 bar="misfit / noise",
             ),
         )
-    return Section("localisation", "Where the model fails", lead, figures)
+    return Section("localisation", "Where the model fails", lead, figures, tables)
 
 
 def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = panels.WORDS) -> list[Figure]:
@@ -173,6 +178,12 @@ def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = pane
         if single:
             drawn.append(numbers.figure(f"{prefix}_number", signal, single, words))
     return sorted(drawn, key=lambda f: -f.columns)
+
+
+def order_figures(runs: list[Run]) -> list[Figure]:
+    """Orders of measured and predicted over each other, of signals that were measured over whole turns."""
+    found = (spectra.figure("orders", signal, [r for r in members if r.series], ("measured", "predicted")) for signal, members in by_signal(runs).items())
+    return [figure for figure in found if figure is not None]
 
 
 def figures_section(figures: list[KeyFigure]) -> list[Section]:

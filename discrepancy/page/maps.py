@@ -10,6 +10,7 @@ import numpy.typing as npt
 from discrepancy.page.amounts import chance, signal_title
 from discrepancy.page.runs import slug
 from pages import look
+from pages.content import Table
 from pages.look import Figure, short
 from pages.words import number
 
@@ -93,15 +94,30 @@ def grid(
     return Figure(name, title, caption, [trace], layout(names, level=few and max(map(len, columns)) < 16), 12, max(height, 190))
 
 
-def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> list[Figure]:
-    """The map of all signals, feature by dependence, coloured by significance; and the single orders of each signal."""
+def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> tuple[list[Figure], list[Table]]:
+    """The map of all signals, feature by dependence, coloured by significance; and the single orders of each signal.
+
+    Where nothing was varied the map would have one column: a table then.
+    """
     named = [p for p in places if not p["feature"].startswith("order ")]
-    figures = [place_map(prefix, named, level)] if named else []
+    varied = len({p["dependence"] for p in named}) > 1
+    figures = [place_map(prefix, named, level)] if varied else []
+    tables = [place_table(named, level)] if named and not varied else []
     for signal in sorted({p["signal"] for p in places}):
         single = [p for p in places if p["signal"] == signal and p["feature"].startswith("order ")]
         if single:
             figures.append(comb(prefix, signal, single, level))
-    return figures
+    return figures, tables
+
+
+def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
+    """Features of one dependence, most significant first."""
+    rows = [
+        [signal_title(p["signal"]), p["feature"], percent(p["share"]) if p["p"] <= level else "", chance(p["p"]), "yes" if p["p"] <= level else "no"]
+        for p in sorted(places, key=lambda p: p["p"])[:MOST_ROWS]
+    ]
+    where = "at all conditions alike" if all(p["dependence"] == "everywhere" for p in places) else f"with {places[0]['dependence'].replace('_', ' ')}"
+    return Table(f"Misfit {where}", ["signal", "what", "share", "p over all tests", f"significant at {level:g}"], rows, (2,))
 
 
 def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> Figure:
@@ -167,7 +183,10 @@ def comb(prefix: str, signal: str, places: Sequence[Mapping[str, Any]], level: f
     picture = look.layout(
         xaxis=look.axis("order of the output's turn"), yaxis=look.axis("misfit over noise [variance]", rangemode="tozero")
     )
-    caption = "Orders that belong to no named part. 1 is what noise alone gives; significant ones are coloured."
+    caption = (
+        f"Orders that belong to no named part. 1 is what noise alone gives on average; of {len(places)} tests some give several times that by chance:"
+        f" coloured are those that all tests together leave significant (p ≤ {level:g})."
+    )
     return Figure(
         f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 12, 240
     )

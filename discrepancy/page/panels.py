@@ -46,12 +46,17 @@ def ways(x: Floats) -> list[slice]:
 
 
 def band(x: Floats, low: Floats, high: Floats, name: str, axis: str = "y") -> dict[str, Any]:
-    """A closed area between two lines; of a loop one for each way, for an area that crosses itself is half empty."""
+    """A closed area between two lines; of a loop one for each way, for an area that crosses itself is half empty.
+
+    All are walked around in the same sense: where one lies on another of the opposite sense, browsers leave both empty.
+    """
     xs: list[Floats] = []
     ys: list[Floats] = []
     for way in ways(x):
+        back = x[way][0] > x[way][-1]
+        upper, lower = (low, high) if back else (high, low)
         xs += [x[way], x[way][::-1], np.array([np.nan])]
-        ys += [high[way], low[way][::-1], np.array([np.nan])]
+        ys += [upper[way], lower[way][::-1], np.array([np.nan])]
     return {
         "type": "scatter",
         "mode": "lines",

@@ -43,7 +43,7 @@ def amplitudes(values: Floats, whole: int) -> Floats:
 
 def figure(prefix: str, signal: str, runs: Sequence[Run], words: tuple[str, str]) -> Figure | None:
     """Orders at which the mean of the replicates, or the response, is largest; None without whole turns."""
-    cells = {label: members for label, members in by_condition(runs).items() if turns(members[0])}
+    cells = {label: members for label, members in by_condition(runs).items() if turns(members[0])} if runs else {}
     if not cells:
         return None
     unit = runs[0].record.unit

@@ -16,6 +16,7 @@ from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats
 from reducers.reducer import Reducer
 from studies import coupled
+from studies.hysteresis import MEMORY
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
@@ -31,8 +32,6 @@ HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
 LARGEST_CRANK_STEP = 1e3
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
 MOMENT = 1e-12
-# Effects by which a held output's place depends on the way to it.
-MEMORY = ("friction_coefficient", "friction_excess", "support_slip_compliance")
 
 
 class Bench(Lives):
@@ -66,7 +65,7 @@ class Bench(Lives):
 
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
-        return any(values.get(name, float(self.templates[0][name][0])) != 0.0 for name in MEMORY)
+        return any(values.get(name, self.starts[0][name]) != 0.0 for name in MEMORY)
 
     def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS.
@@ -130,9 +129,12 @@ class Bench(Lives):
 
     def means(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
         """Mean of each column over ``positions`` of a turn of the cranks."""
+        return self.kept(("means", condition, self.relevant(values, condition.hours > 0.0), positions), lambda: self.mean_run(condition, values, positions))
+
+    def mean_run(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
         turn = 2.0 * math.pi / self.reducer.topology.lobes
         angles = condition.direction * np.linspace(0.0, turn, positions, endpoint=False)
-        if values.get("thermal_resistance", float(self.templates[0]["thermal_resistance"][0])) > 0.0:
+        if values.get("thermal_resistance", self.starts[0]["thermal_resistance"]) > 0.0:
             # A second pass: what depends on the losses of the first has settled.
             angles = np.concatenate([angles, angles + condition.direction * turn])
         found: Floats = self.running(condition, values, angles)[-positions:].mean(axis=0)

@@ -47,6 +47,10 @@ class Curve(Protocol[Nodes]):
         """Where the samples lie on the axis."""
         ...
 
+    def unchanged(self, values: Values) -> dict[str, float]:
+        """Of the values those that say where the samples lie."""
+        ...
+
     def run(self, values: Values, nodes: Nodes) -> Floats:
         """The signal at nodes."""
         ...
@@ -80,6 +84,10 @@ class OverAngle:
     def places(self, values: Values) -> Floats:
         return angles_of(self.bench, self.record, values.get(angle_zero(self.record), 0.0))
 
+    def unchanged(self, values: Values) -> dict[str, float]:
+        name = angle_zero(self.record)
+        return {name: values[name]} if name in values else {}
+
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
         return self.column(self.bench.running(self.condition, values, nodes.angles, self.cage))
 
@@ -110,6 +118,9 @@ class OverTorque:
     def places(self, values: Values) -> Floats:
         return np.asarray(self.record.axes["torque"], np.float64)
 
+    def unchanged(self, values: Values) -> dict[str, float]:
+        return {}
+
     def run(self, values: Values, nodes: TorqueNodes) -> Floats:
         return self.along(values, nodes.torques)
 
@@ -131,12 +142,14 @@ def entered(bench: Bench, torques: Floats) -> tuple[Floats, int]:
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
     fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
-    if fine is None or coarse is None:
+    changed = bool(curve.bench.relevant(values, True))
+    if coarse is None or (fine is None and not changed):
         return curve.directly(values)
     places = curve.places(values)
-    found = fine.samples(curve.run({}, fine), places)
-    if curve.bench.relevant(values, True):
-        found += coarse.samples(curve.run(values, coarse) - curve.run({}, coarse), places)
+    # The base model's is had but once at every sample.
+    found = curve.directly(curve.unchanged(values)) if fine is None else fine.samples(curve.run({}, fine), places)
+    if changed:
+        found = found + coarse.samples(curve.run(values, coarse) - curve.run({}, coarse), places)
     return found
 
 

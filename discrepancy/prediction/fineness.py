@@ -14,7 +14,9 @@ from fmu_src.arrays import Floats
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
 SEEN = 2.0
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
-ROUGHLY = 0.1
+ROUGHLY = 0.15
+# The few nodes of a band are for searches; what is reported may err by so much less there.
+BANDED = 0.2
 # What is changed to first order is changed by such a share of a typical amplitude.
 STEP = 0.01
 # A level's error over that of the one before, and what it may be of the change, where finer ones are no better.
@@ -56,7 +58,7 @@ class Fineness:
             noise[group] = min(noise.get(group, np.inf), own)
         self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
         # Where only orders were measured, nodes for these may do: what lies between shows as their error.
-        self.first = {group: 0 if group in whole else COARSEST for group in counts}
+        self.orders = set(counts) - whole
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
         self.shapes: set[str] = set()
@@ -79,7 +81,7 @@ class Fineness:
         amounts = self.amounts(away)
         if not amounts:
             if group not in self.base:
-                self.base[group] = self.found(self.allowed[group], 0.0, errs, self.first[group])
+                self.base[group] = self.found(self.allowed[group], 0.0, errs, COARSEST if group in self.orders else 0)
             return self.base[group]
         off = np.abs(np.array(list(amounts.values())))
         known = self.added.setdefault(added(group, amounts), [])
@@ -88,7 +90,7 @@ class Fineness:
             if self.rough or np.all(off <= FURTHER * distances):
                 return level
         first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
-        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first)
+        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first, banded=1.0 if self.rough or group in self.orders else BANDED)
         known.append((off, level))
         return level
 
@@ -107,17 +109,18 @@ class Fineness:
         return self.slopes[key]
 
     def elsewhere(self, levels: Mapping[Added, Known], group: Group, amounts: Mapping[str, float], level_of: Callable[[Known], int]) -> int:
-        """Where to begin: roughly, with the least level that the same change needs in other conditions."""
+        """Where to begin: roughly, with the least level that the same change needs in other conditions; a single one may be the hardest."""
         if not self.rough:
-            return self.first[group]
-        others = [levels[added(g, amounts)] for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
-        return min((level_of(known) for known in others), default=COARSEST)
+            return COARSEST
+        others = [level_of(levels[added(g, amounts)]) for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
+        return COARSEST if others == [EVERY_SAMPLE] else min(others, default=COARSEST)
 
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
 
-    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change.
+    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0, banded: float = 1.0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change,
+        and below ``banded`` of that between the few nodes of a band.
 
         An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
         """
@@ -127,7 +130,7 @@ class Fineness:
             if at is None:
                 return EVERY_SAMPLE
             error, size = at
-            least = max(allowed, share * size)
+            least = max(allowed, share * size) * (banded if level < 0 else 1.0)
             if error <= least or NO_LESS * before < error < most * size:
                 return level
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE

@@ -23,7 +23,7 @@ SPECTRUM_SAMPLES = 2048
 TORQUE_STEPS = 12
 # Torques of either sign at which a locked drive's springs are computed.
 ELASTIC_STEPS = 20
-WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0}
+WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0, "mesh_friction": 0.0, "mesh_friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
 # Of the deepest place: what is worn less is not compared in proportion.
 LEAST_WORN = 0.1

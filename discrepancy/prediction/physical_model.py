@@ -17,7 +17,6 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fineness import Fineness
-from discrepancy.prediction.fmu_bench import FmuBench
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.model_error import with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
@@ -59,7 +58,7 @@ class PhysicalModel:
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         settings = {n: v for n, v in present.items() if "[" not in n}
-        self.bench = FmuBench(model, settings, fmus) if fmus else Bench(model.reducer, settings)
+        self.bench = bench_of(model, settings, fmus)
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         for record in self.records:
@@ -248,6 +247,16 @@ class PhysicalModel:
             if place is not None and f"{name}[{place}]" in values:
                 own[name] = values[f"{name}[{place}]"]
         return own
+
+
+def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None) -> Bench:
+    """The bench in this process, or that of the FMUs in a folder."""
+    if fmus is None:
+        return Bench(model.reducer, settings)
+    # Here: what steps FMUs takes its time to load.
+    from discrepancy.prediction.fmu_bench import FmuBench
+
+    return FmuBench(model, settings, fmus)
 
 
 def defined(record: Record, campaign: Campaign) -> Record:

@@ -56,6 +56,8 @@ class Units:
             if "tolerance" in table.by_name:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
+        # By name what a parameter's first element is without further values.
+        self.starts = [{name: float(records[name].flat[0]) for name in table.by_name} for table, records in zip(self.tables, self.templates)]
         self.runs = Once(KEPT_RUNS)
         topology = reducer.topology
         self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
@@ -68,17 +70,14 @@ class Units:
 
     def relevant(self, values: Mapping[str, float], worn: bool) -> Relevant:
         """The values that a run depends on, without those that stand at their start."""
-        tables = self.tables if worn else self.tables[:1]
-        templates = self.templates if worn else self.templates[:1]
-        return tuple(sorted(
-            (name, value) for name, value in values.items()
-            if any(name in table.by_name and float(t[name].flat[0]) != value for table, t in zip(tables, templates))
-        ))  # fmt: skip
+        plant, wear = self.starts
+        if not worn:
+            return tuple(sorted([(name, value) for name, value in values.items() if plant.get(name, value) != value]))
+        return tuple(sorted([(name, value) for name, value in values.items() if plant.get(name, value) != value or wear.get(name, value) != value]))
 
     def away(self, values: Mapping[str, float]) -> dict[str, float]:
         """By name how far the plant's values are off the base model's."""
-        start = self.templates[0]
-        return {name: value - float(start[name].flat[0]) for name, value in self.relevant(values, False)}
+        return {name: value - self.starts[0][name] for name, value in self.relevant(values, False)}
 
     def pair(self, condition: Condition, values: Mapping[str, float], first_angle: float = 0.0, cage: float = 0.0,
              **plant_values: float | Floats) -> tuple[np.ndarray, np.ndarray]:

@@ -113,14 +113,12 @@ enum status free_state(struct instance *i, const char *function, void **state)
 {
     if (!state || !*state)
         return OK;
-    struct state *s = known(i, function, *state);
+    struct state *s = known(i, function, *state), **link = &i->states;
     if (!s)
         return ERROR;
-    for (struct state **link = &i->states; *link; link = &(*link)->next)
-        if (*link == s) {
-            *link = s->next;
-            break;
-        }
+    while (*link != s)
+        link = &(*link)->next;
+    *link = s->next;
     free(s);
     *state = NULL;
     return OK;

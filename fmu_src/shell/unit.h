@@ -87,7 +87,7 @@ struct unit {
     int fault_count;
     const struct caution *cautions; /* at most 32 */
     int caution_count;
-    const char *const *categories;
+    const char *const *categories; /* at most 32, those of all statuses among them */
     int category_count;
     uint32_t guarded_cells; /* leading cells that a failing step may have changed */
     double longest_step;

@@ -24,7 +24,8 @@ const struct variable *find_variable(uint32_t cell)
             high = middle;
     }
     const struct variable *v = &unit.variables[low];
-    return unit.variable_count && cell >= v->first && cell - v->first < v->size ? v : NULL;
+    /* A cell before the first one wraps round to a large number. */
+    return cell - v->first < v->size ? v : NULL;
 }
 
 /* "mesh_force[1,7]" */
@@ -73,7 +74,7 @@ static size_t resolve_span(struct instance *i, const struct call *call, size_t k
     size_t left = call->reference_count - k, count = 1;
     if (resolve(i, call, k, span))
         return 0;
-    if (call->whole_variables || !span->variable)
+    if (call->whole_variables)
         return 1;
     size_t most = span->variable->size - (span->cell - span->variable->first);
     while (count < left && count < most && references[count] == references[0] + count)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fmu_src.names import found_by_name
 from fmu_src.units import conversion
 from reducers.completion.complete import RULES, Completion, Number
+from reducers.completion.supports import SUPPORT_UNITS
 from reducers.reducer import Reducer
 
 
@@ -30,9 +31,10 @@ class Row:
     def tests(self) -> bool:
         """Whether it tests a rule: the file has the number from its source, and the completion has it by a rule that was published.
 
-        Ranges that are assumed were so with the library's reducers in sight: that these lie inside says nothing.
+        Ranges that are assumed were so with the library's reducers in sight: that these lie inside says nothing.  Nor do supports and
+        friction, which the library's files have by the same rules.
         """
-        return not self.source.startswith("assumed") and self.by_published_rule
+        return self.name not in SUPPORT_UNITS and not self.source.startswith("assumed") and self.by_published_rule
 
 
 def against(completion: Completion, full: Reducer) -> list[Row]:

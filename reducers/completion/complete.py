@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from reducers.completion.dials import ASSUMED, Dial, dials_of
 from reducers.completion.geometry import check_geometry
 from reducers.completion.given import Given
+from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS, SUPPORT_RULES, SUPPORT_UNITS, supports_of
 
 # In the order of the file; all that is computed here is in these units.
 UNITS = {
@@ -16,7 +17,7 @@ UNITS = {
     "roller.stiffness_lankarani": "N", "first_stage.ratio": "1", "first_stage.sun_teeth": "1", "input.speed": "rpm", "output.load_torque": "N.m",
     "wear.run_in_crank_speed": "rpm", "disc.mass": "kg", "disc.inertia": "kg.m^2", "crank.mass": "kg", "crank.inertia": "kg.m^2",
     "carrier.mass": "kg", "carrier.inertia": "kg.m^2", "sun.inertia": "kg.m^2",
-} | {dial.name: dial.unit for dial in ASSUMED}  # fmt: skip
+} | SUPPORT_UNITS | {dial.name: dial.unit for dial in ASSUMED}  # fmt: skip
 # By which rule a number comes, and the dial of its own that the rule has.
 RULES = {
     "pin.radius": ("R_p sin(pi/z_p) / K2", "K2"), "crank.eccentricity": ("K1 R_p / z_p", "K1"),
@@ -34,7 +35,7 @@ RULES = {
     "crank.mass": ("two steel lobes and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the lobe's", ""),
     "carrier.mass": ("a steel plate", "carrier_bulk"), "carrier.inertia": ("radius of inertia 0.63 of the pin circle's", ""),
     "sun.inertia": ("a steel shaft as thick as the sun", "sun_length"),
-}  # fmt: skip
+} | SUPPORT_RULES  # fmt: skip
 # None of these may move alone: races and rollers fit each other, teeth are whole.
 NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_stage.sun_teeth")
 COMPLETED, GIVEN = "completed", "given"
@@ -77,7 +78,7 @@ def complete(given: Given) -> Completion:
 
     A number's range adds what each dial, at either end of its own range, makes of it, see ``span``.
     """
-    dials = dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion)
+    dials = [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
     middle = {dial.name: dial.value for dial in dials}
     values = numbers_of(given, middle)
     check_geometry(given, values)
@@ -163,7 +164,9 @@ def numbers_of(given: Given, dial: Mapping[str, float]) -> dict[str, float]:
     take("input.speed", given.ratio * given.speed)
     take("wear.run_in_crank_speed", given.speed * lobes)
     masses(take, dial, ring, pin, axis, width, stage, hole, found["inner_race.radius"], cranks)
-    for one in ASSUMED:
+    for name, value in supports_of(found, dial, pins, cranks, given.rollers).items():
+        take(name, value)
+    for one in (*ASSUMED, *SUPPORT_ASSUMED):
         take(one.name, dial[one.name])
     return {name: found[name] for name in UNITS}
 

@@ -33,27 +33,11 @@ def check_geometry(given: Given, values: Mapping[str, float]) -> None:
             f"--ratio {given.ratio:g} with --pins {pins} and {cranks} cranks: planets of {planet} teeth around a sun of {sun} overlap;"
             f" give --cranks {cranks - 1}, or look at ratio and pins"
         )
-    room = ring * math.sin(math.pi / pins)
     if given.diameter is not None and ring + pin >= 0.5 * given.diameter:
         raise InputFault(
             f"--diameter {given.diameter:g} mm: a ring of pins of {2.0 * (ring + pin):.4g} mm does not fit inside; give the outer diameter of the housing"
         )
-    if pin >= room:
-        raise InputFault(
-            f"pin.radius = {pin:.4g} mm: {pins} pins on a circle of {ring:.4g} mm radius overlap; the pins' radius must be below {room:.4g} mm,"
-            f" or pin.circle_radius above {ring * pin / room:.4g} mm, or --pins smaller"
-        )
-    if eccentricity * pins >= ring:
-        raise InputFault(
-            f"crank.eccentricity = {eccentricity:.4g} mm: K1 = e z_p / R_p = {eccentricity * pins / ring:.3g} makes loops of the profile; it must be"
-            f" below 1: an eccentricity below {ring / pins:.4g} mm, or pin.circle_radius above {eccentricity * pins:.4g} mm"
-        )
-    most = largest_pin(ring, eccentricity, pins)
-    if pin >= most:
-        raise InputFault(
-            f"pin.radius = {pin:.4g} mm: the flank is undercut; with crank.eccentricity = {eccentricity:.4g} mm and pin.circle_radius = {ring:.4g} mm the"
-            f" pins' radius must be below {most:.4g} mm; give a smaller pin or a smaller eccentricity"
-        )
+    check_profile(pins, ring, pin, eccentricity)
     rim = ring - eccentricity - pin - axis
     if hole >= rim:
         raise InputFault(
@@ -79,4 +63,25 @@ def check_geometry(given: Given, values: Mapping[str, float]) -> None:
     if values["roller.length"] > values["mesh.width"] * (1.0 + 1e-9):
         raise InputFault(
             f"roller.length = {values['roller.length']:.4g} mm: longer than the disc is wide (mesh.width = {values['mesh.width']:.4g} mm); give a shorter one"
+        )
+
+
+def check_profile(pins: int, ring: float, pin: float, eccentricity: float) -> None:
+    """Of any drive with pins; lengths in mm.  InputFault for pins that overlap, loops and undercut."""
+    room = ring * math.sin(math.pi / pins)
+    if pin >= room:
+        raise InputFault(
+            f"pin.radius = {pin:.4g} mm: {pins} pins on a circle of {ring:.4g} mm radius overlap; the pins' radius must be below {room:.4g} mm,"
+            f" or pin.circle_radius above {ring * pin / room:.4g} mm, or --pins smaller"
+        )
+    if eccentricity * pins >= ring:
+        raise InputFault(
+            f"crank.eccentricity = {eccentricity:.4g} mm: K1 = e z_p / R_p = {eccentricity * pins / ring:.3g} makes loops of the profile; it must be"
+            f" below 1: an eccentricity below {ring / pins:.4g} mm, or pin.circle_radius above {eccentricity * pins:.4g} mm"
+        )
+    most = largest_pin(ring, eccentricity, pins)
+    if pin >= most:
+        raise InputFault(
+            f"pin.radius = {pin:.4g} mm: the flank is undercut; with crank.eccentricity = {eccentricity:.4g} mm and pin.circle_radius = {ring:.4g} mm the"
+            f" pins' radius must be below {most:.4g} mm; give a smaller pin or a smaller eccentricity"
         )

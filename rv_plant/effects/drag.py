@@ -17,8 +17,8 @@ EFFECT = Effect(
     "Palmgren's (n nu)^(2/3); 0.1 to 0.6 N m at the input",
     "independent of load; falls with temperature (cold start); grows with speed",
     (
-        amplitude("seal_torque", "N.m", "seals: constant torque at the input", 0.1, 0.0, 100.0, sign=1),
-        amplitude("churning_torque", "N.m", "churning at the reference speed and temperature", 0.1, 0.0, 100.0, sign=1),
+        amplitude("seal_torque", "N.m", "seals: constant torque at the input beyond the file's", 0.1, 0.0, 100.0, sign=1),
+        amplitude("churning_torque", "N.m", "churning beyond the file's, at the reference speed and temperature", 0.1, 0.0, 100.0, sign=1),
         shape("churning_speed", "rad/s", "input speed n_0 that the churning torque holds for", 209.44, 1e-3, 1e5, "2000 rpm"),
         shape("viscosity_slope", "1/K", "beta: relative fall of viscosity with temperature", 0.035, 0.0, 0.2,
               "assumed: mineral oil, halves in 20 K", grid=(0.02, 0.035, 0.05)),
@@ -30,10 +30,11 @@ EFFECT = Effect(
 
 @kernel
 def after(r):
-    if r.seal_torque + r.churning_torque == 0.0:
+    seals, churning = r.input_seal_torque + r.seal_torque, r.input_churning_torque + r.churning_torque
+    if seals + churning == 0.0:
         return
     viscosity = r.grease_thinning * math.exp(-r.viscosity_slope * (r.reducer_temperature - r.viscosity_reference))
     lobes = r.lobe_gap_added.shape[1]
     speed = abs(r.crank_speed / lobes * total_ratio(r.first_stage_ratio, lobes + 1, lobes))
-    torque = r.seal_torque + r.churning_torque * (speed / r.churning_speed * viscosity) ** (2.0 / 3.0)
+    torque = seals + churning * (speed / r.churning_speed * viscosity) ** (2.0 / 3.0)
     r.friction_power += torque * speed

@@ -32,8 +32,8 @@ EFFECT = Effect(
                   source="ideal part", group="mesh"),
         amplitude("sun_runout", "m", "run-out of the sun, along the line of action", 10 * UM, -200 * UM, 200 * UM, group="sun"),
         amplitude("planet_runout", "m", "run-out of planet 1, along the line of action", 10 * UM, -200 * UM, 200 * UM, group="planet"),
-        amplitude("backlash", "m", "play between the flanks, along the normal", 20 * UM, 0.0, 1000 * UM, sign=1,
-                  source="assumed: none, as in both sources", group="backlash"),
+        amplitude("backlash", "m", "play between the flanks beyond the file's, along the normal", 20 * UM, 0.0, 1000 * UM, sign=1,
+                  source="none beyond the reducer file", group="backlash"),
         # Beside 0 a quarter of a mesh of 12 teeth, of the sun and of a planet with i1 = 3.
         shape("first_stage_phase", "rad", "the sun's phase at angle 0", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.1309, 1.5708, 4.7124), group="mesh sun planet"),
@@ -51,7 +51,7 @@ def before(r):
     sun = (total_ratio(r.first_stage_ratio, pins, lobes) - 1.0) * r.ideal_output + r.first_stage_phase
     lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
     side = 1.0 if r.load_torque >= 0.0 else -1.0
-    flank = side * (0.5 * r.backlash + r.tooth_error * math.cos(r.sun_teeth * sun))
+    flank = side * (0.5 * (r.tooth_backlash + r.backlash) + r.tooth_error * math.cos(r.sun_teeth * sun))
     flank_rate = -side * r.tooth_error * r.sun_teeth * math.sin(r.sun_teeth * sun)
     for c in range(cranks):
         at_crank = sun - crank_position(r, c)

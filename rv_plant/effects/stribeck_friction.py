@@ -18,6 +18,7 @@ from fmu_src.effect import Effect, amplitude, shape
 from fmu_src.kernel import kernel
 from fmu_src.variables import Variable
 from rv_plant.geometry import shortening, sliding_per_crank_angle
+from rv_plant.supports import sliding_friction, sticking_friction
 
 ELEMENTS = 6
 EFFECT = Effect(
@@ -27,10 +28,10 @@ EFFECT = Effect(
     "input torque against speed has a minimum; a part in proportion to load; hysteresis at reversal with the"
     " input held, its width in proportion to load",
     (
-        amplitude("friction_coefficient", "1", "coefficient mu_c of disc and pin", 0.03, 0.0, 0.5, sign=1, group="mesh"),
-        amplitude("friction_excess", "1", "mu_s: static friction above mu_c", 0.03, 0.0, 0.5, sign=1, group="mesh"),
+        amplitude("friction_coefficient", "1", "coefficient mu_c of disc and pin beyond the file's", 0.03, 0.0, 0.5, sign=1, group="mesh"),
+        amplitude("friction_excess", "1", "mu_s: static friction above mu_c, beyond the file's", 0.03, 0.0, 0.5, sign=1, group="mesh"),
         amplitude("friction_viscous", "s/m", "growth of the coefficient with sliding speed", 0.1, 0.0, 10.0, sign=1, group="viscous"),
-        amplitude("bearing_friction", "1", "coefficient of the needle bearings at the inner raceway", 0.002, 0.0, 0.1, sign=1, group="bearings"),
+        amplitude("bearing_friction", "1", "coefficient of the needle bearings beyond the file's, inner raceway", 0.002, 0.0, 0.1, sign=1, group="bearings"),
         shape("stribeck_speed", "m/s", "speed v_s at which static friction has gone", 0.02, 1e-4, 1.0, "assumed: 5 to 50 mm/s",
               grid=(0.005, 0.02, 0.05), group="mesh"),
         shape("presliding_angle", "rad", "turning theta_p of the held output at which half the elements slip", 2e-5, 1e-7,
@@ -49,7 +50,7 @@ def before(r):
     """What friction can hold at the output, from the last contact forces."""
     last = r.friction_torque
     r.friction_torque = 0.0
-    if r.fidelity != 0 or r.input_speed != 0.0 or r.friction_coefficient + r.friction_excess == 0.0:
+    if r.fidelity != 0 or r.input_speed != 0.0 or sliding_friction(r) + sticking_friction(r) == 0.0:
         return
     discs, pins = r.mesh_force_now.shape
     lobes = pins - 1
@@ -64,7 +65,7 @@ def before(r):
                 root = math.sqrt(1.0 + k1 * k1 - 2.0 * k1 * c)
                 arm = r.pin_circle_radius * root + r.eccentricity * lobes * (c - k1) / root - r.pin_radius
                 held += force * abs(arm)
-    r.friction_torque = (r.friction_coefficient + r.friction_excess) * held
+    r.friction_torque = (sliding_friction(r) + sticking_friction(r)) * held
     if r.friction_torque > last:
         carrier = 3 * discs
         for i in range(ELEMENTS):
@@ -108,13 +109,14 @@ def after(r):
     else:
         for i in range(ELEMENTS):
             r.slider[i] = r.z[carrier]
-    if r.friction_coefficient + r.friction_excess + r.friction_viscous + r.bearing_friction == 0.0:
+    coulomb, excess, bearings = sliding_friction(r), sticking_friction(r), r.roller_friction + r.bearing_friction
+    if coulomb + excess + r.friction_viscous + bearings == 0.0:
         return
     discs, cranks, rollers = r.roller_force_now.shape
     pins = r.mesh_force_now.shape[1]
     lobes = pins - 1
     k1 = shortening(r.eccentricity, lobes, r.pin_circle_radius)
-    rolling = abs(r.crank_speed) * (1.0 + 1.0 / lobes) * r.inner_race_radius * r.bearing_friction
+    rolling = abs(r.crank_speed) * (1.0 + 1.0 / lobes) * r.inner_race_radius * bearings
     loss = 0.0
     for d in range(discs):
         for j in range(pins):
@@ -122,7 +124,7 @@ def after(r):
             if force > 0.0:
                 v = abs(r.crank_speed * sliding_per_crank_angle(
                     r.mesh_phase[d, j], lobes, r.pin_circle_radius, r.pin_radius, k1))
-                mu = r.friction_coefficient + r.friction_excess * math.exp(-v / r.stribeck_speed) + r.friction_viscous * v
+                mu = coulomb + excess * math.exp(-v / r.stribeck_speed) + r.friction_viscous * v
                 loss += mu * force * v
         for c in range(cranks):
             for k in range(rollers):

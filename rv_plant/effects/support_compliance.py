@@ -1,4 +1,4 @@
-"""Compliance of what holds and connects the contacts: springs in series.
+"""Compliance of what holds and connects the contacts beyond that of the reducer file: springs in series.
 
     housing: turning = c_h M;  output: twist = c_o T;  each crank support: shift = c_s F;
     main bearings: shift = c_m F;  sun and planet: c_f along the tooth normal
@@ -9,11 +9,11 @@ of the contacts alone; supports about 1.4e8 N/m per crank.
 
 from fmu_src.effect import Effect, amplitude
 from fmu_src.kernel import kernel
-from rv_plant.gear_stage import planet_radius
+from rv_plant.supports import crank_turn_of_teeth
 
 
 def _spring(name, unit, text, scale, high, group):
-    return amplitude(name, unit, text, scale, 0.0, high, sign=1, source="assumed: rigid, as in both sources", group=group)
+    return amplitude(name, unit, text, scale, 0.0, high, sign=1, source="nothing beyond the reducer file", group=group)
 
 
 EFFECT = Effect(
@@ -43,8 +43,5 @@ def prepare(r):
         crank = carrier + 3 + 3 * c
         r.compliance[crank] += r.crank_support_compliance
         r.compliance[crank + 1] += r.crank_support_compliance
-        # A tooth contact of compliance c along its normal turns the crank by c M/(r2 cos alpha)^2.
-        lever = planet_radius(r.crank_circle_radius, r.first_stage_ratio) * r.pressure_cosine
-        if lever > 0.0:
-            r.compliance[crank + 2] += r.first_stage_compliance / (lever * lever)
+        r.compliance[crank + 2] += crank_turn_of_teeth(r, r.first_stage_compliance)
     r.compliance[r.z.shape[0] - 1] += r.housing_compliance

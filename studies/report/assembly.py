@@ -61,7 +61,8 @@ def pin_forces(reducer: Reducer) -> Floats:
 def assembly(reducer: Reducer, diameter: float | None) -> Figure:
     """All parts; ``diameter`` of the housing [mm] where it is known."""
     s, t = reducer.starts, reducer.topology
-    reach = 1.02 * (MM * (s["pin_circle_radius"] + s["pin_radius"]) if diameter is None else 0.5 * diameter)
+    # Without a housing as far as the longest force may stand out.
+    reach = 1.02 * ((1.0 + 0.8 * LONGEST_FORCE) * MM * s["pin_circle_radius"] if diameter is None else 0.5 * diameter)
     traces = [] if diameter is None else [path(ring(0.5 * diameter), look.QUIET, 1.5)]
     traces += [path(ring(MM * s["pin_circle_radius"]), look.GRID, 1.0, dash="dot")]
     for d in reversed(range(t.discs)):

@@ -47,7 +47,7 @@ def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], sea
     """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one."""
     folder.mkdir(parents=True, exist_ok=True)
     style = design.style
-    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121"', f'seal = "sha256:{seal}"', "", rig]
+    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121-rigid"', f'seal = "sha256:{seal}"', "", rig]
     for key, at in design.conditions.items():
         speed = at.speed / RPM / (RATIO if style.speed_at == "output" else 1.0)
         lines += [f"[conditions.{key}]", f'{style.speed_at}_speed = "{speed:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',

@@ -15,7 +15,7 @@ from rv_plant.gear_stage import total_ratio
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
-NAME = "RV20E-121"
+NAME = "RV20E-121-rigid"
 HOUR = 3600.0
 # Not those of the tool's bench.
 RESOLUTION = Resolution(flank=72, pin=60, raceway=144)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from discrepancy.campaign.guess.said import Doubt
+from discrepancy.campaign.guess.sheet_layout import layout_of_sheet
 from discrepancy.campaign.guess.text_layout import layout_of
 from discrepancy.campaign.readers import ENDINGS, Options, ReadFault, contents, kind_of, read_columns
 from discrepancy.campaign.readers.csv import first_lines, scan, sniff_decimal
@@ -18,7 +19,8 @@ from fmu_src.reading import reading
 
 # A column is one of numbers if so many of its filled cells are (assumed: the others are dropouts).
 NUMBERS = 0.5
-SHEETS = (".xlsx", ".xls", ".xlsm", ".ods")
+# Sheets of other programs, and of old Excel.
+SHEETS = (".xls", ".xlsb", ".ods")
 # A column of so many different words tells rows apart.
 MOST_WORDS = 20
 
@@ -45,16 +47,20 @@ def table_of(path: Path) -> Table:
         raise InputFault(f"{path}: there is no such file; correct the name")
     kind = kind_of(path)
     if path.suffix.lower() in SHEETS:
-        raise InputFault(f"{path}: sheets are not read; save the sheet as CSV (UTF-8, commas or semicolons) and name that file")
+        raise InputFault(f"{path}: such sheets are not read; save it as .xlsx (or the sheet as CSV) and name that file")
     if kind is None:
         raise InputFault(f"{path}: the ending does not tell the format; name it {', '.join(ENDINGS)}")
-    if kind != "csv":
+    if kind not in ("csv", "xlsx"):
         units = contents(path, kind)
         raw = together(path, {name: name for name in units}, {})
         return Table(path, numeric(raw)[0], {name: name for name in units}, units, {})
-    with reading(path, "a table in text", "name the table's columns in one line above it"):
-        layout = layout_of(path)
     doubts: list[Doubt] = []
+    with reading(path, "a table", "name the table's columns in one line above it"):
+        if kind == "csv":
+            layout = layout_of(path)
+        else:
+            layout, others = layout_of_sheet(path)
+            doubts += others
     keys = dict(layout.reading)
     once = {name: header for name, header in zip(layout.names, layout.headers) if name and layout.names.count(name) == 1}
     raw = {}
@@ -63,7 +69,7 @@ def table_of(path: Path) -> Table:
     except InputFault as fault:
         if "may be a thousand" not in str(fault):
             raise
-        keys["thousands"] = "." if decimal_of(path, keys) == "," else ","
+        keys["thousands"] = "." if kind == "csv" and decimal_of(path, keys) == "," else ","
         raw = together(path, once, keys)
         sign = keys["thousands"]
         doubts.append(Doubt(path.name, f'numbers such as 1{sign}234 are taken for thousands', f'if they are fractions: decimal = "{sign}" in campaign.toml'))

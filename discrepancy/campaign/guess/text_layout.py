@@ -49,30 +49,35 @@ def layout_of(path: Path) -> Layout:
         raise ReadFault("no table of numbers in its first lines; name the table's columns in one line above it")
     best = max(cuts, key=lambda c: c.score)
     width = len(best.rows[best.first][1])
-    head = best.first - 1
-    units: tuple[str, ...] = ()
-    if head >= 1 and is_unit_line(best.rows[head][1]) and fits(best.rows[head - 1][1], width):
-        units = tuple(best.rows[head][1])
-        head -= 1
     reading: dict[str, Any] = {"encoding": encoding} if encoding not in ("utf-8-sig", "utf-16", "cp1252", "gb18030", "cp932") else {}
-    if head >= 0 and fits(best.rows[head][1], width) and not any(FIGURE.match(field) for field in best.rows[head][1]):
-        start = best.rows[head][0]
-        headers = tuple(field.strip() for field in best.rows[head][1][:width])
-        names = headers
-        if units:
-            reading["units_line"] = True
-    else:
+    start, headers, units = head_of(best)
+    names = headers
+    if units:
+        reading["units_line"] = True
+    if not headers:
         # Programs that write "# angle te" above their numbers.
-        start = best.rows[best.first][0]
         said = next((line.lstrip(COMMENT + " ") for line in reversed(lines[:start]) if line.startswith(COMMENT)), "")
         headers = tuple(fields) if len(fields := parted(said, best.delimiter)) == width else tuple(str(k + 1) for k in range(width))
-        reading["header"], units = False, ()
+        reading["header"] = False
         names = tuple(str(k + 1) for k in range(width))
     if any(not line.startswith(COMMENT) and line.strip() for line in lines[:start]):
         reading["skip_lines"] = start
     if sniffed(path, encoding, int(start if "skip_lines" in reading else 0)) != best.delimiter:
         reading["delimiter"] = best.delimiter
     return Layout(reading, names, headers, (*units, *[""] * width)[:width], tuple(line for line in lines[:start] if line.strip()))
+
+
+def head_of(best: Cut) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
+    """(number of the line where the table begins, its headers, its line of units), the last two empty where there are none."""
+    width = len(best.rows[best.first][1])
+    head = best.first - 1
+    units: tuple[str, ...] = ()
+    if head >= 1 and is_unit_line(best.rows[head][1]) and fits(best.rows[head - 1][1], width):
+        units = tuple(best.rows[head][1])
+        head -= 1
+    if head >= 0 and fits(best.rows[head][1], width) and not any(FIGURE.match(field) for field in best.rows[head][1]):
+        return best.rows[head][0], tuple(field.strip() for field in best.rows[head][1][:width]), units
+    return best.rows[best.first][0], (), ()
 
 
 def sniffed(path: Path, encoding: str, skip: int) -> str:

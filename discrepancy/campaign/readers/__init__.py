@@ -14,17 +14,20 @@ import numpy as np
 
 from fmu_src.faults import InputFault, MissingPart
 from fmu_src.reading import reading, require_size, shown
+from fmu_src.reading_apart import SECONDS_PER_BYTE as USUAL
 from fmu_src.reading_apart import read_apart, restored
 
 # Ending of the file's name -> reader's module.  The modules import their libraries themselves:
 # a campaign of CSV files needs none of the others.
 ENDINGS = {
     ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".parquet": "parquet", ".mat": "mat", ".mf4": "mdf",
-    ".mdf": "mdf", ".tdms": "tdms",
+    ".mdf": "mdf", ".tdms": "tdms", ".xlsx": "xlsx", ".xlsm": "xlsx",
 }  # fmt: skip
 
 # Formats whose libraries trust what they read.
-APART = ("mat", "mdf", "parquet", "tdms")
+APART = ("mat", "mdf", "parquet", "tdms", "xlsx")
+# Seconds of a core for a byte (assumed: ten times what a million rows of a workbook took, 1.4e-6).
+SECONDS_PER_BYTE = {"xlsx": 1.4e-5}
 # Bytes of a file, and of what it is when it is unpacked (assumed: hours of many channels).
 MOST, MOST_UNPACKED = 2_000_000_000, 2_000_000_000
 # Signs of a list of names in a fault.
@@ -44,6 +47,7 @@ class Options:
     units_line: bool = False
     skip_lines: int = 0
     group: str | None = None
+    sheet: str | None = None
     align: str | None = None
 
 
@@ -55,13 +59,34 @@ def kind_of(path: Path, stated: str | None = None) -> str | None:
 
 def contents(path: Path, kind: str) -> dict[str, str]:
     """Columns of a file of a binary format, with the units that it states ("" for none)."""
+    found: dict[str, str] = asked_apart("contents_as", path, kind)
+    return found
+
+
+def first_rows(path: Path, most: int) -> tuple[str, tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    """Of a workbook: the first sheet that holds something, all that do, and the first rows of that one as texts."""
+    sheet, sheets, rows = asked_apart("first_rows_as", path, "xlsx", most)
+    return sheet, sheets, rows
+
+
+def asked_apart(function: str, path: Path, kind: str, *arguments: object) -> Any:
+    """What a function of this module finds in the process that reads binary formats."""
     require_size(path, MOST)
     with reading(path, kind, "check the file"):
         try:
-            found: dict[str, str] = read_apart(f"{__name__}:contents_as", path, kind)
+            return apart(function, path, kind, *arguments)
         except ModuleNotFoundError as problem:
             raise MissingPart(f"{path.name}: reading {kind}", problem.name or kind, "measurements") from None
-    return found
+
+
+def apart(function: str, path: Path, kind: str, *arguments: object) -> Any:
+    return read_apart(f"{__name__}:{function}", path, kind, *arguments, seconds_per_byte=SECONDS_PER_BYTE.get(kind, USUAL))
+
+
+def first_rows_as(path: Path, kind: str, most: int) -> Any:
+    """In the process that reads binary formats."""
+    with reading(path, kind, "check the file"):
+        return import_module(f"{__name__}.{kind}").first_rows(path, most)
 
 
 def contents_as(path: Path, kind: str) -> dict[str, str]:
@@ -79,7 +104,7 @@ def read_columns(path: Path, names: set[str], options: Options, place: str) -> d
     if kind is None:
         raise InputFault(
             f"{place}: file = {path.name!r}: the ending does not tell the format; name it {', '.join(ENDINGS)},"
-            ' or state format = "csv" | "parquet" | "mat" | "mdf" | "tdms"'
+            ' or state format = "csv" | "parquet" | "mat" | "mdf" | "tdms" | "xlsx"'
         )
     columns = read_by(path, names, options, kind, place)
     lengths = {name: len(column) for name, column in columns.items()}
@@ -97,7 +122,7 @@ def read_by(path: Path, names: set[str], options: Options, kind: str, place: str
         with reading(path, kind, "check the file, or state its format"):
             require_size(path, MOST)
             arguments = (path, kind, sorted(names), vars(options))
-            columns: dict[str, np.ndarray] = restored(read_apart(f"{__name__}:read_as", *arguments)) if kind in APART else read_as(*arguments)
+            columns: dict[str, np.ndarray] = restored(apart("read_as", *arguments)) if kind in APART else read_as(*arguments)
     except ModuleNotFoundError as problem:
         raise MissingPart(f"{place}: file = {path.name!r}: reading {kind}", problem.name or kind, "measurements") from None
     except InputFault as fault:

@@ -6,7 +6,7 @@ what a fit leaves over.
 """
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, mean_excess, project_out
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -68,5 +68,5 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
         width = root.shape[1]
         shares = {c: float(np.trace(g)) for c, g in component_grams(space, projected[:, alive] @ root).items()}
         statistic /= mean_excess(factors, shares)
-        outcome[name] = (statistic, width, float(fisher.sf(statistic / width, width, effective_dof(space, shares))))
+        outcome[name] = (statistic, width, float(fdtrc(width, effective_dof(space, shares), statistic / width)))
     return {k: (s, w, min(1.0, p * len(outcome))) for k, (s, w, p) in outcome.items()}

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from discrepancy.inference.base_fit.components import effective_dof
 from discrepancy.inference.base_fit.workspace import Workspace, rows_of
@@ -113,7 +113,7 @@ class HeldOutJudge:
         spread = self.directions.T @ self._sensitivities(rival)
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
-        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fisher.sf(unexplained / width, width, dof)),
+        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
                        self.rms(rival.fit.values), "held-out runs")
 
     def _sensitivities(self, rival: Refit) -> Floats:

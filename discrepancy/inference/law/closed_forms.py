@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from fmu_src.arrays import Floats
 
@@ -95,7 +95,7 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
         # Constants of x^2 and of 1 differ by many decades: in their own sizes, or the small ones would seem known exactly.
         sizes = np.maximum(np.linalg.norm(best.jac, axis=0), 1e-300)
         covariance = np.linalg.pinv((best.jac / sizes).T @ (best.jac / sizes)) / np.outer(sizes, sizes) * max(2 * best.cost / dof, 1.0)
-        half = student.ppf(0.975, dof) * np.sqrt(np.maximum(np.diag(covariance), 0.0))
+        half = stdtrit(dof, 0.975) * np.sqrt(np.maximum(np.diag(covariance), 0.0))
         linear = {"a", "b"} | ({"c"} if name in ("quadratic", "periodic") else set())
         parameters = {n: float(v * (scale if n in linear else 1.0)) for n, v in zip(names, best.x)}
         intervals = {n: (float((v - h) * f), float((v + h) * f)) for n, v, h in zip(names, best.x, half)

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from discrepancy.inference.base_fit.components import effective_dof, excess, mean_excess
 from discrepancy.inference.base_fit.fit import Fit
@@ -161,7 +161,7 @@ class Localiser:
             shares[(whitener.quantity, "main")] += main
         dof = effective_dof(self.space, shares)
         statistic /= mean_excess(self.factors, shares)
-        return Group(stream, feature, dependence, statistic, rank, dof, float(fisher.sf(statistic / rank, rank, dof)), 1.0, 0.0, tuple(indices))
+        return Group(stream, feature, dependence, statistic, rank, dof, float(fdtrc(rank, dof, statistic / rank)), 1.0, 0.0, tuple(indices))
 
     def _conditions(self, scores: Mapping[int, Floats]) -> dict[str, dict[str, float]]:
         """Misfit of each condition and signal in standard deviations of the mean feature, for drawing."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from discrepancy.inference.noise.outliers import CUT, huber_weights
 from discrepancy.inference.noise.replicates import Deviation
@@ -35,7 +35,7 @@ def pattern_variances(
     shape = [predictions[d.index][d.rows] for d in deviations]
     if all(np.std(h) > 1e-6 * (np.sqrt(np.mean(h**2)) + 1e-300) for h in shape):
         with_gain = _amounts(stream, deviations, predictions, [*names, "gain"])
-        if chi2.sf(with_gain[0]["gain"] / (with_gain[1]["gain"] / dof + 1e-300), dof) < 0.003:
+        if chdtrc(dof, with_gain[0]["gain"] / (with_gain[1]["gain"] / dof + 1e-300)) < 0.003:
             (squares, expected), names = with_gain, [*names, "gain"]
     patterns = {n: float(max(squares[n] - expected[n], 0.0) / dof) for n in names}
     return patterns, {n: max(dof, 1.0) for n in patterns}

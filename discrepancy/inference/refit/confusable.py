@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import norm
-from scipy.stats import t as student
+from scipy.special import ndtr, stdtrit
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -91,7 +90,7 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
     inside = simple or inside
     best = ordered[0] if penalised(inside[0]) - penalised(ordered[0]) > margin * max(1.0, inflation) else inside[0]
     if dof < 200:
-        margin = student.isf(norm.sf(np.sqrt(margin)), max(dof, 2.0)) ** 2
+        margin = stdtrit(max(dof, 2.0), ndtr(-np.sqrt(margin))) ** 2
     near = [r for r in inside if penalised(r) - penalised(best) <= margin * max(1.0, inflation)]
     return near if best in near else [best, *near]
 

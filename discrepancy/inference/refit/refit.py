@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof
 from discrepancy.inference.base_fit.fit import Fit, fit_of
@@ -107,7 +107,7 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
-        half = student.ppf(0.5 + coverage / 2, dof) * deviation
+        half = stdtrit(dof, 0.5 + coverage / 2) * deviation
         value = fit.values[p.name]
         shape = not any(p is a for c in result.candidates for a in c.amplitudes)
         if shape and p.lower > 0 and value > 0:

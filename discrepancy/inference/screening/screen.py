@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.base_fit.fit import Fit
@@ -307,8 +307,8 @@ def _tail(value: float, sims: Floats, width: int, dof: float) -> float:
     bend = sims[int(0.99 * draws)]
     if value <= bend or bend <= 0:
         return float((draws - np.searchsorted(sims, value) + 1) / (draws + 1))
-    reference = fisher.sf(bend / width, width, dof)
-    return float(0.01 * fisher.sf(value / width, width, dof) / max(reference, 1e-300))
+    reference = fdtrc(width, dof, bend / width)
+    return float(0.01 * fdtrc(width, dof, value / width) / max(reference, 1e-300))
 
 
 def _start(candidate: Candidate, block: Block, amplitude: Floats) -> dict[str, float]:

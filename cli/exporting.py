@@ -1,0 +1,53 @@
+"""``--export`` and ``--picture``: results for other programs and for papers."""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from exports.tables import Table
+    from pages.look import Figure
+
+WIDTH_HELP = "of pictures: single (90 mm, the default), middle (140), double (190), or 85mm, 3.5in ..."
+
+
+def add_exports(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--export", action="append", default=[], metavar="FILE", help="write curves and figures as .csv, .parquet, .mat or .xlsx")
+    command.add_argument("--picture", action="append", default=[], metavar="FILE", help="draw as .svg, .pdf or .png at the width of a paper's column")
+    command.add_argument("--width", metavar="WIDTH", help=WIDTH_HELP)
+
+
+def check_exports(options: argparse.Namespace) -> None:
+    """Before the work: InputFault or MissingPart for what could not be written after it."""
+    if options.export:
+        from exports.write import require_writable
+
+        for name in options.export:
+            require_writable(Path(name))
+    if options.picture or options.width:
+        from pages.paper import require_drawable, width_of
+
+        width_of(options.width or "single")
+        for name in options.picture:
+            require_drawable(Path(name))
+
+
+def write_exports(options: argparse.Namespace, tables: "Callable[[], Sequence[Table]]", figures: "Callable[[], Sequence[Figure]]") -> None:
+    """Write what was asked for and say where it is; on stderr, where JSON goes to stdout."""
+    written: list[Path] = []
+    if options.export:
+        from exports.write import write_tables
+
+        made = tables()
+        for name in options.export:
+            written += write_tables(made, Path(name))
+    if options.picture:
+        from pages.paper import width_of, write_pictures
+
+        drawn = figures()
+        for name in options.picture:
+            written += write_pictures(drawn, Path(name), width_of(options.width or "single"))
+    for path in written:
+        print(path, file=sys.stderr if getattr(options, "json", False) else sys.stdout)

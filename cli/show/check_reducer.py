@@ -1,0 +1,29 @@
+"""A checked reducer file on the screen."""
+
+from cli.screen import WIDTH, console, dense, styled
+from reducers.checking import STATED, Check
+
+
+def show(found: Check) -> None:
+    """What nobody stated first, for it is what one may want to; then what does not fit."""
+    out = console(WIDTH)
+    filled = [n for n in found.numbers if n.kind != STATED]
+    out.print(f"{found.reducer.name}: {len(found.numbers) - len(filled)} numbers stated, {len(filled)} filled in")
+    if filled:
+        table = dense("not stated in the file")
+        for head in ("number", "value", "unit", "range", "from"):
+            table.add_column(head, justify="right" if head in ("value", "range") else "left", overflow="fold", no_wrap=head != "from")
+        for n in filled:
+            span = f"{n.low:.3g} to {n.high:.3g}" if n.low is not None and n.high is not None else ""
+            table.add_row(n.name, f"{n.value:.4g}", n.unit, span, n.source)
+        out.print(table)
+    f = found.figures
+    out.print(f"ratio {f['ratio']:.4g}, K1 = {f['K1']:.3f}, K2 = {f['K2']:.3f}, pins up to {f['largest_pin_mm']:.4g} mm without undercut")
+    for text in found.doubts:
+        out.print(styled(("doubtful: ", "yellow"), text))
+    for text in found.faults:
+        out.print(styled(("cannot be made: ", "bold red"), text))
+    if found.completing:
+        out.print(f"to have them completed by design rules, with ranges:\n  {found.completing}", soft_wrap=True)
+    if not found.faults:
+        out.print("its parts fit each other" + (", but look at what is doubtful" if found.doubts else ""))

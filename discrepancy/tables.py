@@ -1,0 +1,120 @@
+"""Results of comparison and diagnosis as tables that other programs read, in the units of a bench."""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.compare import Comparison
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.key_figures import KeyFigure
+from discrepancy.scales import largest, of_axis, of_parameter, of_signal
+from discrepancy.verdict import Answer
+from exports.tables import Column, Table, rows_table
+from fmu_src.arrays import Floats
+
+# Keys of a comparison's rows that are in the signal's unit.
+SCALED = ("error", "noise_floor")
+
+
+def tables_of(result: Comparison | Answer) -> list[Table]:
+    """Tables of a result; the first is what most would read, curves come last, one table a signal."""
+    return comparison_tables(result) if isinstance(result, Comparison) else answer_tables(result)
+
+
+def comparison_tables(result: Comparison) -> list[Table]:
+    """Errors and noise of runs and signals, key figures, and every sample measured and predicted."""
+    space = result.diagnostician.space
+    curves = curve_tables(space, {"predicted": result.predictions}, result.model.campaign)
+    return [
+        rows_table("runs", [in_bench_units(row) for row in result.runs], {}), rows_table("signals", [in_bench_units(row) for row in result.signals], {}),
+        figure_rows(result.figures), *curves,
+    ]  # fmt: skip
+
+
+def answer_tables(result: Answer) -> list[Table]:
+    """What is named with its parameters, rivals, key figures, and every sample with the base model and the best fit."""
+    found = result.diagnosis
+    space = found.fits.space
+    every = list(range(len(space.records)))
+    predictions = {"base_model": space.predictions(space.base.values, every)}
+    if found.fits.members:
+        predictions["with_effect"] = space.predictions(found.fits.members[0].fit.values, every)
+    rivals = [{"candidate": r["name"], "chi2_difference": none_as_nan(r["chi2_difference"]), "reason": r["reason"]} for r in found.rejected]
+    verdict = [{"model": result.model.file.name, "campaign": result.model.campaign.name, "verdict": result.verdict, "reason": result.reason}]
+    effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect)], {})
+    named = [effects] if effects.columns else []
+    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
+            *curve_tables(space, predictions, result.model.campaign)]  # fmt: skip
+
+
+def none_as_nan(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def parameter_rows(effect: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """A row a parameter, with the 95 % interval."""
+    rows = []
+    for name, p in effect["parameters"].items():
+        low, high = p["interval"]
+        scale = of_parameter(largest(p["value"], low, high), p["unit"])
+        rows.append({
+            "effect": effect["name"], "variant": effect["variant"], "parameter": name, "value": scale.number(p["value"]), "low": scale.number(low),
+            "high": scale.number(high), "unit": scale.unit, "share_explained": effect["share_explained"],
+            "held_out_error_before": none_as_nan(effect.get("held_out_error_before")), "held_out_error_after": none_as_nan(effect.get("held_out_error_after")),
+        })  # fmt: skip
+    return rows
+
+
+def in_bench_units(row: Mapping[str, Any]) -> dict[str, Any]:
+    scale = of_signal(row["signal"], row["unit"])
+    return dict(row) | {key: scale.number(row[key]) for key in SCALED} | {"unit": scale.unit}
+
+
+def figure_rows(figures: Sequence[KeyFigure]) -> Table:
+    rows = []
+    for f in figures:
+        scale = of_signal("torsional_stiffness" if f.unit == "N.m/rad" else f.signal, f.unit)
+        rows.append({
+            "signal": f.signal, "condition": f.condition, "figure": f.name, "measured": scale.number(f.measured), "model": scale.number(f.model),
+            "noise": scale.factor * f.noise, "unit": scale.unit, "off_in_noise": f.off, "runs": f.runs,
+        })  # fmt: skip
+    return rows_table("key_figures", rows, {})
+
+
+def curve_tables(space: Workspace, predictions: Mapping[str, Sequence[Floats]], campaign: Campaign) -> list[Table]:
+    """Of each signal a row a sample: run, condition, axes, measured, each prediction, noise (standard deviation); what was dropped is left out."""
+    groups: dict[str, list[int]] = defaultdict(list)
+    for i, record in enumerate(space.records):
+        groups[stream_of(record)].append(i)
+    return [curve_table(signal, indices, space, predictions, campaign) for signal, indices in groups.items()]
+
+
+def curve_table(signal: str, indices: Sequence[int], space: Workspace, predictions: Mapping[str, Sequence[Floats]], campaign: Campaign) -> Table:
+    records, whiteners = [space.records[i] for i in indices], [space.noise.whiteners[i] for i in indices]
+    counts = [int(w.kept.sum()) for w in whiteners]
+    scale = of_signal(signal, records[0].unit)
+    columns = [
+        Column(name, "", np.repeat(np.array(values), counts)) for name, values in (
+            ("run", [r.name for r in records]), ("condition", [r.condition for r in records]), ("replicate", [r.replicate for r in records]),
+            ("held_out", [r.held_out for r in records]))
+    ]  # fmt: skip
+    for name in dict.fromkeys(factor for r in records for factor in r.factors if factor != "direction"):
+        axis = of_axis(name, campaign)
+        values = [axis.number(r.factors[name]) if name in r.factors else float("nan") for r in records]
+        columns.append(Column(f"{name}_set", axis.unit, np.repeat(values, counts)))
+    for name in dict.fromkeys(axis for r in records for axis in r.axes):
+        axis = of_axis(name, campaign)
+        parts = [axis.factor * np.asarray(r.axes[name], float)[w.kept] + axis.offset if name in r.axes else np.full(n, np.nan)
+                 for r, w, n in zip(records, whiteners, counts)]  # fmt: skip
+        columns.append(Column(name, axis.unit, np.concatenate(parts)))
+    stacks = {"measured": [r.values for r in records]} | {name: [rows[i] for i in indices] for name, rows in predictions.items()}
+    for name, rows in stacks.items():
+        joined = np.concatenate([np.asarray(row, float)[w.kept] for row, w in zip(rows, whiteners)])
+        columns.append(Column(name, scale.unit, scale.factor * joined + scale.offset))
+    between = [np.sqrt(1.0 + sum(space.noise.streams[w.quantity].patterns.values())) for w in whiteners]
+    columns.append(Column("noise", scale.unit, scale.factor * np.concatenate([np.broadcast_to(w.scale, n) * b for w, n, b in zip(whiteners, counts, between)])))
+    return Table("_".join(part for part in signal.replace("[", "_").replace("]", "").replace("=", "_").replace(",", "_").split()), tuple(columns))

@@ -1,0 +1,129 @@
+"""One reducer: a crank turn, the stiffness test, natural frequencies, a life."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pandas as pd
+import xarray as xr
+
+from orchestrator import netcdf
+from orchestrator.settings import Setting, parse_setting
+from reducers.reducer import Reducer, load_reducer
+
+# A variable of the units by its structured name, and its value: a number in SI, a choice's name, or a text with a unit.
+Settings = Mapping[str, float | str]
+ReducerLike = Reducer | str | Path
+
+
+def reducer_of(reducer: ReducerLike) -> Reducer:
+    return reducer if isinstance(reducer, Reducer) else load_reducer(reducer)
+
+
+def settings_of(reducer: Reducer, settings: Settings) -> list[Setting]:
+    return [parse_setting(f"{name}={value}", [reducer.plant, reducer.wear]) for name, value in settings.items()]
+
+
+def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, positions: int = 72) -> xr.Dataset:
+    """Forces, pressure, errors and stiffness over one crank turn, without wear.
+
+    ``reducer``: a name of the library, a reducer file, or what ``load_reducer`` gave.  ``settings``: any parameter or input, as
+    ``{"output.load_torque": "150 N.m", "errors.pin.radius[3]": "2 um"}``; a number alone is in SI units (docs/variables.md).
+    ``positions``: equilibria per crank turn, at least 8.
+
+    Series over ``position`` with the coordinate ``crank_angle`` [deg], arrays over ``disc``, ``pin``, ``crank`` and ``roller``; single numbers
+    named with their unit.  Every variable has ``units`` and ``long_name``.  InputFault names what is wrong with a file or setting.
+
+    >>> import rvwear
+    >>> turn = rvwear.solve("RV20E-121", settings={"output.load_torque": "167 N.m"}, positions=24)
+    >>> turn["mesh_force"].dims
+    ('position', 'disc', 'pin')
+    >>> round(turn["peak_pin_force_N"].item())
+    299
+    >>> turn["lag"].attrs["units"]
+    'arcsec'
+    """
+    from studies.turn import crank_turn
+
+    chosen = reducer_of(reducer)
+    return crank_turn(chosen, settings_of(chosen, settings or {}), positions).dataset()
+
+
+def hysteresis(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, steps: int = 40, angles: int = 8) -> xr.Dataset:
+    """The stiffness test: input locked, torque up and down both ways.
+
+    ``steps``: torques per quarter of the loop; ``angles``: input angles over which it is averaged.  ``torque`` [N.m] and ``turning`` [arcmin]
+    over ``step``, and what is read from them: lost motion at 3 % of the torque, stiffness between half and all of it, area of the loop.
+
+    >>> import rvwear
+    >>> loop = rvwear.hysteresis("RV20E-121", steps=8, angles=1)
+    >>> f"{loop['torsional_stiffness_Nm_per_arcmin'].item():.3g} N.m/arcmin"
+    '50.3 N.m/arcmin'
+    """
+    from studies.hysteresis import hysteresis as measure
+    from studies.turn import loop_dataset
+
+    chosen = reducer_of(reducer)
+    return loop_dataset(chosen, measure(chosen, settings_of(chosen, settings or {}), steps, angles))
+
+
+def modes(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, held: bool = True) -> pd.DataFrame:
+    """Natural frequencies under load, with the input ``held`` or free to turn with its inertia: a row a mode.
+
+    Columns ``frequency_Hz``, ``damping_ratio``, and the share of each body in the kinetic energy (0 to 1), lowest frequency first.
+
+    >>> import rvwear
+    >>> found = rvwear.modes("RV20E-121")
+    >>> bool(found["frequency_Hz"].is_monotonic_increasing)
+    True
+    """
+    from studies.modes import modes as natural_modes
+
+    chosen = reducer_of(reducer)
+    found = natural_modes(chosen, settings_of(chosen, settings or {}), held)
+    return pd.DataFrame([{"frequency_Hz": mode.frequency_Hz, "damping_ratio": mode.damping_ratio, "moves": mode.moves} | mode.energy_share for mode in found])
+
+
+def life(
+    reducer: ReducerLike = "RV20E-121", hours: float = 10_000.0, *, settings: Settings | None = None, duty: str | Path | None = None, tolerance: float = 0.01,
+    positions: int = 72, progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:  # fmt: skip
+    """Wear over operating hours, by jumps whose error is controlled.
+
+    ``tolerance``: error of the depths over those at the end; ``duty``: a file of speeds and torques with their shares; ``progress`` is told the
+    hours reached after each jump.  The dataset is that of ``rvwear life``: figures, crank turns and worn surfaces over ``hour``, orders of the
+    transmission error when new and at the end.  InputFault, or RunFault where a run cannot go on.
+
+    >>> import rvwear
+    >>> lived = rvwear.life("RV20E-121", hours=100, tolerance=0.2, positions=24)
+    >>> bool(lived["disc_flank_um"][-1] > 0)
+    True
+    >>> lived["disc_wear"].dims
+    ('hour', 'disc', 'lobe', 'flank_bin')
+    """
+    from studies import results
+    from studies.coupled_master import CoupledMaster
+    from studies.duty import load_duty
+    from studies.life import Life, LifeSettings, live
+    from studies.pair import make_pair
+
+    chosen = reducer_of(reducer)
+    wanted = LifeSettings(hours, tolerance)
+    wanted.check()
+    given = settings_of(chosen, settings or {})
+    segments = load_duty(duty) if duty is not None else ()
+    pair = make_pair(chosen, given, positions=positions, duty=segments, master_kind=CoupledMaster)
+    lived = Life(wanted)
+    first = results.order_spectrum(pair, 0.0)
+    live(pair, lived, lambda state: progress(state.hours[-1]) if progress else None, lambda _: None)
+    inputs = {
+        "reducer": chosen.name, "starts": chosen.starts, "settings": {s.name: s.value for s in given}, "life": vars(wanted).copy(),
+        "duty": [vars(s) for s in segments], "positions": positions,
+    }  # fmt: skip
+    dataset = results.life_dataset(pair, lived, [first, results.order_spectrum(pair, lived.hours[-1])], inputs)
+    pair.master.close()
+    return dataset
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """A result file (.nc) of ``rvwear life`` or ``rvwear run``; InputFault if it is none, or damaged."""
+    return netcdf.read(Path(path))

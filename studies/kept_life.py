@@ -1,0 +1,106 @@
+"""A life that is kept: its checkpoint after each jump, its result at the end; begun, or gone on with."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from fmu_src.checked_file import Damaged, set_aside
+from fmu_src.faults import InputFault
+from fmu_src.progress import say, task
+from fmu_src.source_hash import source_hash
+from orchestrator import netcdf
+from orchestrator.master import Master
+from orchestrator.schemes import SCHEMES
+from orchestrator.settings import Setting
+from reducers.reducer import Reducer
+from studies import results
+from studies.checkpoint import load_checkpoint, save_checkpoint
+from studies.coupled_master import CoupledMaster
+from studies.duty import Segment
+from studies.life import Life, LifeSettings, live
+from studies.pair import make_pair
+
+
+@dataclass(frozen=True)
+class WantedLife:
+    """What a life is to be of; ``fmus``: folder of units to step, or None for the kernels in this process."""
+
+    reducer: Reducer
+    settings: list[Setting]
+    life: LifeSettings
+    positions: int = 72
+    duty: tuple[Segment, ...] = ()
+    scheme: str = SCHEMES[0]
+    fmus: Path | None = None
+    inputs: dict[str, Any] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """InputFault where the life sets what it chooses itself."""
+        self.life.check()
+        if any(setting.name == "acceleration" for setting in self.settings):
+            raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
+        object.__setattr__(self, "inputs", {
+            "reducer": self.reducer.name, "starts": self.reducer.starts, "settings": {s.name: s.value for s in self.settings},
+            "life": vars(self.life).copy(), "duty": [vars(s) for s in self.duty], "scheme": self.scheme, "positions": self.positions,
+            "units": "fmu" if self.fmus else "in process", "source_hash": source_hash(),
+        })  # fmt: skip
+
+
+class Paused(KeyboardInterrupt):
+    """Interrupted at ``hours``; the checkpoint goes on from there."""
+
+    def __init__(self, hours: float):
+        super().__init__(f"at {hours:g} h")
+        self.hours = hours
+
+
+def checkpoint_of(path: Path) -> Path:
+    return path.with_suffix(".checkpoint")
+
+
+def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
+    """Whether a run of these inputs left the checkpoint; a damaged one is moved aside, and said."""
+    try:
+        load_checkpoint(checkpoint, inputs)
+    except Damaged as fault:
+        say(f"{fault}: moved to {set_aside(checkpoint)}, the life starts anew")
+        return False
+    except InputFault:
+        return False
+    return True
+
+
+def live_to(path: Path, wanted: WantedLife, resume: bool, progress: Callable[[Life], None]) -> xr.Dataset:
+    """The life from its beginning, or from its checkpoint, to the result at ``path``; ``Paused`` at Ctrl-C."""
+    checkpoint, inputs = checkpoint_of(path), wanted.inputs
+    with task("loading the units"):
+        # In this process many steps go into one compiled call.
+        pair = make_pair(wanted.reducer, wanted.settings, wanted.fmus, wanted.scheme, wanted.positions, wanted.duty, Master if wanted.fmus else CoupledMaster)
+    lived = Life(wanted.life)
+    first_orders = results.order_spectrum(pair, 0.0)
+    if resume:
+        lived, saved = load_checkpoint(checkpoint, inputs)
+        pair.master.restore(saved)
+
+    def keep(state: Life) -> None:
+        save_checkpoint(checkpoint, state, pair.master.save(), inputs)
+
+    try:
+        with task("hours of life", total=round(wanted.life.hours)) as hours:
+
+            def show(state: Life) -> None:
+                hours.done = round(state.hours[-1])
+                progress(state)
+
+            live(pair, lived, show, keep)
+    except KeyboardInterrupt as interruption:
+        raise Paused(lived.hours[-1] if lived.hours else 0.0) from interruption
+    orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
+    dataset = results.life_dataset(pair, lived, orders, inputs)
+    netcdf.write(dataset, path)
+    checkpoint.unlink(missing_ok=True)
+    pair.master.close()
+    return dataset

@@ -1,0 +1,39 @@
+"""The page of a reducer file that was checked: the parts to scale, and every number with where it is from."""
+
+from pages.content import Card, Page, Section, Table
+from pages.look import Figure
+from reducers.checking import STATED, Check, Stated
+from studies.report.assembly import assembly, zoom
+
+
+def parts(found: Check) -> list[Figure]:
+    """The whole and its most loaded tooth; nothing where no such reducer can be made."""
+    if found.faults:
+        return []
+    whole = assembly(found.reducer, None)
+    return [whole, zoom(whole, found.reducer)]
+
+
+def page_of(found: Check) -> Page:
+    t, filled = found.reducer.topology, [n for n in found.numbers if n.kind != STATED]
+    cards = [
+        Card("ratio", f"{found.figures['ratio']:.4g}"), Card("K1 = e z_p / R_p", f"{found.figures['K1']:.3f}", "below 1; 0.65 to 0.9 is usual"),
+        Card("largest pin", f"{found.figures['largest_pin_mm']:.4g}", "without undercut", unit="mm"),
+        Card("filled in", str(len(filled)), f"of {len(found.numbers)} numbers"),
+    ]  # fmt: skip
+    sections = [
+        Section("parts", "Parts", "Drawn from the file, with the forces at its torque." if not found.faults else found.faults[0], parts(found)),
+        Section("numbers", "Numbers", "What follows from other numbers is reckoned at each reading; what is usual may be stated better.", tables=[
+            table("Not stated", [n for n in found.numbers if n.kind != STATED]), table("Stated", [n for n in found.numbers if n.kind == STATED]),
+        ]),
+    ]  # fmt: skip
+    outcome = f"Cannot be made: {found.faults[0]}" if found.faults else "The parts fit each other."
+    counts = f"{t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.lobes} lobes"
+    return Page("reducer file", found.reducer.name, counts, outcome, cards, sections, found.doubts)
+
+
+def table(title: str, numbers: list[Stated]) -> Table:
+    rows = [
+        [n.name, f"{n.value:.5g}", n.unit, f"{n.low:.4g} to {n.high:.4g}" if n.low is not None and n.high is not None else "", n.source] for n in numbers
+    ]
+    return Table(title, ["number", "value", "unit", "range", "from"], rows, (1, 3))

@@ -1,0 +1,91 @@
+"""The command line as one types it: mistyped, with units, quiet, and what it says of itself."""
+
+import json
+
+import pytest
+
+from cli import doctor
+from cli.main import main
+from cli.screen import WIDTH
+from cli.show.doctor import show
+
+
+def said(capsys, *arguments):
+    """(exit code, stdout, stderr)"""
+    try:
+        code = main(list(arguments))
+    except SystemExit as end:
+        code = end.code
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+@pytest.mark.parametrize("arguments, text", [
+    (["solv"], "rvwear: there is no command 'solv'; did you mean solve?"),
+    (["solve", "--torqe", "3"], "rvwear solve: there is no option --torqe; did you mean --torque?"),
+    (["solve", "--torqe=3"], "rvwear solve: there is no option --torqe; did you mean --torque?"),
+    (["campaign", "chek"], "rvwear campaign: argument ACTION: there is no 'chek'; did you mean check?"),
+    (["campaign", "check", "x", "--dta", "y"], "rvwear campaign check: there is no option --dta; did you mean --data?"),
+    (["completion", "tcsh"], "rvwear completion: argument shell: there is no 'tcsh'; choose from bash, zsh, fish"),
+    (["solve", "3"], "rvwear solve: '3' is too much: see rvwear solve --help"),
+    ([], "rvwear: name a command, like rvwear solve; rvwear --help lists all"),
+    (["campaign"], "rvwear campaign: say what is to be done; rvwear campaign --help lists it"),
+    (["solve", "--torque", "16parsec"], "rvwear solve: --torque 16parsec: setting 'output.load_torque=16parsec': unit 'parsec' does not fit"),
+    (["effects", "fricton"], "rvwear effects: no effect 'fricton'; did you mean drive_friction"),
+])  # fmt: skip
+def test_what_was_meant_is_said(capsys, arguments, text):
+    code, out, err = said(capsys, *arguments)
+    assert code == 2 and out == "" and err.startswith(text), err
+
+
+@pytest.mark.parametrize("text, torque", [("100", 100.0), ("100Nm", 100.0), ("0.1 kN.m", 100.0), ("10 kgf.m", 98.0665)])
+def test_torques_with_and_without_a_unit(capsys, text, torque):
+    code, out, _ = said(capsys, "solve", "--positions", "8", "--torque", text, "--json")
+    assert code == 0 and json.loads(out)["load_torque_Nm"] == pytest.approx(torque)
+
+
+def test_quiet_says_nothing_but_json_and_errors(capsys, tmp_path):
+    assert said(capsys, "solve", "--positions", "8", "--quiet") == (0, "", "")
+    assert json.loads(said(capsys, "solve", "--positions", "8", "-q", "--json")[1])["positions"] == 8
+    code, out, err = said(capsys, "campaign", "check", str(tmp_path / "none"), "--quiet")
+    assert code == 2 and out == "" and "none" in err
+
+
+def test_a_word_finds_the_effects_in_which_it_stands(capsys):
+    _, out, _ = said(capsys, "effects", "friction", "--json")
+    names = {effect["name"] for effect in json.loads(out)["effects"]}
+    assert {"stribeck_friction", "drive_friction", "support_hysteresis"} <= names and "thermal_expansion" not in names
+    shown = said(capsys, "effects", "friction")[1]
+    assert "effects in which 'friction' stands" in shown
+
+
+@pytest.mark.parametrize("arguments", [["effects"], ["modes"], ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600", "--output", "FILE"]])
+def test_tables_fit_a_hundred_columns(capsys, arguments, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = said(capsys, *[word.replace("FILE", str(tmp_path / "a.toml")) for word in arguments])
+    longest = max((line for line in out.splitlines() if str(tmp_path) not in line), key=len)
+    assert code == 0 and len(longest) <= WIDTH == 100, longest
+
+
+def test_a_sound_installation(capsys):
+    code, out, _ = said(capsys, "doctor", "--json")
+    found = {finding["what"]: finding for finding in json.loads(out)["findings"]}
+    assert {"rvwear", "Python", "packages", "C compiler", "cache", "kernels", "[measurements]", "[pictures]"} <= found.keys()
+    assert all(finding["remedy"] for finding in found.values() if finding["state"] != "ok")
+    assert code == any(finding["state"] == "wrong" for finding in found.values())
+
+
+def test_what_is_missing_or_too_old_is_named(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(doctor, "requirements", lambda: {"": ["numpy>=99", "no-such-package>=1"], "pictures": ["no-such-part"], "test": ["x"]})
+    needed, pictures = doctor.packages()
+    assert needed.state == doctor.WRONG and "is older than 99" in needed.text and "no-such-package is not installed" in needed.text
+    assert pictures.state == doctor.ABSENT and pictures.remedy.endswith('pip install "rvwear[pictures]"')
+    monkeypatch.setenv("RVWEAR_EFFECTS", str(tmp_path / "nowhere"))
+    (own,) = doctor.own_effects()
+    assert own.state == doctor.WRONG and "is no folder" in own.text
+    show([needed, pictures, own])
+    assert "2 wrong, 1 optional and absent\n" in capsys.readouterr().out
+    monkeypatch.setenv("CC", "no-such-compiler")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    (found,) = doctor.compiler()
+    assert found.state in (doctor.ABSENT, doctor.GOOD) and (found.remedy or found.state == doctor.GOOD)

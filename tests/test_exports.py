@@ -1,0 +1,177 @@
+"""Results for other programs and for papers: what is written is what was computed, with units, and other programs read it."""
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.io
+import xarray as xr
+
+from cli.main import main
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.tables import tables_of as measured_tables
+from exports.tables import Column, Table, tables_of
+from exports.write import write_tables
+from fmu_src.faults import InputFault
+from pages import look
+from pages.charts import Curve, chart, polar
+from pages.look import Figure
+from pages.paper import drawn, width_of, write_pictures
+from tests.test_discrepancy_page import compared, model_of
+
+DATASET = xr.Dataset(
+    {
+        "lag": ("position", [1.0, 2.0, np.nan], {"units": "arcsec"}), "force": (("position", "pin"), [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]], {"units": "N"}),
+        "map": (("position", "bin"), np.arange(900.0).reshape(3, 300), {"units": "um"}), "peak": ((), 7.0, {"units": "N"}),
+    },
+    {"angle": ("position", [0.0, 10.0, 20.0], {"units": "deg"}), "place": ("bin", np.arange(300.0), {"units": "deg"})},
+)  # fmt: skip
+HEADS = ["angle [deg]", "lag [arcsec]", "force[1] [N]", "force[2] [N]"]
+
+
+def frame_of(path):
+    match path.suffix:
+        case ".csv":
+            return pd.read_csv(path)
+        case ".parquet":
+            return pd.read_parquet(path)
+        case ".xlsx":
+            return pd.read_excel(path, sheet_name="position")
+    content = scipy.io.loadmat(path, simplify_cells=True)["position"]
+    units = content.pop("units")
+    written = {name: re.sub(r"_([12])$", r"[\1]", name) for name in content}
+    return pd.DataFrame({f"{written[name]} [{units[name]}]": values for name, values in content.items()})
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet", "xlsx", "mat"])
+def test_a_dataset_comes_back(tmp_path, ending):
+    written = write_tables(tables_of(DATASET), tmp_path / f"a.{ending}")
+    assert [p.name for p in written] == ([f"a.{ending}"] if ending in ("xlsx", "mat") else [f"a.{ending}", f"a_map.{ending}", f"a_figures.{ending}"])
+    frame = frame_of(written[0])
+    assert list(frame.columns) == HEADS
+    assert frame.to_numpy(float) == pytest.approx(np.array([[0, 1, 1, 2], [10, 2, 3, 4], [20, np.nan, 5, 6]], float), nan_ok=True)
+    assert {p.name for p in tmp_path.iterdir()} == {p.name for p in written}
+
+
+def test_maps_are_a_row_a_value_and_single_numbers_a_table():
+    position, bins, figures = tables_of(DATASET)
+    assert list(bins.frame().columns) == ["angle [deg]", "place [deg]", "map [um]"] and len(bins.frame()) == 900
+    assert bins.frame().iloc[301].tolist() == [10.0, 1.0, 301.0]
+    assert figures.frame().values.tolist() == [["peak", 7.0, "N"]] and position.name == "position"
+
+
+def test_names_of_matlab_are_each_there_once(tmp_path):
+    table = Table("1 a", tuple(Column(name, "", [1.0]) for name in ("a[1]", "a(1)", "1", "b" * 70)))
+    write_tables([table], tmp_path / "a.mat")
+    content = scipy.io.loadmat(tmp_path / "a.mat", simplify_cells=True)["x1_a"]
+    assert list(content) == ["a_1", "a_1_2", "x1", "b" * 63, "units"]
+
+
+@pytest.mark.parametrize("option, said", [
+    (["--export", "a.xls"], r"--export a\.xls: the ending says what is written: \.csv, \.parquet, \.mat, \.xlsx"),
+    (["--picture", "a.jpg"], r"--picture a\.jpg: the ending says what is drawn: \.svg, \.pdf, \.png"),
+    (["--width", "3 parsec"], r"--width 3 parsec: give single, middle, double or a width from 30 to 1000 mm"),
+])  # fmt: skip
+def test_what_cannot_be_written_is_said_before_the_work(capsys, option, said):
+    assert main(["hysteresis", *option]) == 2
+    assert re.search(said, capsys.readouterr().err)
+
+
+def test_loop_and_turn_from_the_command_line(tmp_path, capsys):
+    """The curves as files; a loop that was exported is read as if a bench had measured it."""
+    loop, turn = tmp_path / "loop_1.csv", tmp_path / "turn.xlsx"
+    assert main(["hysteresis", "--steps", "4", "--angles", "1", "--export", str(loop), "--picture", str(tmp_path / "loop.svg"), "--width", "double"]) == 0
+    assert main(["solve", "--positions", "8", "--export", str(turn), "--json"]) == 0
+    shown = capsys.readouterr()
+    assert str(loop) in shown.out and str(turn) in shown.err and str(turn) not in shown.out
+    assert len(pd.read_excel(turn, sheet_name="position")) == 8
+    svg = (tmp_path / "loop.svg").read_text(encoding="utf-8")
+    assert float(re.search(r'width="([\d.]+)pt"', svg)[1]) == pytest.approx(190.0 / 25.4 * 72.0, rel=1e-3)
+    (run,) = propose([loop], Wishes("RV20E-121")).runs
+    assert run.guessed.quantity.value == "hysteresis"
+    assert {role: (entry.header, entry.unit.value) for role, entry in run.guessed.columns.items()} == {
+        "torque": ("torque [N.m]", "N.m"), "value": ("turning [arcmin]", "arcmin"),
+    }  # fmt: skip
+
+
+def test_comparison_as_tables():
+    result = compared(model_of({"gap": 2e-6}))
+    tables = {table.name: table.frame() for table in measured_tables(result)}
+    assert list(tables)[:3] == ["runs", "signals", "key_figures"]
+    runs, curve = tables["runs"], tables["transmission_error"]
+    assert set(runs["unit"]) == {"arcsec", "N.m"}
+    record = result.model.records[0]
+    rows = curve[curve["run"] == record.name]
+    kept = result.diagnostician.space.noise.whiteners[0].kept
+    assert rows["measured [arcsec]"].to_numpy() == pytest.approx(np.degrees(record.values[kept]) * 3600)
+    assert rows["predicted [arcsec]"].to_numpy() == pytest.approx(np.degrees(result.predictions[0][kept]) * 3600)
+    assert rows["angle [deg]"].to_numpy() == pytest.approx(np.degrees(record.axes["angle"][kept]))
+    assert (curve["noise [arcsec]"] > 0).all() and set(curve["load_set [N.m]"]) == {50.0, 100.0, 130.0, 167.0, 80.0}
+
+
+X = np.linspace(0.0, 1.0, 5)
+
+
+def figures():
+    curves = [Curve("one", X, X**2), Curve("two & <b>more</b>", X, X, dash="dash", mode="lines+markers")]
+    yield chart("lines", "t", "", curves, "torque [N·m]", "a title that is very long and so goes onto two lines, whatever it says [arcmin]", marks=[(0.5, "here")])
+    yield chart("log", "t", "", curves, "x", "y", y_axis={"type": "log"})
+    yield polar("polar", "t", "", [Curve("one", 360 * X, X)])
+    heat = {"type": "heatmap", "z": [[1.0, None], [3.0, 4.0]], "x": ["a", "b"], "y": ["c", "d"], "text": [["1", ""], ["3", "4"]],
+            "colorscale": look.colour_scale(look.DEPTH), "colorbar": {"title": {"text": "p"}, "tickvals": [1, 4], "ticktext": ["low", "high"]}}  # fmt: skip
+    yield Figure("heat", "t", "", [heat], look.layout(xaxis=look.axis(""), yaxis=look.axis("")), 12, 190)
+    bars = [{"type": "bar", "orientation": "h", "x": [1.0, 2.0], "y": ["a", "b"], "text": ["1", "2"], "name": n, "marker": {"color": "rgba(11,79,148,0.5)"}} for n in "mn"]
+    band = {"type": "scatter", "x": [0, 1, 1, 0], "y": [0, 0, 1, 1], "fill": "toself", "fillcolor": "#eceff2", "yaxis": "y2", "name": "band", "mode": "lines"}
+    yield Figure("bars", "t", "", bars, look.layout(xaxis=look.axis("$ x"), yaxis=look.axis("y"), showlegend=True))
+    split = look.layout(xaxis=look.axis("x"), yaxis=look.axis("y", domain=[0.4, 1.0]), yaxis2=look.axis("z", domain=[0.0, 0.3]))
+    stretch = {"type": "scatter", "mode": "markers", "x0": 2.0, "dx": 0.5, "y": [1, 2, None], "error_y": {"array": [1, 1, 1]}, "marker": {"color": ["#000000"] * 3}}
+    yield Figure("split", "t", "", [stretch, band], split, 12, 380)
+
+
+@pytest.mark.parametrize("ending, most", [("svg", 9), ("pdf", 2), ("png", 2)])
+def test_pictures_of_all_kinds(tmp_path, ending, most):
+    made = list(figures())[:most]
+    written = write_pictures(made, tmp_path / f"a.{ending}", 88.0)
+    assert [p.name for p in written] == [f"a_{figure.name}.{ending}" for figure in made]
+    assert all(p.stat().st_size > 2000 for p in written)
+    before = written[0].read_bytes()
+    write_pictures(made[:1], tmp_path / f"b.{ending}", 88.0)
+    assert (tmp_path / f"b.{ending}").read_bytes() == before
+
+
+def test_a_picture_shows_what_the_page_shows():
+    lines, log, _, heat, bars, split = (drawn(figure, 88.0) for figure in figures())
+    (axes,) = lines.get_axes()
+    one, two, _ = axes.get_lines()
+    assert one.get_ydata() == pytest.approx(X**2, abs=1e-3) and two.get_label() == "two & more"
+    assert axes.get_ylabel().endswith("\n[arcmin]") and axes.texts[0].get_text() == "here"
+    assert log.get_axes()[0].get_yscale() == "log"
+    cells = heat.get_axes()[0]
+    assert [t.get_text() for t in cells.texts] == ["1", "", "3", "4"] and [t.get_text() for t in cells.get_xticklabels()] == ["a", "b"]
+    assert [patch.get_width() for patch in bars.get_axes()[0].patches] == [1.0, 2.0, 1.0, 2.0]
+    upper, lower = split.get_axes()
+    assert upper.get_lines() == [] or upper.collections
+    assert lower.get_xlabel() == "x" and upper.get_xlabel() == ""
+
+
+@pytest.mark.parametrize("text, width", [("single", 90.0), ("85mm", 85.0), ("8.5 cm", 85.0), ("3.5in", 88.9), ("120", 120.0)])
+def test_widths(text, width):
+    assert width_of(text) == pytest.approx(width)
+
+
+@pytest.mark.parametrize("text", ["", "5mm", "1..2mm", "wide", "2m"])
+def test_no_widths(text):
+    with pytest.raises(InputFault, match="--width"):
+        width_of(text)
+
+
+def test_nothing_to_draw_is_said(tmp_path):
+    with pytest.raises(InputFault, match="there is nothing to draw"):
+        write_pictures([], tmp_path / "a.png")
+
+
+def test_more_rows_than_excel_holds(tmp_path):
+    with pytest.raises(InputFault, match="more than Excel holds; export .parquet or .csv"):
+        write_tables([Table("a", (Column("x", "", np.zeros(1_048_576)),))], tmp_path / "a.xlsx")

@@ -1,0 +1,99 @@
+"""``import rvwear``: the names that stay, quick to import, every example in its docstrings true."""
+
+import ast
+import doctest
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rvwear
+from fmu_src.project import project
+
+ROOT = Path(__file__).resolve().parents[1]
+# Seconds that the import may take; it takes some milliseconds.
+IMPORT = 0.3
+MODULES = ("rvwear.reducer", "rvwear.files", "rvwear.measured")
+# Examples that take longer than all others together.
+LONG = {"life", "compare", "diagnose"}
+
+
+def examples():
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    for module in MODULES:
+        for found in finder.find(import_module(module), module):
+            if found.examples:
+                name = found.name.rpartition(".")[2]
+                yield pytest.param(found, id=name, marks=[pytest.mark.campaign] if name in LONG else [])
+
+
+@pytest.mark.parametrize("example", list(examples()))
+def test_examples_in_docstrings(example, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    said = []
+    runner.run(example, out=said.append)
+    assert runner.failures == 0, "".join(said)
+
+
+def test_every_name_is_there_documented_and_in_the_types():
+    typed = "if True:" + (ROOT / "rvwear" / "__init__.py").read_text(encoding="utf-8").partition("if TYPE_CHECKING:")[2].partition("# Name")[0]
+    assert sorted(rvwear.__all__) == sorted(rvwear.PLACES)
+    for name in rvwear.__all__:
+        assert getattr(rvwear, name).__doc__, name
+    assert set(rvwear.__all__) < set(dir(rvwear)) and rvwear.__version__ == project().version
+    assert {name.asname or name.name for node in ast.walk(ast.parse(typed)) if isinstance(node, ast.ImportFrom) for name in node.names} == set(rvwear.__all__)
+
+
+def test_every_function_of_the_door_has_an_example_or_is_another_s_own():
+    shown = {p.id for p in examples()}
+    own = {name for name, (module, there) in rvwear.PLACES.items() if module.startswith("rvwear.") and there == name and name[0].islower()}
+    assert own - shown == {"read"}
+
+
+def test_a_wrong_name_is_told():
+    with pytest.raises(AttributeError, match="module 'rvwear' has no 'solv'; it has reducers, load_reducer"):
+        print(rvwear.solv)
+
+
+def test_it_is_imported_at_once_and_loads_nothing():
+    script = (
+        "import sys, time\nstart = time.perf_counter()\nimport rvwear\nprint(time.perf_counter() - start)\n"
+        "print([name for name in ('numpy', 'pandas', 'xarray', 'llvmlite', 'pint') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=ROOT)
+    seconds, loaded = done.stdout.splitlines()
+    assert float(seconds) < IMPORT and loaded == "[]"
+
+
+def test_results_are_those_of_the_commands(capsys):
+    import json
+
+    from cli.main import main
+
+    assert main(["solve", "--positions", "8", "--torque", "100Nm", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    turn = rvwear.solve("RV20E-121", settings={"output.load_torque": "100 N.m"}, positions=8)
+    for name, value in figures.items():
+        if name not in ("reducer", "positions"):
+            assert turn[name].item() == pytest.approx(value, rel=1e-12), name
+    assert turn["contact_pressure"].attrs["units"] == "MPa" and float(turn["contact_pressure"].max()) == pytest.approx(figures["peak_contact_pressure_MPa"])
+    assert float(np.ptp(turn["lag"].values)) == pytest.approx(figures["transmission_error_pp_arcsec"])
+
+
+def test_what_is_wrong_is_an_input_fault():
+    with pytest.raises(rvwear.InputFault, match=r"output\.load_torque"):
+        rvwear.solve(settings={"output.load_torqe": 3.0})
+    with pytest.raises(rvwear.InputFault, match="figure 'x': this result has loop"):
+        rvwear.figure(rvwear.hysteresis(steps=4, angles=1), "x")
+    with pytest.raises(rvwear.InputFault, match="no picture of its own"):
+        rvwear.figure_names(xr.Dataset({"x": ("a", [1.0])}))
+
+
+def test_a_plotly_picture():
+    found = rvwear.figure(rvwear.hysteresis(steps=4, angles=1), plotly=True)
+    assert found.data[0].type == "scatter" and found.layout.xaxis.title.text == "torque [N·m]"

@@ -1,0 +1,104 @@
+"""A reducer file of few numbers: what it leaves out follows or is usual, what does not fit is said, the parts are drawn."""
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from cli.main import main
+from fmu_src.faults import InputFault
+from reducers.checking import check
+from reducers.library import available
+from reducers.reducer import load_reducer, numbers_of
+from reducers.usual import FILLED, RULES, derived, usual
+
+MINE = Path(__file__).resolve().parents[1] / "docs" / "tutorials" / "files" / "mine.toml"
+
+
+def changed(folder, *changes):
+    text = MINE.read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "a.toml").write_text(text, encoding="utf-8")
+    return folder / "a.toml"
+
+
+def test_eleven_numbers_and_five_counts_are_enough():
+    mine = load_reducer(MINE)
+    numbers = numbers_of(mine)
+    assert sum(len(re.findall("value =", line)) for line in MINE.read_text(encoding="utf-8").splitlines()) == 11
+    assert numbers["outer_race.radius"] == pytest.approx(14e-3) and numbers["wear.run_in_crank_speed"] == pytest.approx(585 * 2 * 3.14159265 / 60)
+    assert mine.sources["run_in_crank_speed"].startswith("derived: input.speed times lobes") and mine.sources["hardness"].startswith("usual: assumed")
+    assert mine.ranges["bearing_clearance"] == pytest.approx((1.5e-6, 5e-6))
+
+
+@pytest.mark.parametrize("name", available())
+def test_rules_give_what_the_library_states(name):
+    """Geometry and speeds exactly; stiffness of a line contact within the range that is stated beside it."""
+    reducer = load_reducer(name)
+    numbers = numbers_of(reducer)
+    for rule in RULES:
+        value = derived(rule, numbers, reducer.topology)
+        if rule.spread is None and "stiffness" not in rule.path:
+            assert value == pytest.approx(numbers[rule.path], rel=1e-8), rule.path
+    if not reducer.topology.output_pins:
+        (rule,) = (r for r in RULES if r.path == "mesh.stiffness")
+        value = derived(rule, numbers, reducer.topology)
+        assert rule.spread[0] * value <= numbers["mesh.stiffness"] <= rule.spread[1] * value
+
+
+def test_what_follows_follows_when_teeth_or_speed_change(tmp_path):
+    before = numbers_of(load_reducer(MINE))
+    now = numbers_of(load_reducer(changed(tmp_path, ("pins = 40", "pins = 36"), ("lobes = 39", "lobes = 35"))))
+    ratio = 1 + 2.6 * 36
+    assert now["wear.run_in_crank_speed"] == pytest.approx(before["input.speed"] / ratio * 35)
+
+
+def test_a_stated_number_wins_and_a_stale_one_is_told(tmp_path):
+    path = changed(tmp_path, ("[output]", '[wear]\nrun_in_crank_speed = { value = 644.6, unit = "rpm", source = "copied" }\n\n[output]'))
+    found = check(load_reducer(path))
+    assert numbers_of(found.reducer)["wear.run_in_crank_speed"] == pytest.approx(644.6 * 3.14159265 / 30)
+    assert "wear.run_in_crank_speed = 644.6 rpm is stated, input.speed times lobes over the ratio make 585 rpm: correct one" in found.doubts[0]
+
+
+@pytest.mark.parametrize("changes, said", [
+    ([("value = 2.5, unit", "value = 5.5, unit")], r"pin\.radius = 5\.5 mm: 40 pins .* overlap.*topology\.pins smaller"),
+    ([("value = 1.1, unit", "value = 1.6, unit")], r"crank\.eccentricity = 1\.6 mm: K1 = .* makes loops"),
+    ([("value = 1.1, unit", "value = 1.49, unit"), ("value = 2.5, unit", "value = 4.4, unit")], "the flank is undercut"),
+    ([("rollers = 16", "rollers = 40")], r"40 rollers do not fit .*fewer topology\.rollers"),
+])  # fmt: skip
+def test_what_cannot_be_made_is_said_where_and_how_to_mend_it(tmp_path, capsys, changes, said):
+    path = changed(tmp_path, *changes)
+    assert main(["reducer", "check", str(path), "--json"]) == 2
+    (fault,) = json.loads(capsys.readouterr().out)["faults"]
+    assert re.search(said, fault), fault
+
+
+def test_what_is_missing_is_named_still(tmp_path):
+    with pytest.raises(InputFault, match=r"pin\.circle_radius: missing"):
+        load_reducer(changed(tmp_path, ("circle_radius = { value = 60.0", "# circle_radius = { value = 60.0")))
+    # Of races and rollers two are needed.
+    with pytest.raises(InputFault, match=r"outer_race\.radius, roller\.radius: missing"):
+        load_reducer(changed(tmp_path, ("radius = { value = 1.5", "# radius = { value = 1.5")))
+
+
+def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["reducer", "check", str(MINE), "--html", "mine.html", "--picture", "mine.svg", "--json"]) == 0
+    shown = capsys.readouterr()
+    told = json.loads(shown.out.partition("\nmine.html")[0])
+    assert told["faults"] == [] and "so rigid" in told["doubts"][0]
+    assert {p.name for p in tmp_path.iterdir()} == {"mine.html", "mine_assembly.svg", "mine_teeth.svg"}
+    assert main(shlex.split(told["completing"])[1:]) == 0
+    completed = check(load_reducer("mine_completed.toml"))
+    assert not completed.doubts and not completed.faults and not completed.completing
+    stated = numbers_of(load_reducer(MINE))
+    for name in ("pin.radius", "crank.eccentricity", "output.load_torque", "first_stage.ratio", "input.speed"):
+        assert numbers_of(completed.reducer)[name] == pytest.approx(stated[name], rel=1e-6)
+
+
+def test_what_is_usual_is_what_the_completion_takes():
+    assert set(usual()) < FILLED and all(one.source.startswith("usual: ") for one in usual().values())

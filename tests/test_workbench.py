@@ -1,0 +1,284 @@
+"""The workbench's server: who is let in, what it reads and writes, jobs that outlive it.  No browser."""
+
+import json
+import threading
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from fmu_src.faults import InputFault
+from workbench import jobs
+from workbench.folder import Folder, opened
+from workbench.intake import save, view
+
+pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
+
+CSV = "torque [Nm];turning [arcsec]\n" + "\n".join(
+    f"{t};{12 * t / 100 + 3 * (1 if k < 10 else -1):.3f}".replace(".", ",")
+    for k, t in enumerate([*range(-160, 161, 32), *range(160, -161, -32)])
+)
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """(folder, address): a server in a thread."""
+    from workbench.server import serve
+
+    folder = opened(tmp_path_factory.mktemp("bench") / "my bench")
+    told: list[str] = []
+    threading.Thread(target=serve, args=(folder, 0, 1, told.append), daemon=True).start()
+    end = time.monotonic() + 10.0
+    while not told and time.monotonic() < end:
+        time.sleep(0.01)
+    return folder, told[0]
+
+
+def asked(address, path="", method="GET", body=None, **headers):
+    """(status, body, headers)"""
+    request = urllib.request.Request(address + path, body, headers, method=method)
+    try:
+        with urllib.request.urlopen(request, timeout=10) as answer:
+            return answer.status, answer.read(), answer.headers
+    except urllib.error.HTTPError as refused:
+        return refused.code, refused.read(), refused.headers
+
+
+def own(address):
+    """Headers of a page of this server."""
+    return {"Origin": address.rsplit("/", 2)[0]}
+
+
+def test_nobody_is_let_in_without_the_token(served):
+    _, address = served
+    start = address.rsplit("/", 2)[0]
+    assert asked(address)[0] == 200
+    assert asked(start + "/")[0] == 404
+    assert asked(start + "/state")[0] == 404
+    assert asked(start + "/" + "x" * 32 + "/state")[0] == 404
+
+
+def test_nobody_is_let_in_by_another_name_of_this_machine(served):
+    """A page elsewhere may let its own name point here; it does not know what to call us."""
+    _, address = served
+    assert asked(address, "state", Host="evil.example:80")[0] == 403
+
+
+def test_other_pages_change_nothing(served):
+    folder, address = served
+    for origin in ({}, {"Origin": "http://evil.example"}, {"Origin": "null"}):
+        assert asked(address, "files/a.csv", "PUT", b"x", **origin)[0] == 403
+    assert not (folder.root / "a.csv").exists()
+
+
+def test_the_page_fetches_nothing_from_elsewhere(served):
+    _, address = served
+    status, body, headers = asked(address)
+    assert "default-src 'self'" in headers["content-security-policy"]
+    assert headers["referrer-policy"] == "no-referrer"
+    root = Path(__file__).parents[1] / "workbench" / "static"
+    texts = {path.name: path.read_text(encoding="utf-8") for path in root.iterdir()}
+    elsewhere = [name for name, text in texts.items() if "https://" in text or ("http://" in text.replace("http://www.w3.org/2000/svg", ""))]
+    assert status == 200 and not elsewhere
+    # What the first view needs is small: it paints at once.
+    first = ("index.html", "style.css", "app.js", "net.js", "dom.js", "in.js", "in_runs.js", "in_conditions.js", "plot.js", "paint.js", "hand.js", "behind.js",
+             "scale.js")  # fmt: skip
+    assert sum(len(texts[name]) for name in first) < 120_000
+
+
+@pytest.mark.parametrize("name", ["../out.csv", "a/../../out.csv", "..", ".hidden.csv", "campaign.toml", "a\x00.csv", "con:.csv"])
+def test_nothing_is_written_outside_of_the_folder(tmp_path, name):
+    folder = opened(tmp_path / "in")
+    with pytest.raises(InputFault):
+        folder.new_file(name, b"x")
+    assert [p.name for p in tmp_path.iterdir()] == ["in"] and not list((tmp_path / "in").iterdir())
+
+
+def test_a_link_leads_nowhere_else(tmp_path):
+    folder = opened(tmp_path / "in")
+    (tmp_path / "secret.csv").write_text("1")
+    (folder.root / "link.csv").symlink_to(tmp_path / "secret.csv")
+    with pytest.raises(InputFault, match="outside"):
+        folder.inside("link.csv")
+    assert folder.measurements() == []
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd.toml", "../other.toml", "../../x", "/etc/hosts", "RV20E-122"])
+def test_no_model_is_read_from_elsewhere(tmp_path, name):
+    (tmp_path / "other.toml").write_text("[reducer]")
+    folder = opened(tmp_path / "in")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.remember("wishes", {"reducer": name})
+    with pytest.raises(InputFault, match="outside|no such reducer"):
+        folder.model({"model": name})
+    assert "outside" in view(folder)["fault"] or "no such reducer" in view(folder)["fault"]
+
+
+def test_a_dropped_file_overwrites_nothing(tmp_path):
+    folder = opened(tmp_path)
+    folder.new_file("a.csv", b"1")
+    folder.new_file("a.csv", b"1")
+    with pytest.raises(InputFault, match="other content"):
+        folder.new_file("a.csv", b"2")
+    assert (tmp_path / "a.csv").read_bytes() == b"1"
+
+
+def test_dropped_files_become_the_campaign_of_the_command_line(served):
+    """Guesses with reasons, a correction, and the file that ``rvwear campaign from`` writes."""
+    from discrepancy.campaign.guess.propose import propose
+    from discrepancy.campaign.guess.wishes import Wishes
+    from discrepancy.campaign.guess.write import campaign_text
+
+    folder, address = served
+    for name in ("loop_10degC_1.csv", "loop_10degC_2.csv", "loop_40degC_1.csv"):
+        status, body, _ = asked(address, f"files/{name}", "PUT", CSV.encode(), **own(address))
+        assert status == 200, body
+    told = json.loads(asked(address, "in")[1])
+    runs = told["proposal"]["runs"]
+    assert [run["quantity"]["value"] for run in runs] == ["hysteresis"] * 3
+    assert runs[0]["columns"]["value"]["unit"] == {"value": "arcsec", "reason": "[arcsec] in its header", "sure": True}
+    assert [len(told["columns"][run["file"]][0]["curve"]) for run in runs] == [22] * 3
+    wishes = {"reducer": "RV20E-121", "conditions": {"10degC:load_torque": "167 N.m"}, "tags": {"locked": "output"}}
+    status, body, _ = asked(address, "in/wishes", "POST", json.dumps(wishes).encode(), **own(address))
+    assert status == 200 and json.loads(body)["proposal"]["runs"][0]["tags"]["locked"]["value"] == "output"
+    assert asked(address, "in/save", "POST", b"{}", **own(address))[0] == 200
+    same = propose(folder.measurements(), Wishes("RV20E-121", conditions=wishes["conditions"], tags=wishes["tags"]), "my bench")
+    assert folder.campaign.read_text(encoding="utf-8") == campaign_text(same, folder.root)
+
+
+def test_a_file_that_was_edited_by_hand_is_not_written_over(tmp_path):
+    folder = opened(tmp_path / "b")
+    for k in (1, 2):
+        folder.new_file(f"loop_20degC_{k}.csv", CSV.encode())
+    folder.remember("wishes", {"reducer": "RV20E-121"})
+    save(folder)
+    save(folder)
+    folder.campaign.write_text(folder.campaign.read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
+    with pytest.raises(InputFault, match="not overwritten"):
+        save(folder)
+    assert folder.campaign.read_text(encoding="utf-8").endswith("# mine\n")
+
+
+def test_corrections_of_conditions_that_are_gone_are_said_and_left_out(tmp_path):
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.remember("wishes", {"reducer": "RV20E-121", "conditions": {"30degC:load_torque": "10 N.m"}, "held_out": ["30degC"]})
+    found = view(folder)
+    assert found["proposal"]["conditions"].keys() == {"20degC"} and "30degC" in found["gone"][0]
+
+
+def test_what_is_wrong_is_said_in_words(served):
+    _, address = served
+    for path, given, words in (
+        ("in/wishes", {"conditions": {"input_sped": "3 rpm"}}, "did you mean input_speed"), ("jobs/cook", {}, "no such work"), ("jobs/compare", [], "JSON object"),
+        ("reducer", {"model": "../../etc/passwd.toml"}, "outside"), ("reducer/new", {"ratio": "81", "pins": "40"}, "rated torque is needed"),
+    ):  # fmt: skip
+        status, body, _ = asked(address, path, "POST", json.dumps(given).encode(), **own(address))
+        assert status == 400 and words in json.loads(body)["fault"], (path, body)
+
+
+def test_a_job_tells_the_folder_and_is_found_by_the_next_server(tmp_path):
+    """A fault in words, from a process of its own; the folder is all that the next server has."""
+    folder = opened(tmp_path / "b")
+    jobs.start(folder, "compare", {"model": "RV20E-121"}, 1)
+    end = time.monotonic() + 60.0
+    while jobs.status(Folder(folder.root), "compare")["state"] == jobs.RUNNING and time.monotonic() < end:
+        time.sleep(0.05)
+    found = jobs.status(Folder(folder.root), "compare")
+    assert found["state"] == jobs.FAILED and "campaign.toml" in found["fault"]
+
+
+def test_a_job_that_is_silent_is_gone(tmp_path):
+    folder = opened(tmp_path)
+    folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time() - 100.0})
+    folder.remember("jobs/life/beat", {"state": jobs.RUNNING, "at": time.time() - 50.0, "tasks": []})
+    assert jobs.status(folder, "life")["state"] == jobs.GONE
+
+
+def test_stop_asks_and_ends_nobody_by_number(tmp_path):
+    folder = opened(tmp_path)
+    folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time()})
+    jobs.place_of(folder, "life").mkdir(parents=True, exist_ok=True)
+    jobs.stop(folder, "life")
+    assert (jobs.place_of(folder, "life") / "stop").exists()
+
+
+# what the page is told ------------------------------------------------------------------------
+def test_numbers_have_as_many_decimals_as_their_noise():
+    from workbench.look import decimals_of, text_of
+
+    assert [decimals_of(noise) for noise in (22.0, 1.9, 0.0073, 0.0)] == [0, 1, 4, 4]
+    assert text_of(-0.011412, decimals_of(0.0082)) == "−0.0114" and text_of(1440.951, 0) == "1,441"
+
+
+def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
+    from discrepancy.problem import Parameter
+    from workbench.trying import around, slider
+
+    bounded = slider(Parameter("clearance", "m", 0.0, 0.0, 1e-3, 2e-6, 1), True)
+    assert (bounded["low"], round(bounded["high"], 9), bounded["unit"], bounded["bounds"]) == (0.0, 10.0, "µm", [0.0, 1000.0])
+    carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
+    assert carried["low"] < 0.0 < carried["off"] < carried["high"]
+
+
+def test_of_many_samples_one_turn_is_tried():
+    import numpy as np
+
+    from discrepancy.problem import Record
+    from workbench.trying import FEW, thinned
+
+    angle = np.linspace(0.0, 20.0 * np.pi, 50_001)
+    many = Record("r", "transmission_error", "rad", "c", 1, np.sin(78 * angle), {"angle": angle}, {"direction": 1})
+    few = thinned(many)
+    assert 0.8 * FEW < len(few.values) <= FEW and few.axes["angle"].max() < 2.0 * np.pi
+    assert np.allclose(few.values, np.sin(78 * few.axes["angle"])) and thinned(few) is few
+
+
+def test_results_are_told_without_numbers_that_json_lacks(tmp_path):
+    import numpy as np
+
+    from workbench.told import write_json
+
+    write_json(tmp_path / "a.json", {"x": [1.0, float("nan"), np.float64(np.inf)], "y": np.arange(2)})
+    assert json.loads((tmp_path / "a.json").read_text()) == {"x": [1.0, None, None], "y": [0, 1]}
+
+
+def test_columns_of_a_comparison_are_read_without_parsing():
+    import numpy as np
+
+    from workbench.look import Columns
+
+    columns = Columns()
+    places = [columns.add(np.array(row)) for row in ([1.0, 2.0], [3.0])]
+    found = np.frombuffer(columns.bytes(), "<f4")
+    assert [found[p["from"] : p["from"] + p["count"]].tolist() for p in places] == [[1.0, 2.0], [3.0]]
+
+
+def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
+    from workbench.reducers import completed
+
+    folder = opened(tmp_path)
+    asked = {"ratio": "121", "pins": "40", "rated": "167", "known": {"pin.radius": "2mm"}, "name": "mine"}
+    with pytest.raises(InputFault, match="^ratio 8100: must lie"):
+        completed(folder, {**asked, "ratio": "8100"})
+    assert completed(folder, {**asked, "save": True})["saved"] == "mine.toml"
+    with pytest.raises(InputFault, match="not overwritten"):
+        completed(folder, {**asked, "save": True})
+    assert folder.models() == ["mine.toml"]
+
+
+def test_the_file_of_an_ensemble_is_that_of_the_form(tmp_path):
+    from studies.ensemble.ensemble_file import load_ensemble
+    from workbench.ensemble_step import text_of
+
+    row = {"name": "bearing.clearance", "unit": "um", "distribution": "normal", "first": "2,5", "second": 0.4}
+    given = {"model": "RV20E-121", "hours": "3000", "samples": "4", "scatters": [row], "limits": {"disc_flank_um": "5"}}
+    (tmp_path / "ensemble.toml").write_text(text_of(opened(tmp_path), given), encoding="utf-8")
+    drawn = load_ensemble(tmp_path / "ensemble.toml")
+    assert (drawn.samples, drawn.hours, drawn.limits, [s.name for s in drawn.scatters]) == (4, 3000.0, {"disc_flank_um": 5.0}, ["bearing_clearance"])
+    with pytest.raises(InputFault, match="power of two"):
+        text_of(opened(tmp_path), given | {"samples": 5})
+    with pytest.raises(InputFault, match="no such distribution"):
+        text_of(opened(tmp_path), given | {"scatters": [row | {"name": 'a" = 1'}]})

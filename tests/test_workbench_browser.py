@@ -1,0 +1,248 @@
+"""The workbench driven as a user drives it, in headless Chromium: from dropped files to the fallen error.
+
+The whole loop takes some minutes: ``pytest -m campaign tests/test_workbench_browser.py``.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_src.faults import InputFault
+from workbench.folder import opened
+
+ROOT = Path(__file__).parents[1]
+EXAMPLE = ROOT / "examples" / "hidden_effect" / "campaign"
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+# A page that paints later than this lets one wait [ms].
+FIRST_PAINT = 1000.0
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    """Skipped with a word where something is missing."""
+    pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install playwright")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium: apt-get install chromium")
+    with playwright.sync_playwright() as tools:
+        browser = tools.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+class Bench:
+    """The command, its folder, and a page; what the page asks of others or complains of is kept."""
+
+    def __init__(self, chromium, folder: Path, **more: str):
+        self.folder, self.chromium, self.more = folder, chromium, more
+        self.trouble: list[str] = []
+        self.start()
+        self.page = self.tab()
+
+    def start(self):
+        command = [sys.executable, "-m", "cli", "workbench", str(self.folder), "--no-browser"]
+        self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, env=os.environ | self.more)
+        assert self.process.stdout
+        assert self.process.stdout.readline().startswith("workbench of ")
+        self.address = self.process.stdout.readline().strip()
+
+    def tab(self):
+        page = self.chromium.new_page(viewport={"width": 1280, "height": 900})
+        page.set_default_timeout(60_000)
+        page.on("pageerror", lambda e: self.trouble.append(f"script: {e}"))
+        page.on("request", lambda r: None if r.url.startswith((self.address, "data:", "blob:")) else self.trouble.append(f"asked elsewhere: {r.url}"))
+        return page
+
+    def kill(self):
+        self.process.kill()
+        self.close()
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        assert self.process.wait(10) in (0, -signal.SIGKILL)
+        assert self.process.stdout
+        self.process.stdout.close()
+
+    def view(self, name):
+        self.page.goto(f"{self.address}#{name}")
+        self.page.locator(f"#tab-{name}[aria-selected=true]").wait_for()
+
+
+@pytest.fixture
+def bench(chromium, tmp_path, request):
+    # A diagnosis that is remembered from an earlier run could not be stopped.
+    fresh = {"XDG_CACHE_HOME": str(tmp_path / "cache")} if request.node.get_closest_marker("campaign") else {}
+    there = Bench(chromium, tmp_path / "bench 1", **fresh)
+    yield there
+    there.close()
+    assert not there.trouble
+
+
+def loop_file(path: Path, rows: int, stiffness: float) -> Path:
+    """A loop as a bench writes it: semicolons, decimal commas, a unit in the head."""
+    torque = 160.0 * np.sin(np.linspace(0.0, 2.0 * np.pi, rows))
+    turning = torque / stiffness + 0.05 * np.sign(torque) + 0.003 * np.random.default_rng(rows).standard_normal(rows)
+    text = "Drehmoment [Nm];Verdrehung [arcmin]\n" + "\n".join(f"{t:.3f};{y:.4f}" for t, y in zip(torque, turning))
+    path.write_text(text.replace(".", ","), encoding="utf-8")
+    return path
+
+
+def test_files_are_dropped_guessed_and_corrected(bench, tmp_path):
+    """No line written, no key but one choice; the page is there at once, and asks nobody else."""
+    page = dropped(bench, tmp_path)
+    assert page.get_by_label("column of value").input_value() == "Verdrehung [arcmin]"
+    assert page.get_by_label("pattern of the names").input_value() == "loop_{temperature}degC_{replicate}"
+    paints = page.evaluate("performance.getEntriesByType('paint').filter(e => e.name === 'first-contentful-paint').map(e => e.startTime)")
+    assert paints and paints[0] < FIRST_PAINT
+    drawn = page.evaluate(MILLION)
+    print(f"a picture of 3 lines and a band of a million samples: {drawn['calls']} calls, {drawn['ms']:.1f} ms with rasterising")
+    # Of a million samples a screen shows as many bars as it is wide.
+    assert drawn["calls"] < 25_000
+
+
+def dropped(bench, tmp_path):
+    """The page with two repetitions of a loop."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", [str(loop_file(tmp_path / f"loop_20degC_{k}.csv", 200 + k, 400.0)) for k in (1, 2)])
+    page.get_by_text("2 runs in 2 files, 1 condition").wait_for()
+    return page
+
+
+# Draws with the page's own plot, counting what is asked of the canvas.
+MILLION = """async () => {
+    const { Plot } = await import('./static/plot.js'), { paint } = await import('./static/paint.js');
+    const n = 1_000_000, x = Float32Array.from({ length: n }, (_, i) => i / 1000), wave = (k) => x.map((v, i) => Math.sin(v * k) + 0.1 * Math.sin(i));
+    const plot = new Plot({ height: 460 });
+    document.getElementById('view').replaceChildren(plot.element);
+    const line = (name, y) => ({ name, x, y, colour: '--measured' });
+    plot.set({ xTitle: 'x', panes: [
+      { title: 'y', weight: 2, lines: [line('measured', wave(1)), line('predicted', wave(1.01))], bands: [{ x, low: wave(1), high: wave(1.1) }] },
+      { title: 'r', lines: [line('residual', wave(3))] }] });
+    paint(plot);
+    const own = CanvasRenderingContext2D.prototype;
+    let calls = 0;
+    for (const name of ['lineTo', 'moveTo', 'fillRect']) { const before = own[name]; own[name] = function (...given) { calls++; return before.apply(this, given); }; }
+    const begun = performance.now();
+    // What is read back is really drawn.
+    for (let i = 0; i < 10; i++) { plot.link.range = [i, 1000 - 20 * i]; paint(plot); plot.canvas.getContext('2d').getImageData(0, 0, 1, 1); }
+    return { calls: calls / 10, ms: (performance.now() - begun) / 10 };
+  }"""
+
+
+@pytest.mark.campaign
+def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    page.select_option("#measured", "RV20E-121")
+    page.locator("#save:enabled").wait_for()
+    page.get_by_label("locked").select_option("output")
+    page.wait_for_function("document.querySelector('label.inline select') !== null")
+    other = bench.tab()
+    other.goto(f"{bench.address}#in")
+    other.locator("select[aria-label=quantity]").wait_for()
+    assert other.get_by_label("locked").input_value() == "output" and other.input_value("#measured") == "RV20E-121"
+    other.close()
+    bench.kill()
+    page.locator("#gone").wait_for()
+    bench.start()
+    bench.view("in")
+    page.get_by_label("locked").wait_for()
+    assert page.get_by_label("locked").input_value() == "output"
+    assert sorted(p.name for p in bench.folder.iterdir()) == [".workbench", "loop_20degC_1.csv", "loop_20degC_2.csv"]
+
+
+@pytest.mark.campaign
+def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
+    """Drop, look, diagnose, stop and go on, try, ask for the next run, add, build, live; by hand in the page alone."""
+    page = bench.page
+    drop = tmp_path / "drop"
+    drop.mkdir()
+    conditions = tomllib.loads((EXAMPLE / "campaign.toml").read_text(encoding="utf-8"))["conditions"]
+    heads = {"loop": ("torque,y", "torque [Nm],turning [arcsec]"), "torque": ("input_speed,y", "input_speed [rpm],input_torque [Nm]")}
+    for path in sorted(EXAMPLE.glob("*.csv")):
+        # As a bench names its files.
+        condition, kind, number = path.stem.split("_")
+        load, temperature = (re.sub(" .*", "", conditions[condition][k]) for k in ("load_torque", "temperature"))
+        name = f"loop_{temperature}degC_{number}.csv" if kind == "loop" else f"torque_{load}Nm_{temperature}degC_{number}.csv"
+        (drop / name).write_text(path.read_text(encoding="utf-8").replace(*heads[kind], 1), encoding="utf-8")
+    bench.view("in")
+    page.set_input_files("#files", sorted(map(str, drop.iterdir())))
+    page.get_by_text("26 runs in 26 files, 10 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121-rigid")
+    page.locator("#save:enabled").click()
+    # Look.
+    page.locator("#curves canvas").first.wait_for()
+    assert "lost motion" in page.locator("#figures").inner_text()
+    page.locator("#curves canvas").first.click(position={"x": 300, "y": 120})
+    page.keyboard.press("b")
+    page.keyboard.press("ArrowRight")
+    page.locator(".cursors table").first.wait_for()
+    # Diagnose: stopped, it has an answer; gone on with, it has the answer.
+    bench.view("diagnose")
+    page.locator("#diagnose:enabled").click()
+    page.locator("#work", has_text="screening").wait_for()
+    page.locator("#sofar", has_text="changing with temperature").wait_for()
+    page.locator("#stop").click()
+    page.locator("#verdict", has_text="interrupted").wait_for()
+    page.locator("#diagnose:enabled", has_text="Go on").click()
+    page.locator("#verdict", has_text="The model lacks thermal expansion").wait_for(timeout=300_000)
+    # Try: the curve follows the hand.
+    bench.view("try")
+    page.fill("input[type=search]", "thermal expansion")
+    slider = page.locator("[data-parameter=thermal_expansion]")
+    slider.wait_for()
+    slider.focus()
+    for _ in range(8):
+        page.keyboard.press("ArrowRight")
+    page.get_by_text("What it would do to each signal").wait_for()
+    # Next experiment, the better model, its units.
+    bench.view("diagnose")
+    page.locator("#next:enabled").click()
+    page.get_by_text("thermal_expansion stands alone").wait_for(timeout=120_000)
+    page.locator("#extend:enabled").click()
+    page.locator("#added", has_text="helped").wait_for(timeout=120_000)
+    before, after = map(float, re.findall(r"from ([\d.]+) to ([\d.]+)", page.locator("#added").inner_text())[0])
+    page.locator("#build:enabled").click()
+    page.get_by_text("fmus/fmi3/RvPlant.fmu").wait_for(timeout=240_000)
+    assert before > 2.0 and after < 0.5 * before
+    folder = opened(bench.folder)
+    assert (folder.root / "model.toml").is_file() and (folder.root / "fmus" / "fmi3" / "RvPlant.fmu").is_file()
+    # Life: paused and gone on with.
+    page.select_option("#model", "model.toml")
+    bench.view("life")
+    page.fill("#hours", "2000")
+    page.locator("#live:enabled").click()
+    page.locator("iframe.report").wait_for(timeout=120_000)
+    for width in (1280, 390):
+        page.set_viewport_size({"width": width, "height": 844})
+        for name in ("in", "look", "diagnose", "try", "reducer", "life"):
+            bench.view(name)
+            page.wait_for_timeout(800)
+            assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{name} is wider than {width}"
+
+
+def test_a_port_that_there_is_not_is_refused(tmp_path):
+    from workbench.server import serve
+
+    with pytest.raises(InputFault, match="65535"):
+        serve(opened(tmp_path), 80_000, 1, print)
+
+
+def test_the_command_says_what_is_missing(tmp_path):
+    """Without the optional packages the way to them."""
+    hidden = tmp_path / "starlette"
+    hidden.mkdir()
+    (hidden / "__init__.py").write_text("raise ModuleNotFoundError('no', name='starlette')")
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    ended = subprocess.run([sys.executable, "-m", "cli", "workbench", str(tmp_path)], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60)
+    assert ended.returncode == 2 and 'pip install "rvwear[workbench]"' in ended.stderr

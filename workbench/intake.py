@@ -1,0 +1,199 @@
+"""In: what the dropped files are taken for and why, corrected by what was clicked, saved as the command line's campaign.toml."""
+
+import hashlib
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from discrepancy.campaign.check import check_campaign
+from discrepancy.campaign.guess.propose import Proposal, propose
+from discrepancy.campaign.guess.table import table_of
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+from discrepancy.campaign.load import load_campaign
+from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
+from fmu_src.faults import InputFault
+from pages.look import significant
+from reducers.library import available
+from workbench.folder import Folder
+
+# Points of the little curve that shows what a column looks like, and columns of a file that are shown.
+POINTS, MOST_COLUMNS = 80, 40
+WISHES = "wishes"
+# Units that are offered for a column, by its SI unit; any other may be typed.
+OFFERED = {
+    "rad": ("arcsec", "arcmin", "deg", "mdeg", "rad", "urad", "turn"), "N.m": ("N.m", "mN.m", "kN.m"), "rad/s": ("rpm", "rad/s", "Hz", "deg/s"),
+    "s": ("s", "ms", "h", "min"), "K": ("degC", "K"), "m": ("um", "mm", "m"), "1": ("1", "%", "ppm"), "kg": ("mg", "g", "kg"), "m/s^2": ("m/s^2", "g_0"),
+    "N.m/rad": ("N.m/arcmin", "N.m/rad"), "N": ("N", "kN"), "m/s": ("m/s", "mm/s"),
+}  # fmt: skip
+
+
+def choices() -> dict[str, Any]:
+    """What there is to choose from: quantities with their roles, units, keys of a condition, words of tags."""
+    return {
+        "quantities": {
+            q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags],
+                     "roles": {role: {"description": key.description, "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
+            for q in QUANTITIES.values()
+        },
+        "factors": {key.key: {"example": key.example, "description": key.description} for key in FACTORS},
+        "tags": {tag.name: {"choices": list(tag.choices), "description": tag.description} for tag in TAGS.values()},
+        "reducers": available(),
+    }  # fmt: skip
+
+
+def wishes_of(given: Mapping[str, Any]) -> Wishes:
+    """From JSON; InputFault for a key or kind that there is not."""
+    texts = {}
+    for key in ("units", "columns", "quantities", "conditions", "tags"):
+        texts[key] = {str(name): str(value) for name, value in mapping(given, key).items() if str(value).strip()}
+    counts = {}
+    for column, steps in mapping(given, "counts").items():
+        try:
+            counts[str(column)] = float(steps)
+        except (TypeError, ValueError):
+            raise InputFault(f"counts of {column!r}: {steps!r} is no number of steps a turn") from None
+    held = given.get("held_out")
+    names = given.get("names", ())
+    if not isinstance(names, (list, tuple)) or not (held is None or isinstance(held, list)):
+        raise InputFault("names and held_out are lists")
+    return Wishes(str(given["reducer"]) if given.get("reducer") else None, tuple(str(n) for n in names if str(n).strip()), texts["units"], texts["columns"],
+                  counts, texts["quantities"], texts["conditions"], None if held is None else tuple(map(str, held)), texts["tags"])  # fmt: skip
+
+
+def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    value = given.get(key) or {}
+    if not isinstance(value, dict):
+        raise InputFault(f"{key} is a table of names and values")
+    return value
+
+
+def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[str]]:
+    """The proposal, and corrections that no longer fit anything: conditions are named anew where the pattern of names changes."""
+    files = folder.measurements()
+    reducer = given.get("reducer")
+    wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
+    name = campaign_name(folder.root)
+    try:
+        return propose(files, wishes, name), []
+    except InputFault as fault:
+        if "there is no condition" not in str(fault) and "there is no such condition" not in str(fault):
+            raise
+    plain = {k: v for k, v in wishes.conditions.items() if ":" not in k}
+    without = Wishes(wishes.reducer, wishes.names, wishes.units, wishes.columns, wishes.counts, wishes.quantities, plain, None, wishes.tags)
+    there = propose(files, without, name).conditions
+    kept = {k: v for k, v in wishes.conditions.items() if ":" not in k or k.rpartition(":")[0] in there}
+    held = None if wishes.held_out is None else tuple(n for n in wishes.held_out if n in there)
+    gone = sorted({k.rpartition(":")[0] for k in wishes.conditions.keys() - kept.keys()} | set(wishes.held_out or ()) - set(held or ()))
+    fitting = Wishes(wishes.reducer, wishes.names, wishes.units, wishes.columns, wishes.counts, wishes.quantities, kept, held, wishes.tags)
+    return propose(files, fitting, name), [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
+
+
+def view(folder: Folder) -> dict[str, Any]:
+    """Everything that the page shows of its files."""
+    given = folder.recall(WISHES)
+    files = folder.measurements()
+    found: dict[str, Any] = {
+        "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
+        "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
+    }  # fmt: skip
+    if found["saved"]:
+        found |= checked_campaign(folder)
+    if not files or (found["saved"] and not found["own"]):
+        return found
+    try:
+        proposal, found["gone"] = proposed(folder, given)
+    except InputFault as fault:
+        found["fault"] = str(fault).replace(f"{folder.root}/", "")
+        return found
+    found["proposal"] = proposal.as_json()
+    for run, placed in zip(found["proposal"]["runs"], proposal.runs):
+        run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
+    found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
+    found["text"] = text_of(folder, proposal)
+    found["command"] = command(folder, given)
+    return found
+
+
+def checked_campaign(folder: Folder) -> dict[str, Any]:
+    """What campaign.toml holds as it is read, and what ``rvwear campaign check`` finds."""
+    try:
+        campaign = load_campaign(folder.root)
+        check = check_campaign(campaign)
+    except InputFault as fault:
+        return {"fault": str(fault).replace(f"{folder.root}/", "")}
+    return {
+        "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
+        "findings": [{"level": f.level, "text": f.text, "remedy": f.remedy} for f in check.findings],
+    }
+
+
+@lru_cache(maxsize=4096)
+def columns_of(path: Path, changed: int) -> list[dict[str, Any]]:
+    """Each column's name as the file has it, its size and a curve of few points; ``changed`` tells one version of a file from the next."""
+    try:
+        table = table_of(path)
+    except InputFault:
+        return []
+    found = []
+    for name, values in list(table.columns.items())[:MOST_COLUMNS]:
+        known = values[np.isfinite(values)]
+        few = values[np.linspace(0, len(values) - 1, min(POINTS, len(values))).astype(np.intp)] if len(values) else values
+        span = [float(known.min()), float(known.max())] if len(known) else None
+        found.append({"name": table.headers.get(name, name), "rows": len(values), "span": span, "curve": significant(few, 4)})
+    return found
+
+
+def campaign_name(folder: Path) -> str:
+    """Of the folder, in the signs that a campaign's name may have."""
+    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.name).lstrip(" ._-")
+    return name or "campaign"
+
+
+def text_of(folder: Folder, proposal: Proposal) -> str:
+    return campaign_text(proposal, folder.root)
+
+
+def written_here(folder: Folder) -> bool:
+    """Whether campaign.toml is as the page saved it: only then may it be saved anew."""
+    return folder.campaign.is_file() and folder.recall("saved").get("sha256") == sha256(folder.campaign.read_bytes())
+
+
+def sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def save(folder: Folder) -> dict[str, Any]:
+    """Write campaign.toml as ``rvwear campaign from`` does; one that was edited by hand stays."""
+    proposal, _ = proposed(folder, folder.recall(WISHES))
+    if not proposal.reducer:
+        raise InputFault("which reducer was measured has to be said first: choose it above the table")
+    checked(proposal)
+    if folder.campaign.is_file():
+        if not written_here(folder):
+            raise InputFault("campaign.toml was not written on this page, or was changed since: it is not overwritten; rename it to begin anew")
+        folder.campaign.unlink()
+    write_campaign(proposal, folder.root)
+    folder.remember("saved", {"sha256": sha256(folder.campaign.read_bytes())})
+    return {"saved": True, "needs": [need.as_json() for need in proposal.needs]}
+
+
+def command(folder: Folder, given: Mapping[str, Any]) -> str:
+    """The command line that proposes the same."""
+    import shlex
+
+    wishes = wishes_of(given)
+    words = ["rvwear", "campaign", "from", str(folder.root)]
+    words += ["--reducer", wishes.reducer] if wishes.reducer else []
+    for pattern in wishes.names:
+        words += ["--names", pattern]
+    for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("counts", wishes.counts), ("quantity", wishes.quantities),
+                          ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
+        for name, value in pairs.items():
+            words += [f"--{option}", f"{name}={value:g}" if isinstance(value, float) else f"{name}={value}"]
+    if wishes.held_out is not None:
+        words += ["--held-out", *wishes.held_out]
+    return shlex.join(words)

@@ -1,0 +1,172 @@
+"""A comparison as the page shows it: key figures first, then every run over its axis, residuals in units of the noise, orders."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from discrepancy.compare import Comparison
+from discrepancy.key_figures import KeyFigure
+from discrepancy.page import amounts, comparison, spectra
+from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
+from discrepancy.scales import of_axis, of_parameter, of_signal
+from fmu_src.arrays import Floats
+from pages.words import number
+
+# The row of an order is drawn up to this one.
+MOST_ORDERS = 200
+# A prediction for an axis with fewer samples is drawn with dots besides.
+FEW = 40
+# Samples of a run that is drawn at all.
+LEAST = 3
+
+
+class Columns:
+    """Columns of numbers, one behind the other in single precision: what a browser reads without parsing."""
+
+    def __init__(self) -> None:
+        self.parts: list[bytes] = []
+        self.size = 0
+
+    def add(self, values: Floats) -> dict[str, int]:
+        """Where they stand, in numbers from the beginning."""
+        plain = np.ascontiguousarray(values, dtype="<f4")
+        place = {"from": self.size, "count": int(plain.size)}
+        self.parts.append(plain.tobytes())
+        self.size += int(plain.size)
+        return place
+
+    def bytes(self) -> bytes:
+        return b"".join(self.parts)
+
+
+def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
+    """(all that is words and few numbers, the columns that it refers to)."""
+    model = result.model
+    speed = of_axis("speed", model.campaign)
+    space = result.diagnostician.space
+    runs = runs_of(space, result.predictions, speed)
+    ratios = {r["run"]: r["ratio"] for r in result.runs}
+    columns = Columns()
+    named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
+    page = comparison.page(result)
+    told = {
+        "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings, "cards": [asdict(c) for c in page.cards],
+        "figures": figures(result.figures), "calibrated": calibrated(result),
+        "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
+        "places": [asdict(g) for g in result.diagnostician.localisation.findings],
+        "orders": named, "nuisances": result.nuisances,
+    }  # fmt: skip
+    return told, columns.bytes()
+
+
+def calibrated(result: Comparison) -> list[dict[str, str]]:
+    units = {p.name: (p.unit, p.description) for p in result.model.nuisances}
+    found = []
+    for name, value in result.nuisances.items():
+        unit, meaning = units.get(name, ("1", ""))
+        found.append({"name": name, "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
+    return found
+
+
+def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
+    """Measured against model in one unit, with the noise; what repeats how often."""
+    rows = []
+    for f in found:
+        named = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
+        scale = of_signal(named, f.unit)
+        values = {key: scale.factor * value for key, value in (("measured", f.measured), ("model", f.model), ("noise", f.noise))}
+        decimals = decimals_of(values["noise"])
+        rows.append({
+            "signal": f.signal, "title": amounts.signal_title(f.signal), "condition": f.condition, "name": f.name, "unit": amounts.pretty(scale.unit),
+            "runs": f.runs, "repeated": f.repeated, "off": f.off, **{key: text_of(value, decimals) for key, value in values.items()},
+        })  # fmt: skip
+    return rows
+
+
+def decimals_of(noise: float) -> int:
+    """Decimals down to the second digit of the noise: what is smaller says nothing."""
+    return min(9, max(0, 1 - math.floor(math.log10(noise)))) if noise > 0.0 and math.isfinite(noise) else 4
+
+
+def text_of(value: float, decimals: int) -> str:
+    return f"{value:,.{decimals}f}".replace("-", "−") if math.isfinite(value) else "–"
+
+
+def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str, float], named: dict[str, str]) -> dict[str, Any]:
+    """One signal: its runs, each with axis, measured, predicted and noise in the units that a bench reads."""
+    first = members[0]
+    unit = first.record.unit
+    factor, shown = amounts.scale(unit, name)
+    series = [run for run in members if over_an_axis(run)]
+    told: dict[str, Any] = {
+        "signal": name, "title": amounts.signal_title(name), "unit": shown, "held_out": any(r.record.held_out for r in members), "runs": [],
+        "singles": [single(run, factor, ratios) for run in members if not over_an_axis(run)],
+    }  # fmt: skip
+    if series:
+        axis = axis_of(series[0])
+        told["axis"] = {"name": axis, "title": amounts.axis_title(axis, series[0].speed)}
+        told["loop"] = axis == "torque"
+        told["runs"] = [drawn(run, factor, columns, ratios) for run in series if axis_of(run) == axis]
+        told["spectra"] = orders_of([run for run in series if run.series], factor, named)
+    return told
+
+
+def over_an_axis(run: Run) -> bool:
+    """Whether there is something to draw a run over, were it of few samples."""
+    return axis_name(run.record) is not None and run.measured.size >= LEAST
+
+
+def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:
+    record = run.record
+    name = axis_of(run)
+    x = amounts.axis_values(name, np.asarray(record.axes[name])[run.kept], run.speed)
+    noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.kept.shape)[run.kept] if np.ndim(run.noise) else np.full(run.measured.size, float(run.noise))
+    return label(run, ratios) | {
+        "samples": int(run.measured.size), "dots": run.measured.size < FEW,
+        "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
+        "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
+    }  # fmt: skip
+
+
+def label(run: Run, ratios: dict[str, float]) -> dict[str, Any]:
+    record = run.record
+    return {"run": record.name, "condition": record.condition, "replicate": record.replicate, "held_out": record.held_out, "mounting": record.mounting,
+            "ratio": ratios.get(record.name)}  # fmt: skip
+
+
+def single(run: Run, factor: float, ratios: dict[str, float]) -> dict[str, Any]:
+    noise = factor * float(np.sqrt(np.mean(np.square(run.noise))))
+    return label(run, ratios) | {
+        "measured": [number(factor * v, 4) for v in run.measured], "predicted": [number(factor * v, 4) for v in run.predicted], "noise": number(noise, 2),
+        "off": [round(float(v), 2) for v in (factor * (run.measured - run.predicted) / max(noise, 1e-300))],
+    }  # fmt: skip
+
+
+def orders_of(runs: Sequence[Run], factor: float, named: dict[str, str]) -> list[dict[str, Any]]:
+    """Amplitudes of the whole orders of the output's turn, condition by condition, of the mean of its repetitions; [] without whole turns."""
+    cells: dict[str, list[Run]] = {}
+    for run in runs:
+        if spectra.turns(run):
+            cells.setdefault(run.record.condition, []).append(run)
+    return [spectrum(condition, members, factor) for condition, members in cells.items()]
+
+
+def spectrum(condition: str, members: Sequence[Run], factor: float) -> dict[str, Any]:
+    first = members[0]
+    whole = spectra.turns(first)
+    alike = [r for r in members if spectra.turns(r) == whole and r.kept.size == first.kept.size]
+    measured = amplitudes((spectra.bridged(r, r.measured) for r in alike), whole, factor)
+    predicted = amplitudes([spectra.bridged(first, first.predicted)], whole, factor)
+    residual = amplitudes((spectra.bridged(r, r.measured - r.predicted) for r in alike), whole, factor)
+    return {"condition": condition, "held_out": first.record.held_out, "turns": whole, "repetitions": len(alike),
+            "measured": measured, "predicted": predicted, "residual": residual}  # fmt: skip
+
+
+def amplitudes(curves: Iterable[Floats], whole: int, factor: float) -> list[float]:
+    """Of orders 0 to MOST_ORDERS of the mean of the curves; that of order 0 counts for nothing."""
+    found = factor * spectra.amplitudes(np.mean(list(curves), axis=0), whole)[: MOST_ORDERS + 1]
+    found[:1] = 0.0
+    return [float(f"{v:.4g}") for v in found]

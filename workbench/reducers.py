@@ -1,0 +1,156 @@
+"""Reducer: one of the library, a file of the folder, or completed from a few numbers; drawn to scale, every number with unit, source and range."""
+
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from discrepancy.model_file import load_model
+from fmu_src.checked_file import write_text
+from fmu_src.display import display_unit
+from fmu_src.faults import InputFault
+from fmu_src.units import conversion
+from pages.words import number
+from reducers.completion.complete import UNITS, Completion, complete
+from reducers.completion.file import text_of
+from reducers.completion.geometry import largest_pin
+from reducers.completion.given import Given
+from reducers.completion.known import FROM_OPTIONS, known_numbers
+from reducers.library import available
+from reducers.reducer import Reducer, reducer_of
+from studies.report.assembly import assembly, zoom
+from studies.report.completed import page_of
+from workbench.folder import CAMPAIGN, NAME, Folder
+from workbench.told import figure_data, page_data
+
+MM = 1e3
+# What the form asks for: name, what it is, unit, whether it must be given.
+ASKED = (
+    ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", True), ("rated", "rated torque", "N·m", True),
+    ("diameter", "outer diameter of the housing", "mm", False), ("speed", "rated output speed", "rpm", False), ("cranks", "cranks", "", False),
+    ("rollers", "rollers of a crank bearing", "", False), ("lost_motion", "lost motion of the catalogue", "arcmin", False),
+)  # fmt: skip
+WHOLE = ("pins", "cranks", "rollers")
+
+
+def shown(folder: Folder, model: str) -> dict[str, Any]:
+    """A reducer as it stands in its file; without one the choice."""
+    found: dict[str, Any] = {"library": available(), "files": folder.models(), "asked": [list(row) for row in ASKED], "reducer": None,
+                             "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
+    if model:
+        file = load_model(folder.model({"model": model}))
+        found["reducer"] = described(file.reducer)
+        found["carries"] = list(file.effects)
+    return found
+
+
+def described(reducer: Reducer) -> dict[str, Any]:
+    whole = assembly(reducer, None)
+    t = reducer.topology
+    return {
+        "name": reducer.name, "description": reducer.description,
+        "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
+        "figures": [figure_data(whole), figure_data(zoom(whole, reducer))], "numbers": numbers(reducer), "findings": findings(reducer),
+    }  # fmt: skip
+
+
+def numbers(reducer: Reducer) -> list[dict[str, Any]]:
+    """Every number of the file in the unit that people read it in."""
+    rows = []
+    for name, value in reducer.starts.items():
+        variable = next((t.by_name[name] for t in (reducer.plant, reducer.wear, reducer.joint) if name in t.by_name), None)
+        if variable is None:
+            continue
+        unit = display_unit(variable) or variable.unit
+        factor, offset = conversion(variable.unit, unit)
+        low, high = reducer.ranges.get(name, (math.nan, math.nan))
+        text = variable.choices[int(value)] if variable.choices else number(factor * value + offset, 5)
+        source = reducer.sources.get(name, "")
+        rows.append({
+            "name": variable.path, "value": text, "unit": "" if unit == "1" or variable.choices else unit, "meaning": variable.description, "source": source,
+            "assumed": source.startswith(("assumed", "completed")), "outside": bool(low > value or high < value),
+            "range": f"{number(factor * low + offset)} to {number(factor * high + offset)}" if math.isfinite(low) else "",
+        })  # fmt: skip
+    return rows
+
+
+def findings(reducer: Reducer) -> list[str]:
+    """What cannot be made, or lies where its own file says that it does not; in words with place, value and bound."""
+    s, pins = reducer.starts, reducer.topology.pins
+    ring, pin, throw = (MM * s[k] for k in ("pin_circle_radius", "pin_radius", "eccentricity"))
+    found = []
+    if pin >= ring * math.sin(math.pi / pins):
+        found.append(f"pin.radius = {pin:.4g} mm: {pins} pins on a circle of {ring:.4g} mm overlap; below {ring * math.sin(math.pi / pins):.4g} mm they do not")
+    if throw * pins >= ring:
+        found.append(f"crank.eccentricity = {throw:.4g} mm: the profile has loops; below {ring / pins:.4g} mm it has none")
+    elif pin >= (most := largest_pin(ring, throw, pins)):
+        found.append(f"pin.radius = {pin:.4g} mm: the flank is undercut, where it is most convex; below {most:.4g} mm it is not")
+    found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(reducer) if row["outside"]]
+    return found
+
+
+def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
+    """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
+    try:
+        completion = complete(given_of(given))
+        name = str(given.get("name") or "").strip() or f"ratio-{completion.given.ratio:g}-{completion.given.rated:g}Nm"
+        if not NAME.fullmatch(name):
+            raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")
+        text = text_of(completion, name)
+        reducer = reducer_of(tomllib.loads(text), folder.root / f"{name}.toml")
+    except InputFault as fault:
+        raise InputFault(plainly(str(fault))) from None
+    saved = ""
+    if given.get("save"):
+        place = folder.inside(f"{name}.toml")
+        if place.exists() or place.name == CAMPAIGN:
+            raise InputFault(f"{place.name} is in the folder already and is not overwritten; give another name")
+        write_text(place, text)
+        saved = place.name
+    page = page_data(page_of(completion, reducer, []))
+    return {"page": page, "numbers": rows_of(completion), "name": name, "saved": saved, "findings": findings(reducer), "command": command(completion, name)}
+
+
+def given_of(given: Mapping[str, Any]) -> Given:
+    values: dict[str, Any] = {}
+    for name, label, _, needed in ASKED:
+        text = str(given.get(name) or "").strip().replace(",", ".")
+        if not text:
+            if needed:
+                raise InputFault(f"{label} is needed")
+            continue
+        try:
+            values[name] = int(text) if name in WHOLE else float(text)
+        except ValueError:
+            raise InputFault(f"{label}: {text!r} is no {'whole ' if name in WHOLE else ''}number") from None
+    known = given.get("known") or {}
+    if not isinstance(known, dict):
+        raise InputFault("known numbers are a table of names and values")
+    return Given(**values, known=known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip()))
+
+
+def rows_of(completion: Completion) -> list[dict[str, Any]]:
+    return [
+        {"name": n.name, "value": f"{n.value:.5g}", "unit": "" if n.unit == "1" else n.unit, "range": f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "",
+         "source": n.source, "given": n.is_given, "asked": n.name not in FROM_OPTIONS}
+        for n in completion.numbers.values()
+    ]  # fmt: skip
+
+
+def command(completion: Completion, name: str) -> str:
+    import shlex
+
+    g = completion.given
+    words = ["rvwear", "reducer", "new", "--ratio", f"{g.ratio:g}", "--pins", str(g.pins), "--rated", f"{g.rated:g}", "--speed", f"{g.speed:g}",
+             "--rollers", str(g.rollers), "--lost-motion", f"{g.lost_motion:g}"]  # fmt: skip
+    words += ["--diameter", f"{g.diameter:g}"] if g.diameter is not None else []
+    words += ["--cranks", str(g.cranks)] if g.cranks is not None else []
+    for key, value in g.known.items():
+        words += ["--known", f"{key}={value:g}{'' if UNITS[key] == '1' else UNITS[key]}"]
+    return shlex.join([*words, "--name", name])
+
+
+def plainly(text: str) -> str:
+    """The fault of an option in the words of a form."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", " "), text)

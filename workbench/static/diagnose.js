@@ -1,0 +1,204 @@
+// Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
+
+import { addPart, ladder, nextPart } from "./better.js";
+import { clear, command, duration, h, note, table, words } from "./dom.js";
+import { get } from "./net.js";
+import { cards, recolour, sections, warnings } from "./page.js";
+
+export function show(root, context) {
+  let answer = null,
+    next = null,
+    extension = null,
+    built = null;
+  const top = h("div"),
+    live = h("div"),
+    body = h("div"),
+    after = h("div");
+  root.append(top, live, body, after);
+
+  const fetched = (kind) => get(`results/${kind}`).catch(() => null);
+  async function load() {
+    const jobs = context.state?.jobs ?? {};
+    [answer, next, extension, built] = await Promise.all(["diagnose", "next", "extend", "build"].map((kind) => (jobs[kind]?.result ? fetched(kind) : null)));
+    draw();
+  }
+
+  function bar() {
+    const job = context.state?.jobs.diagnose,
+      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+    clear(
+      top,
+      h(
+        "div",
+        { class: "row" },
+        context.modelChooser("model"),
+        h(
+          "button",
+          { type: "button", id: "diagnose", class: answer ? "" : "main", disabled: busy, onclick: () => context.start("diagnose") },
+          answer ? (answer.verdict === "stopped" ? "Go on" : "Diagnose again") : "Diagnose",
+        ),
+        answer ? h("a", { class: "button", href: "results/diagnose/report?download", download: "" }, "Save as one file") : null,
+        job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since") : null,
+        answer && context.model() && answer.model !== context.model() ? h("span", { class: "fair" }, `the answer is of ${answer.model}`) : null,
+      ),
+      ["diagnose", "next", "extend", "build"].map((kind) =>
+        context.state?.jobs[kind]?.fault && context.state.jobs[kind].state !== "running" ? note(context.state.jobs[kind].fault, "bad") : null,
+      ),
+    );
+  }
+
+  // What is known by now: steps that were taken, and what each found.
+  function progress() {
+    const job = context.state?.jobs.diagnose;
+    if (job?.state !== "running") {
+      clear(live);
+      return;
+    }
+    clear(
+      live,
+      h(
+        "div",
+        { class: "panel" },
+        h("h1", {}, "Diagnosing"),
+        h("p", { class: "quiet" }, job.tasks.at(-1)?.sentence ?? ""),
+        job.said.length
+          ? [
+              h("h3", {}, "Known so far"),
+              h(
+                "ul",
+                { id: "sofar" },
+                job.said.map((text) => h("li", {}, text)),
+              ),
+            ]
+          : h("p", { class: "quiet" }, "The base model is fitted first, then each effect is held against what it leaves."),
+        h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
+      ),
+    );
+  }
+
+  function draw() {
+    bar();
+    progress();
+    if (!context.state?.saved) {
+      clear(body, h("p", { class: "quiet" }, "Drop measurements first, and save them under In."));
+      return;
+    }
+    if (!answer) {
+      clear(body, h("p", { class: "quiet" }, "Which physical effect does the model lack? Minutes with many runs; it can be stopped at any time."));
+      clear(after);
+      return;
+    }
+    clear(
+      body,
+      h(
+        "div",
+        { class: `panel verdict ${answer.tone}`, id: "verdict" },
+        h("p", { class: "quiet small" }, `verdict: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
+        h("h1", {}, answer.page.finding),
+        answer.page.finding.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+        answer.effects.map(effectOf),
+        answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
+        answer.left ? h("p", {}, `not explained: ${answer.left}`) : null,
+        answer.laws.map((law) => h("p", {}, `law without a name: ${law}`)),
+      ),
+      cards(answer.page.cards),
+      why(),
+      rivals(),
+      h("h2", {}, "Evidence"),
+      sections(answer.page.sections),
+      warnings(answer.page.warnings),
+      command(answer.command),
+    );
+    const bag = { answer, next, extension, built, context };
+    clear(after, nextPart(bag), addPart(bag), ladder(bag));
+  }
+
+  const effectOf = (e) =>
+    h(
+      "div",
+      { style: { "margin-top": "8px" } },
+      h("h3", {}, words(e.name)),
+      e.parameters.map((p) =>
+        h(
+          "p",
+          {},
+          `${words(p.name)} = `,
+          h("b", {}, `${p.value} ${p.unit}`),
+          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}`),
+        ),
+      ),
+      answer.effects.length > 1 ? h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")) : null,
+    );
+
+  // Every number of the verdict with the relation, the data and the margin that it comes from.
+  function why() {
+    const rows = [];
+    const held = answer.page.cards.find((c) => c.label.startsWith("Error on"));
+    rows.push([
+      "an effect is needed",
+      "score tests of all effects against the base fit",
+      `smallest p over all ${answer.p_screen === null ? "" : answer.p_screen.toExponential(1)}`,
+      "0.02 where the misfit has a place, else 0.002",
+    ]);
+    if (answer.effects[0])
+      rows.push([
+        "its name",
+        "fits of the nearest effects, each in earnest",
+        answer.rejected[0] ? `nearest rival: ${words(answer.rejected[0].name)}, ${answer.rejected[0].reason}` : "no rival",
+        "6 of chi-square: 20 to 1 in likelihood",
+      ]);
+    if (held)
+      rows.push(["it helps", "error on conditions that were not fitted", `${held.start} → ${held.value} ${held.unit}`, "1 is what repetitions differ by"]);
+    for (const e of answer.effects)
+      for (const p of e.parameters)
+        rows.push([
+          `${words(p.name)} = ${p.value} ${p.unit}`,
+          "fit to all runs that are not held out, nuisances following",
+          `95 %: ${p.interval}`,
+          "Student's law, widened by what the fit leaves",
+        ]);
+    return h(
+      "details",
+      { class: "panel" },
+      h("summary", {}, h("b", {}, "Why?")),
+      table(["what is said", "by which relation", "from which data", "with which margin"], rows),
+    );
+  }
+
+  const rivals = () =>
+    answer.rejected.length || answer.confusable.length
+      ? h(
+          "details",
+          { class: "panel", open: answer.confusable.length > 0 },
+          h("summary", {}, h("b", {}, "Rivals, and why not")),
+          answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${answer.confusable.map(words).join(", ")}.`) : null,
+          Object.entries(answer.alternatives).map(([name, others]) => h("p", {}, `in place of ${words(name)} could stand: ${others.map(words).join(", ")}`)),
+          table(
+            ["effect", "why not"],
+            answer.rejected.slice(0, 12).map((r) => [words(r.name), r.reason]),
+          ),
+        )
+      : null;
+
+  draw();
+  load();
+  const mark = (state) =>
+    JSON.stringify(
+      ["diagnose", "next", "extend", "build"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old]),
+    ) +
+    context.model() +
+    state.models +
+    state.saved +
+    Object.values(state.jobs).some((j) => j.state === "running");
+  let seen = context.state ? mark(context.state) : "";
+  return {
+    update(state) {
+      const now = mark(state);
+      if (now !== seen) {
+        seen = now;
+        load();
+      } else progress();
+    },
+    recolour: () => recolour(root),
+  };
+}

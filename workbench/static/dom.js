@@ -1,0 +1,137 @@
+// Elements, and small pieces that several views have.
+
+export function h(tag, given = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(given ?? {})) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name === "class") element.className = value;
+    else if (name === "value") element.value = value;
+    else if (name === "checked" || name === "selected" || name === "disabled" || name === "open" || name === "hidden") element[name] = value;
+    else if (name === "style" && typeof value === "object") for (const [key, part] of Object.entries(value)) element.style.setProperty(key, part);
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  for (const child of children.flat(Infinity)) if (child !== null && child !== undefined && child !== false) element.append(child);
+  return element;
+}
+
+export const clear = (element, ...children) => {
+  element.replaceChildren(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
+  return element;
+};
+
+export function choose(options, value, onchange, given = {}) {
+  const all = options.map((o) => (Array.isArray(o) ? o : [o, o]));
+  if (value && !all.some(([v]) => v === value)) all.unshift([value, value]);
+  const list = h(
+    "select",
+    { onchange: (event) => onchange(event.target.value), ...given },
+    all.map(([v, text]) => h("option", { value: v }, text)),
+  );
+  list.value = value ?? "";
+  return list;
+}
+
+// A table with right-aligned columns of numbers; cells may be elements.
+export function table(head, rows, right = [], given = {}) {
+  const side = (i) => (right.includes(i) ? { class: "num" } : {});
+  return h(
+    "div",
+    { class: "scroll" },
+    h(
+      "table",
+      given,
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          head.map((text, i) => h("th", { ...side(i), scope: "col" }, text)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        rows.map((row) =>
+          row instanceof HTMLElement
+            ? row
+            : h(
+                "tr",
+                {},
+                row.map((cell, i) => h("td", side(i), cell)),
+              ),
+        ),
+      ),
+    ),
+  );
+}
+
+// A command line to copy.
+export function command(text) {
+  if (!text) return null;
+  const button = h(
+    "button",
+    {
+      type: "button",
+      onclick: async () => {
+        await navigator.clipboard.writeText(text).catch(() => {});
+        button.textContent = "copied";
+        setTimeout(() => {
+          button.textContent = "copy";
+        }, 1500);
+      },
+    },
+    "copy",
+  );
+  return h("div", { class: "command" }, h("code", {}, text), button);
+}
+
+export const note = (text, tone = "") => h("p", { class: `note ${tone}`, role: tone === "bad" ? "alert" : undefined }, text);
+
+// A curve of few points, as small as a word.
+export function spark(values) {
+  const known = values.filter((v) => v !== null && Number.isFinite(v));
+  if (known.length < 2) return null;
+  const low = Math.min(...known),
+    span = Math.max(...known) - low || 1;
+  let path = "",
+    pen = "M";
+  values.forEach((v, i) => {
+    if (v === null || !Number.isFinite(v)) {
+      pen = "M";
+      return;
+    }
+    path += `${pen}${((96 * i) / (values.length - 1)).toFixed(1)} ${(20 - (18 * (v - low)) / span).toFixed(1)}`;
+    pen = "L";
+  });
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("class", "spark");
+  svg.setAttribute("viewBox", "0 0 96 22");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  line.setAttribute("d", path);
+  svg.append(line);
+  return svg;
+}
+
+const SUPER = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+
+// Rounded to significant digits; no exponent between 1e-4 and 1e6.
+export function number(value, digits = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.floor(Math.log10(Math.abs(value)));
+  if (size < -4 || size > 6) {
+    const [mantissa, power] = value.toExponential(digits - 1).split("e");
+    return `${Number(mantissa)}·10${[...String(Number(power))].map((c) => SUPER[c]).join("")}`.replace("-", "−");
+  }
+  return value.toFixed(Math.max(0, Math.min(12, digits - 1 - size))).replace("-", "−");
+}
+
+export const words = (text) => String(text).replaceAll("_", " ");
+
+export function duration(seconds) {
+  if (seconds < 90) return `${Math.max(1, Math.round(seconds))} s`;
+  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
+}

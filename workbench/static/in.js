@@ -1,0 +1,302 @@
+// In: drop files, look at what they are taken for and why, correct it by a click, save the campaign.
+
+import { choose, clear, command, h, note, table, words } from "./dom.js";
+import { conditions, questions } from "./in_conditions.js";
+import { runs } from "./in_runs.js";
+import { drop, get, post, put } from "./net.js";
+
+export function show(root, context) {
+  let data = null,
+    choices = null,
+    closed = false,
+    taking = false;
+  const faults = h("div"),
+    body = h("div", {}, h("p", { class: "quiet" }, "Reading the files…"));
+  root.append(faults, body);
+  const input = h("input", { type: "file", multiple: true, hidden: true, id: "files", onchange: () => upload([...input.files]) });
+  root.append(input);
+
+  const over = (event) => {
+    event.preventDefault();
+    root.querySelector(".drop")?.classList.toggle("over", event.type === "dragover");
+  };
+  const dropped = async (event) => {
+    over(event);
+    upload(await filesOf(event.dataTransfer));
+  };
+  root.addEventListener("dragover", over);
+  root.addEventListener("dragleave", over);
+  root.addEventListener("drop", dropped);
+
+  async function load() {
+    // An empty folder needs nothing but its invitation.
+    if (!data && context.state && !context.state.files) clear(body, empty());
+    const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
+    choices = there;
+    if (found && choices && !closed) {
+      data = found;
+      draw();
+    }
+  }
+
+  async function upload(files) {
+    clear(faults);
+    taking = true;
+    const failed = [];
+    for (const [i, file] of files.entries()) {
+      clear(faults, h("p", { class: "note" }, `Taking in ${file.name} (${i + 1} of ${files.length})`));
+      try {
+        await put(`files/${encodeURIComponent(file.name)}`, file);
+      } catch (fault) {
+        failed.push(fault.message);
+      }
+    }
+    clear(
+      faults,
+      failed.map((text) => note(text, "bad")),
+    );
+    input.value = "";
+    taking = false;
+    await load();
+  }
+
+  // What was corrected goes to the folder, and the guesses come back anew.
+  async function wish(change) {
+    const given = structuredClone(data.wishes);
+    change(given);
+    const found = await context.act(post("in/wishes", given), faults);
+    if (found) {
+      clear(faults);
+      data = found;
+      draw();
+    }
+  }
+  const bag = {
+    get data() {
+      return data;
+    },
+    get choices() {
+      return choices;
+    },
+    wish,
+    putIn: (...given) => putIn(...given),
+    context,
+    faults,
+    load,
+  };
+  const putIn = (part, key, value) =>
+    wish((w) => {
+      w[part] = { ...w[part] };
+      if (value === "" || value === null) delete w[part][key];
+      else w[part][key] = value;
+    });
+
+  function draw() {
+    if (!data.files.length && !data.saved) {
+      clear(body, empty());
+      return;
+    }
+    if (data.saved && !data.own) {
+      clear(body, data.fault ? note(data.fault, "bad") : null, elsewhere(), found());
+      return;
+    }
+    const held = document.activeElement?.id;
+    clear(
+      body,
+      head(),
+      data.fault ? note(data.fault, "bad") : null,
+      data.gone.map((text) => note(text)),
+      data.proposal ? [questions(bag), runs(bag), conditions(bag), saved(), found(), textOf()] : files(),
+    );
+    if (held) document.getElementById(held)?.focus();
+  }
+
+  // A campaign that the page did not write is shown as it is read.
+  const elsewhere = () =>
+    h(
+      "div",
+      { class: "panel" },
+      h("h1", {}, data.campaign ? `Campaign ${data.campaign.name}` : "campaign.toml"),
+      h("p", { class: "quiet" }, "campaign.toml was written by hand or by the command line: it is used as it stands, and corrected there."),
+      data.campaign
+        ? table(
+            ["quantity", "runs", "held out", "conditions", "repetitions"],
+            data.campaign.quantities.map((q) => [words(q.quantity), String(q.runs), String(q.held_out), String(q.conditions), String(q.replicates)]),
+            [1, 2, 3, 4],
+          )
+        : null,
+      h(
+        "div",
+        { class: "row" },
+        h(
+          "button",
+          {
+            type: "button",
+            class: "main",
+            onclick: () => {
+              context.go("look");
+              context.start("compare");
+            },
+          },
+          "Compare",
+        ),
+      ),
+    );
+  const found = () =>
+    data.findings?.length
+      ? h(
+          "details",
+          { open: data.findings.some((f) => f.level === "problem") || data.findings.length < 4 },
+          h("summary", {}, `${data.findings.length} finding${data.findings.length === 1 ? "" : "s"} of the check`),
+          data.findings.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
+        )
+      : null;
+
+  const chooseFiles = (text = "Choose files") => h("button", { type: "button", class: "main", onclick: () => input.click() }, text);
+  const empty = () =>
+    h(
+      "div",
+      { class: "empty drop" },
+      h("h1", {}, "Drop what the bench wrote"),
+      h(
+        "p",
+        { class: "lead", style: { margin: "4px auto 14px" } },
+        "CSV as it is found (semicolons, decimal commas, any encoding, lines above the table), Parquet, MAT, MDF or TDMS; files or a folder, several at once. They are copied into this folder and go nowhere else.",
+      ),
+      chooseFiles(),
+    );
+
+  function head() {
+    const p = data.proposal,
+      sure = p ? p.runs.length : 0;
+    const reducers = [...data.models, ...choices.reducers];
+    return h(
+      "div",
+      { class: "panel drop" },
+      h(
+        "h1",
+        {},
+        p
+          ? `${sure} run${sure === 1 ? "" : "s"} in ${data.files.length} file${data.files.length === 1 ? "" : "s"}, ${Object.keys(p.conditions).length} condition${Object.keys(p.conditions).length === 1 ? "" : "s"}`
+          : `${data.files.length} files`,
+      ),
+      h("p", { class: "quiet" }, "More files can be dropped here at any time."),
+      h(
+        "div",
+        { class: "row" },
+        h(
+          "label",
+          { class: "inline" },
+          "reducer that was measured",
+          choose(
+            [["", "choose…"], ...reducers.map((r) => [r, r])],
+            data.wishes.reducer ?? "",
+            (value) =>
+              wish((w) => {
+                w.reducer = value;
+              }),
+            { id: "measured" },
+          ),
+        ),
+        h("button", { type: "button", onclick: () => input.click() }, "Add files"),
+        h("button", { type: "button", class: "plainly", onclick: () => context.go("reducer") }, "mine is not in the list"),
+      ),
+    );
+  }
+
+  function saved() {
+    const ready = data.proposal.reducer && !data.saved,
+      needs = data.proposal.needs.length;
+    const save = async () => {
+      const found = await context.act(post("in/save"), faults);
+      if (!found) return;
+      await context.act(post("state", { model: context.state.view.model || data.proposal.reducer }), faults);
+      await load();
+      if (!found.needs.length) {
+        context.go("look");
+        context.start("compare", { model: data.proposal.reducer });
+      }
+    };
+    return h(
+      "div",
+      { class: "row" },
+      h(
+        "button",
+        { type: "button", class: "main", id: "save", disabled: !data.proposal.reducer, onclick: save },
+        data.saved ? "Save anew and compare" : needs ? "Save" : "Save and compare",
+      ),
+      data.saved ? h("span", { class: "quiet" }, data.own ? "campaign.toml is saved" : "campaign.toml was written elsewhere and is not overwritten") : null,
+      data.saved
+        ? h(
+            "button",
+            {
+              type: "button",
+              onclick: () => {
+                context.go("look");
+                context.start("compare", { model: context.model() || data.proposal.reducer });
+              },
+            },
+            "Compare",
+          )
+        : null,
+      ready ? null : data.proposal.reducer ? null : h("span", { class: "fair" }, "the reducer has to be chosen first"),
+    );
+  }
+
+  const textOf = () =>
+    h("details", {}, h("summary", {}, "campaign.toml and the command that writes the same"), command(data.command), h("pre", { class: "file" }, data.text));
+  const files = () =>
+    h(
+      "div",
+      { class: "panel" },
+      table(
+        ["file", "size", ""],
+        data.files.map((f) => [
+          f.name,
+          `${Math.max(1, Math.round(f.bytes / 1000))} kB`,
+          h(
+            "button",
+            { type: "button", class: "plainly", onclick: () => context.act(drop(`files/${encodeURIComponent(f.name)}`).then(load), faults) },
+            "put aside",
+          ),
+        ]),
+        [1],
+      ),
+    );
+
+  load();
+  let count = context.state?.files;
+  return {
+    update(state) {
+      if (taking) return;
+      if (count !== undefined && state.files !== count && data) load();
+      count = state.files;
+    },
+    close() {
+      closed = true;
+      root.removeEventListener("dragover", over);
+      root.removeEventListener("dragleave", over);
+      root.removeEventListener("drop", dropped);
+    },
+  };
+}
+
+// Files of what was dropped, folders opened.
+async function filesOf(transfer) {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  if (!entries.length) return [...transfer.files];
+  const found = [];
+  const walk = async (entry) => {
+    if (entry.isFile) found.push(await new Promise((done, failed) => entry.file(done, failed)));
+    else {
+      const reader = entry.createReader();
+      for (;;) {
+        const some = await new Promise((done, failed) => reader.readEntries(done, failed));
+        if (!some.length) break;
+        for (const one of some) await walk(one);
+      }
+    }
+  };
+  for (const entry of entries) await walk(entry);
+  return found;
+}

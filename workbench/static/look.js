@@ -1,0 +1,280 @@
+// Look: key figures first, then measured and predicted over each other with the residual in units of the noise, orders, loops.
+
+import { clear, command, h, note, number } from "./dom.js";
+import { fails, keyFigures, notes, singles, spec } from "./look_parts.js";
+import { get, numbers } from "./net.js";
+import { orders } from "./orders.js";
+import { Link, Plot } from "./plot.js";
+
+const MOST_DRAWN = 4;
+
+export function show(root, context) {
+  let result = null,
+    columns = null,
+    plots = [],
+    chosen = null,
+    condition = null,
+    shift = 0,
+    all = false,
+    text = "",
+    loading = false;
+  const links = new Map();
+  const body = h("div");
+  root.append(body);
+
+  async function load() {
+    if (loading) return;
+    if (!context.state?.jobs.compare?.result) {
+      draw();
+      return;
+    }
+    loading = true;
+    try {
+      result = await get("results/compare");
+      columns = await numbers("results/compare/columns");
+    } catch {
+      result = null;
+    }
+    loading = false;
+    draw();
+  }
+
+  const part = (place) => columns.subarray(place.from, place.from + place.count);
+
+  function bar() {
+    const job = context.state?.jobs.compare;
+    return h(
+      "div",
+      { class: "row" },
+      context.modelChooser("model"),
+      h(
+        "button",
+        { type: "button", class: result ? "" : "main", id: "compare", disabled: job?.state === "running", onclick: () => context.start("compare") },
+        result ? "Compare again" : "Compare",
+      ),
+      result ? h("a", { class: "button", href: "results/compare/report?download", download: "" }, "Save as one file") : null,
+      job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since: compare again") : null,
+      result && context.model() && result.model !== context.model() ? h("span", { class: "fair" }, `what is shown is of ${result.model}`) : null,
+    );
+  }
+
+  function draw() {
+    for (const plot of plots) plot.destroy();
+    plots = [];
+    const job = context.state?.jobs.compare;
+    if (!context.state?.saved) {
+      clear(
+        body,
+        h(
+          "div",
+          { class: "empty" },
+          h("h1", {}, "Nothing to look at yet"),
+          h("p", { class: "lead", style: { margin: "4px auto 14px" } }, "Drop measurements first."),
+          h("button", { type: "button", class: "main", onclick: () => context.go("in") }, "In"),
+        ),
+      );
+      return;
+    }
+    const fault = job?.fault ? note(job.fault, "bad") : null;
+    if (!result) {
+      clear(
+        body,
+        bar(),
+        fault,
+        job?.state === "running" ? h("p", { class: "quiet" }, "Comparing…") : h("p", { class: "quiet" }, "Choose a model and compare."),
+      );
+      return;
+    }
+    clear(
+      body,
+      bar(),
+      fault,
+      h("h1", {}, result.title),
+      h("p", { class: "lead" }, result.finding),
+      figures(),
+      curves(),
+      fails(result, context),
+      notes(result),
+      command(result.command),
+    );
+  }
+
+  const figures = () =>
+    keyFigures({
+      result,
+      all,
+      text,
+      matches,
+      search: (value) => {
+        text = value;
+        redrawLists();
+      },
+      showAll: () => {
+        all = true;
+        redrawLists();
+      },
+    });
+  const matches = (title) =>
+    text
+      .toLowerCase()
+      .split(/\s+/)
+      .every((word) => title.toLowerCase().includes(word));
+
+  function redrawLists() {
+    const before = document.activeElement?.type === "search";
+    document.getElementById("figures")?.replaceWith(figures());
+    const list = document.getElementById("signals");
+    list?.replaceWith(signalChips());
+    if (before) {
+      const field = body.querySelector("input[type=search]");
+      field.focus();
+      field.setSelectionRange(text.length, text.length);
+    }
+  }
+
+  const signalChips = () =>
+    h(
+      "div",
+      { class: "chips", id: "signals", role: "group", "aria-label": "signals" },
+      result.signals
+        .filter((s) => !text || matches(`${s.title} ${[...s.runs, ...s.singles].map((r) => r.condition).join(" ")}`) || s.signal === chosen)
+        .map((s) => {
+          const worst = Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));
+          return h(
+            "button",
+            {
+              type: "button",
+              "aria-pressed": String(s.signal === chosen),
+              onclick: () => {
+                chosen = s.signal;
+                condition = null;
+                shift = 0;
+                draw();
+                document.getElementById("curves")?.scrollIntoView({ block: "nearest" });
+              },
+            },
+            `${s.title} ${number(worst, 2)}×`,
+          );
+        }),
+    );
+
+  function curves() {
+    const worst = (s) => Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));
+    chosen ??= [...result.signals].sort((p, q) => worst(q) - worst(p))[0]?.signal;
+    const signal = result.signals.find((s) => s.signal === chosen) ?? result.signals[0];
+    if (!signal) return note("No run can be predicted by this model.");
+    return h(
+      "section",
+      { id: "curves" },
+      h("h2", {}, "Measured and predicted"),
+      signalChips(),
+      signal.runs.length ? series(signal) : null,
+      signal.singles.length ? singles(signal) : null,
+    );
+  }
+
+  function series(signal) {
+    const cells = new Map();
+    for (const run of signal.runs) {
+      const key = run.condition;
+      cells.set(key, [...(cells.get(key) ?? []), run]);
+    }
+    const ratio = (members) => Math.max(...members.map((r) => r.ratio ?? 0));
+    if (!condition || (condition !== "*" && !cells.has(condition))) condition = [...cells].sort((p, q) => ratio(q[1]) - ratio(p[1]))[0][0];
+    const chips = h(
+      "div",
+      { class: "chips", role: "group", "aria-label": "conditions" },
+      [...cells].map(([name, members]) =>
+        h(
+          "button",
+          {
+            type: "button",
+            "aria-pressed": String(name === condition),
+            onclick: () => {
+              condition = name;
+              draw();
+            },
+          },
+          `${name} ${number(ratio(members), 2)}×${members[0].held_out ? " · held out" : ""}`,
+        ),
+      ),
+      cells.size > 1
+        ? h(
+            "button",
+            {
+              type: "button",
+              "aria-pressed": String(condition === "*"),
+              onclick: () => {
+                condition = "*";
+                draw();
+              },
+            },
+            "all",
+          )
+        : null,
+    );
+    const members = condition === "*" ? [...cells.values()].map((m) => m[0]) : cells.get(condition).slice(0, MOST_DRAWN);
+    if (!links.has(signal.axis.name)) links.set(signal.axis.name, new Link());
+    const plot = new Plot({
+      height: window.innerWidth < 640 ? 380 : 460,
+      link: links.get(signal.axis.name),
+      label: `${signal.title}, measured and predicted over ${signal.axis.title}, residual in units of the noise below`,
+    });
+    plots.push(plot);
+    const fill = () => plot.set(spec({ part, shift, several: condition === "*" }, signal, members));
+    fill();
+    const shifted = h("input", {
+      type: "number",
+      step: "any",
+      value: shift,
+      size: 8,
+      style: { width: "8em" },
+      onchange: () => {
+        shift = Number(shifted.value) || 0;
+        fill();
+      },
+    });
+    return h(
+      "div",
+      { class: "panel" },
+      chips,
+      plot.element,
+      h(
+        "div",
+        { class: "row small" },
+        h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
+        h(
+          "span",
+          { class: "quiet" },
+          `the band is two standard deviations of the noise, ${number(2 * members[0].noise, 3)} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
+        ),
+      ),
+      signal.spectra?.length ? orders(signal, condition === "*" ? signal.spectra[0].condition : condition, result, plots) : null,
+    );
+  }
+
+  draw();
+  load();
+  let seen = context.state?.jobs.compare?.begun + String(context.state?.jobs.compare?.state),
+    model = context.model();
+  return {
+    update(state) {
+      const job = state.jobs.compare,
+        now = job?.begun + String(job?.state) + job?.result + (job?.state === "running" ? job.tasks.length > 1 && job.tasks.at(-1)?.what : "");
+      if (now !== seen || model !== context.model()) {
+        seen = now;
+        model = context.model();
+        if (job?.result && (job.state !== "running" || !result || result.begun !== job.begun)) load();
+        else draw();
+      }
+    },
+    recolour() {
+      for (const plot of plots) plot.later();
+    },
+    close() {
+      for (const plot of plots) plot.destroy();
+    },
+  };
+}
+
+const unitIn = (title) => /\[(.+)\]/.exec(title)?.[1] ?? "";

@@ -1,0 +1,174 @@
+"""What each kind of job computes: the same functions as the commands, their results as data and as the page of one file."""
+
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fmu_src.checked_file import replacing
+from fmu_src.faults import InputFault
+from fmu_src.progress import task
+from workbench.ensemble_step import ensemble
+from workbench.folder import CAMPAIGN, MODEL, Folder
+from workbench.life_step import life
+from workbench.makers import makers
+from workbench.told import page_data, write_json
+
+if TYPE_CHECKING:
+    from discrepancy.campaign.model import Campaign
+    from discrepancy.model_file import ModelFile
+    from discrepancy.verdict import Answer
+
+# (folder, what was asked, cores, place of the results) -> whether it was stopped.
+Step = Callable[[Folder, dict[str, Any], int, Path], bool]
+
+
+def inputs(folder: Folder, given: dict[str, Any]) -> "tuple[ModelFile, Campaign]":
+    """InputFault in the words of the page."""
+    from discrepancy.campaign.load import load_campaign
+    from discrepancy.model_file import load_model
+
+    if not folder.campaign.is_file():
+        raise InputFault(f"there is no {CAMPAIGN} yet: drop files under In, look at what they are taken for, and save")
+    campaign = load_campaign(folder.root)
+    if not campaign.training:
+        raise InputFault("no run is left to be fitted: every run is held out, or has no rows; correct it under In")
+    return load_model(folder.model(given)), campaign
+
+
+def report(result: object, place: Path) -> None:
+    """The page of the result as one file."""
+    from discrepancy.page import write_page
+
+    write_page(result, place / "report.html")
+
+
+def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    from discrepancy.compare import compare
+    from workbench.look import view
+
+    with task("comparing"):
+        comparison = compare(*inputs(folder, given), jobs=jobs)
+        found, columns = view(comparison)
+    with replacing(place / "columns.bin") as partial:
+        partial.write_bytes(columns)
+    found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare")}
+    write_json(place / "result.json", found)
+    with task("drawing the page"):
+        report(comparison, place)
+    with task("which effects make which order"):
+        found["makers"] = makers(comparison)
+    write_json(place / "result.json", found)
+    return False
+
+
+def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    """What was known by then is an answer, too."""
+    from discrepancy.remembered import diagnosed
+    from discrepancy.verdict import AnswerSoFar
+
+    stopped = False
+    with task("diagnosing"):
+        file, campaign = inputs(folder, given)
+        try:
+            answer = diagnosed(file, campaign, jobs=jobs)
+        except AnswerSoFar as stop:
+            answer, stopped = stop.answer, True
+    with task("drawing the page"):
+        report(answer, place)
+        write_json(place / "result.json", answer_data(answer) | {"model": str(given["model"]), "command": command(folder, given, "diagnose")})
+    return stopped
+
+
+def answer_data(answer: "Answer") -> dict[str, Any]:
+    from discrepancy.page.write import page_of
+    from discrepancy.wording import base_texts, error_text, left_text, share_text, tone
+
+    effects = []
+    for effect in answer.effects:
+        effects.append({
+            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": share_text(answer, effect["share_explained"]),
+            "error": error_text(answer, effect), "parameters": parameters(effect["parameters"]),
+        })  # fmt: skip
+    off = answer.diagnosis.base_off
+    return {
+        "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
+        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
+        "alternatives": answer.diagnosis.alternatives, "rejected": answer.diagnosis.rejected, "laws": [law.text for law in answer.laws],
+        "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page_data(page_of(answer)),
+    }  # fmt: skip
+
+
+def parameters(given: dict[str, Any]) -> list[dict[str, Any]]:
+    from discrepancy.scales import parameter_texts
+
+    found = []
+    for name, entry in given.items():
+        value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
+        found.append({"name": name, "value": value, "interval": interval, "unit": unit, "bound": bool(entry.get("bound"))})
+    return found
+
+
+def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    from discrepancy.next_run import next_run
+    from discrepancy.page.write import page_of
+
+    with task("looking for the next experiment"):
+        run = next_run(*inputs(folder, given), jobs=jobs)
+        report(run, place)
+    proposals = [{"experiment": p.experiment, "cost": p.cost, "least": p.least, "mean": p.score} for p in run.result.proposals[:12]] if run.result else []
+    write_json(place / "result.json", {
+        "verdict": run.verdict, "rivals": run.rivals, "open": run.open, "proposals": proposals, "stakes": run.stakes(),
+        "page": page_data(page_of(run)), "command": command(folder, given, "next"),
+    })  # fmt: skip
+    return False
+
+
+def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    """The extended model is ``model.toml`` of the folder; the ladder stands in it."""
+    from discrepancy.extend import extend
+    from discrepancy.model_file import save_model
+    from discrepancy.page.write import page_of
+    from discrepancy.remembered import remembered
+    from fmu_src.held_file import held
+
+    names = [str(name) for name in given.get("effects", [])]
+    if not names:
+        raise InputFault("no effect is named that could be added")
+    target = folder.root / MODEL
+    with task(f"adding {', '.join(names)}"), held(target):
+        file, campaign = inputs(folder, given)
+        extension = extend(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, answer=remembered(file, campaign, jobs=jobs))
+        save_model(extension.file, target)
+        report(extension, place)
+    words = " ".join(f"--effect {shlex.quote(name)}" for name in names)
+    write_json(place / "result.json", {
+        "verdict": extension.verdict, "kept": bool(extension.step["kept"]), "reason": extension.step["reason"], "effects": names,
+        "steps": list(extension.file.steps), "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
+        "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
+    })  # fmt: skip
+    return False
+
+
+def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    from discrepancy.extend import build_units
+    from discrepancy.model_file import load_model
+
+    with task("building the FMUs"):
+        built = build_units(load_model(folder.model(given)), folder.root / "fmus")
+    files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in built if path.is_relative_to(folder.root)]
+    name = str(given["model"])
+    how = (f"rvwear extend {shlex.quote(str(folder.root / name))} {shlex.quote(str(folder.root))} --fmus" if name.endswith(".toml")
+           else f"rvwear build --reducer {name} --output")  # fmt: skip
+    write_json(place / "result.json", {"files": files, "model": name, "command": f"{how} {shlex.quote(str(folder.root / 'fmus'))}"})
+    return False
+
+
+def command(folder: Folder, given: dict[str, Any], name: str) -> str:
+    """The command line that does the same."""
+    return f"rvwear {name} {shlex.quote(str(folder.model(given)))} {shlex.quote(str(folder.root))}"
+
+
+STEPS: dict[str, Step] = {
+    "compare": compare_step, "diagnose": diagnose_step, "next": next_step, "extend": extend_step, "build": build_step, "life": life, "ensemble": ensemble,
+}  # fmt: skip

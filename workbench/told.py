@@ -1,0 +1,53 @@
+"""Pages of results as data that the browser draws: cards, sections, tables, figures."""
+
+import json
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from fmu_src.checked_file import write_text
+from pages.content import Page, Table
+from pages.look import Figure
+from pages.render import described
+
+
+def page_data(page: Page) -> dict[str, Any]:
+    """The same content as the page's file has."""
+    return {
+        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings,
+        "cards": [asdict(card) for card in page.cards],
+        "sections": [
+            {"id": s.id, "title": s.title, "lead": s.lead, "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
+            for s in page.sections
+        ],
+    }  # fmt: skip
+
+
+def figure_data(figure: Figure) -> dict[str, Any]:
+    data = described(figure)
+    asks = {"asks": getattr(figure, "asks", ""), "labels": [choice.label for choice in getattr(figure, "choices", [])]}
+    return data | asks | {"title": str(figure.title), "caption": str(figure.caption), "height": figure.height, "aspect": figure.aspect,
+                          "keys": [[str(text), colour, dash] for text, colour, dash in figure.keys], "columns": figure.columns}  # fmt: skip
+
+
+def table_data(table: Table) -> dict[str, Any]:
+    return {"title": table.title, "head": table.head, "rows": table.rows, "right": list(table.right), "note": table.note}
+
+
+def write_json(place: Path, content: object) -> None:
+    """Whole or not at all; numbers that JSON has no sign for become null."""
+    write_text(place, json.dumps(plain(content), ensure_ascii=False, allow_nan=False, default=str))
+
+
+def plain(value: Any) -> Any:
+    """Numbers that JSON has no sign for become None."""
+    if isinstance(value, dict):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if hasattr(value, "__dataclass_fields__"):
+        return plain(asdict(value))
+    return None if isinstance(value, float) and not math.isfinite(value) else value

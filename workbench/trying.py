@@ -1,0 +1,226 @@
+"""Try: effects by hand.  A model of the folder stays in memory, and the predicted curve follows a slider."""
+
+import math
+import threading
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from discrepancy.campaign.load import load_campaign
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.model_file import every_effect, load_model
+from discrepancy.page import amounts
+from discrepancy.page.runs import axis_name
+from discrepancy.prediction.candidates import parameter_of
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import BASE, Candidate, Parameter, Record
+from discrepancy.scales import of_axis, of_parameter
+from fmu_src.arrays import Floats
+from fmu_src.effect import EffectParameter
+from fmu_src.faults import InputFault
+from workbench.folder import Folder
+
+# A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
+REACH = 5.0
+# Samples of the curve that follows the hand: more than a screen is wide make no picture better.
+FEW = 1200
+# Models that stay in memory.
+KEPT = 2
+
+
+class Trial:
+    """One model held against one campaign; one prediction at a time, and of those that wait only the last one counts."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        # By folder, model and what they were; the last two, for one may be looked at beside the other.
+        self.models: dict[tuple[str, str, str], PhysicalModel] = {}
+        self.asked = 0
+
+    def opened(self, folder: Folder, model: str) -> PhysicalModel:
+        """The model, made anew where folder or model have changed."""
+        key = (str(folder.root), model, folder.stamp(model))
+        found = self.models.pop(key, None)
+        if found is None:
+            campaign = load_campaign(folder.root)
+            few = replace(campaign, records=tuple(thinned(record) for record in campaign.records))
+            found = PhysicalModel(load_model(folder.model({"model": model})), few)
+            while len(self.models) >= KEPT:
+                self.models.pop(next(iter(self.models)))
+        self.models[key] = found
+        return found
+
+    def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
+        """What is calibrated first, as the last comparison of this model found it; else where it starts."""
+        last = folder.recall("jobs/compare/result")
+        known = last.get("nuisances", {}) if last.get("model") == model else {}
+        return found.standing() | {name: float(known[name]) for name in known if name in {p.name for p in found.nuisances}}
+
+    def controls(self, folder: Folder, model: str) -> dict[str, Any]:
+        """Every effect with its parameters as sliders, and the runs that can be looked at."""
+        with self.lock:
+            found = self.opened(folder, model)
+            about = every_effect()
+            effects = []
+            for candidate in found.candidates:
+                if candidate.part == BASE:
+                    continue
+                effect = about.get(candidate.name.partition(".")[0])
+                effects.append({
+                    "name": candidate.name, "title": amounts.effect_title(candidate.name), "part": candidate.part, "signals": list(candidate.signals),
+                    "law": effect.law if effect else "", "says": effect.signature if effect else candidate.title, "source": effect.source if effect else "",
+                    "parameters": [slider(p, p in candidate.amplitudes) for p in candidate.parameters],
+                })  # fmt: skip
+            numbers = [base_number(c) for c in found.candidates if c.part == BASE]
+            runs = [{"run": r.name, "signal": stream_of(r), "title": amounts.signal_title(stream_of(r)), "condition": r.condition, "replicate": r.replicate,
+                     "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records]  # fmt: skip
+            return {"model": model, "effects": present(found) + effects, "numbers": numbers, "runs": runs}
+
+    def curve(
+        self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int, roughly: bool = False, beside: str = ""
+    ) -> tuple[dict[str, Any], Floats]:
+        """Values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted, model ``beside``).
+
+        ``roughly``: while the hand moves, within some parts in a hundred of what the values change.
+        """
+        self.asked = max(self.asked, ticket)
+        with self.lock:
+            if ticket < self.asked:
+                # The hand has moved on.
+                return {"late": True}, np.zeros((5, 0))
+            found = self.opened(folder, model)
+            record = run_of(found, run)
+            own = checked_values(found, values)
+            standing = self.standing(folder, model, found)
+            base = found.one(record, standing)
+            tried = found.one(record, standing | own, rough=roughly) if own else base
+            other = base
+            if beside and beside != model:
+                second = self.opened(folder, beside)
+                other = second.one(run_of(second, run), self.standing(folder, beside, second))
+            factor, unit = amounts.scale(record.unit, stream_of(record))
+            name = axis_name(record)
+            speed = of_axis("speed", found.campaign)
+            x = amounts.axis_values(name, np.asarray(record.axes[name]), speed) if name else np.arange(len(record.values), dtype=float)
+            axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
+            words = {"unit": unit, "axis": axis, "loop": name == "torque", "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
+                     "title": amounts.signal_title(stream_of(record)), "condition": record.condition}  # fmt: skip
+            return words, np.array([x, factor * record.values, factor * base, factor * tried, factor * other])
+
+    def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
+        """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition."""
+        with self.lock:
+            found = self.opened(folder, model)
+            own = checked_values(found, values)
+            standing = self.standing(folder, model, found)
+            cells: dict[str, list[tuple[float, float, float]]] = {}
+            units: dict[str, str] = {}
+            seen = set()
+            for record in found.records:
+                key = (stream_of(record), record.condition, record.mounting)
+                if key in seen:
+                    continue
+                seen.add(key)
+                base, tried = found.one(record, standing, rough=True), found.one(record, standing | own, rough=True)
+                units[key[0]] = record.unit
+                cells.setdefault(key[0], []).append((rms(tried - base), rms(record.values - base), rms(record.values - tried)))
+        rows = []
+        for signal, entries in cells.items():
+            change, before, after = (math.sqrt(float(np.mean(np.square(column)))) for column in zip(*entries))
+            shown = [amounts.text(v, units[signal], signal) for v in (change, before, after)]
+            rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
+                         "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
+        return rows
+
+
+def run_of(model: PhysicalModel, run: str) -> Record:
+    """InputFault where there is none of that name."""
+    found = next((r for r in model.records if r.name == run), None)
+    if found is None:
+        raise InputFault(f"{run}: there is no such run, or no prediction of it")
+    return found
+
+
+def thinned(record: Record) -> Record:
+    """A run with as many samples as a screen shows: of an angle the first turn alone, for a line through few samples of many waves shows none of them."""
+    values = np.asarray(record.values)
+    kept = np.arange(len(values))
+    if "angle" in record.axes and len(values) > FEW:
+        angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
+        kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
+    kept = kept[:: max(1, math.ceil(len(kept) / FEW))]
+    if len(kept) == len(values):
+        return record
+    axes = {k: np.asarray(v)[kept] if np.size(v) == len(values) else v for k, v in record.axes.items()}
+    return replace(record, values=values[kept], axes=axes)
+
+
+def rms(values: Floats) -> float:
+    kept = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(kept**2))) if kept.size else 0.0
+
+
+def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
+    """A parameter in the unit that suits its size, from bound to bound, or as far as a bench is likely to meet."""
+    low, high = max(p.lower, p.off - REACH * p.scale), min(p.upper, p.off + REACH * p.scale)
+    if p.sign > 0:
+        low = p.off
+    if p.sign < 0:
+        high = p.off
+    scale = of_parameter(max(abs(low), abs(high)), p.unit)
+    return {
+        "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(p.off),
+        "low": scale.number(low), "high": scale.number(high), "bounds": [scale.number(p.lower), scale.number(p.upper)], "typical": scale.factor * p.scale,
+        "amplitude": is_amplitude, "description": p.description,
+    }  # fmt: skip
+
+
+def base_number(candidate: Candidate) -> dict[str, Any]:
+    return {"name": candidate.name, "title": candidate.title, "parameters": [slider(p, True) for p in candidate.parameters]}
+
+
+def own_parameters(model: PhysicalModel) -> dict[str, list[tuple[EffectParameter, Parameter]]]:
+    """Of the effects that the model carries, as they stand in it; elements of arrays are left as they are."""
+    about = every_effect()
+    found = {}
+    for name, entries in model.file.effects.items():
+        known = {p.variable.name: p for p in about[name].parameters if p.kind != "choice"}
+        found[name] = [(known[key], around(parameter_of(known[key], float(entry["value"])), known[key].variable.start)) for key, entry in entries.items()
+                       if key in known]  # fmt: skip
+    return found
+
+
+def around(p: Parameter, start: float) -> Parameter:
+    """With a slider that reaches from where the effect vanishes to as far beyond where it stands."""
+    return replace(p, sign=0, scale=max(p.scale, 1.2 * abs(p.off - start) / REACH))
+
+
+def present(model: PhysicalModel) -> list[dict[str, Any]]:
+    """Effects that the model carries already: their sliders begin where they stand, and ``without`` takes them away."""
+    about = every_effect()
+    return [
+        {"name": name, "title": amounts.effect_title(name), "part": "", "signals": [], "law": about[name].law, "says": about[name].signature,
+         "source": about[name].source, "carried": True, "without": {p.variable.name: p.variable.start for p, _ in own if p.kind == "amplitude"},
+         "parameters": [slider(parameter, p.kind == "amplitude") for p, parameter in own]}
+        for name, own in own_parameters(model).items()
+    ]  # fmt: skip
+
+
+def checked_values(model: PhysicalModel, values: Mapping[str, Any]) -> dict[str, float]:
+    """SI values of known parameters within their bounds; InputFault for any other."""
+    known = {p.name: p for c in model.candidates for p in c.parameters}
+    known |= {p.name: p for own in own_parameters(model).values() for _, p in own}
+    found = {}
+    for name, value in values.items():
+        if name not in known:
+            raise InputFault(f"{name}: no effect that this campaign can show has such a parameter")
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise InputFault(f"{name}: {value!r} is no number") from None
+        if not math.isfinite(number):
+            raise InputFault(f"{name}: a finite number is needed")
+        found[name] = min(max(number, known[name].lower), known[name].upper)
+    return found
