@@ -33,7 +33,7 @@ def variables() -> list[Variable]:
         Variable("measured_lost_motion", "input", "rad", "lost motion at the last inspection, new where it changes (0: none yet)", 0.0,
                  minimum=0.0, nominal=1e-4, path="life.measured_lost_motion", display="arcmin"),
         parameter("expected_rate", "rad/s", "growth of lost motion that is expected (0: no filter, estimates follow the unit's own wear)", 0.0,
-                  1e-11),
+                  1e-11, "arcsec/h"),
         parameter("rate_deviation", "1", "standard deviation of its logarithm", 1.0, 1.0),
         parameter("rate_drift", "1/s", "growth of the variance of its logarithm", 2e-8, 1e-8),
         parameter("reading_noise", "rad", "standard deviation of a reading", 2e-6, 1e-6, "arcsec"),
