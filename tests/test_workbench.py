@@ -223,6 +223,14 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
 
 
+def test_only_what_there_is_is_exported(tmp_path):
+    from workbench.steps import STEPS, export_step
+
+    assert set(STEPS) == set(jobs.KINDS)
+    with pytest.raises(InputFault, match="csv, xlsx"):
+        export_step(opened(tmp_path), {"what": "compare", "ending": "exe"}, 1, tmp_path)
+
+
 def test_of_many_samples_one_turn_is_tried():
     import numpy as np
 
