@@ -67,12 +67,18 @@ def packages() -> Iterator[Finding]:
             continue
         missing = [text for name, text in map(lack_of, needed) if text]
         if not part:
-            remedy = f'pip install --upgrade "{NAME}"'
+            remedy = f'{pip()} install --upgrade "{NAME}"'
             yield Finding("packages", WRONG if missing else GOOD, ", ".join(missing) or f"all {len(needed)} that are needed", remedy if missing else "")
         else:
-            remedy = f'pip install "{NAME}[{part}]"'
+            remedy = f'{pip()} install "{NAME}[{part}]"'
             state = ABSENT if missing else GOOD
             yield Finding(f"[{part}]", state, f"{PARTS[part]}" + (f": {', '.join(missing)}" if missing else ""), remedy if missing else "")
+
+
+def pip() -> str:
+    """The command that installs into this Python, and no other."""
+    found = shutil.which("pip")
+    return "pip" if found and Path(found).parent == Path(sys.executable).parent else f"{sys.executable} -m pip"
 
 
 def lack_of(requirement: str) -> tuple[str, str]:

@@ -26,6 +26,7 @@ from cli.commands import (
     example,
     family,
     fmu,
+    forecast,
     life,
     new_reducer,
     reducer,
@@ -44,9 +45,26 @@ from fmu_src.progress import told_to
 
 # In the order of the help.
 GROUPS = (
-    reducer, bench, new_reducer, family, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema,
-    doctor, completion,
-)  # fmt: skip
+    reducer,
+    bench,
+    new_reducer,
+    family,
+    system,
+    life,
+    ensemble,
+    reproduce,
+    build,
+    fmu,
+    campaign,
+    comparison,
+    forecast,
+    workbench,
+    effects,
+    example,
+    schema,
+    doctor,
+    completion,
+)
 
 
 class PrintVersion(argparse.Action):

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.campaign.design import Design
+from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import words
 from discrepancy.campaign.zeros import unused_means
@@ -70,7 +72,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
-    warnings = too_soft(figures) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    warnings = too_soft(figures) + incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 
 
@@ -123,6 +125,11 @@ def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def rms(values: Iterable[float]) -> float:
     return float(np.sqrt(np.mean(np.square(list(values)))))
+
+
+def incomplete(campaign: Campaign) -> list[str]:
+    """Conditions that leave out what their quantities depend on: the model's own number stands in, which may be wrong by much."""
+    return [f"{found.text}: the model's own is taken; {found.remedy}" for found in missing_factors(Design(campaign))]
 
 
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:

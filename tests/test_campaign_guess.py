@@ -19,6 +19,7 @@ from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked
 from discrepancy.campaign.load import load_campaign
+from discrepancy.compare import incomplete
 from fmu_src.faults import InputFault
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -338,3 +339,18 @@ def test_no_table_is_said(tmp_path):
     (tmp_path / "a.csv").write_text("nothing\nto see\n")
     with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):
         propose([tmp_path], Wishes())
+
+
+def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, monkeypatch):
+    """And once it is said, the file is written anew; a comparison in between tells what it took instead."""
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, "plain")
+    (tmp_path / "te_167Nm_15rpm_1.csv").rename(tmp_path / "run_1.csv")
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 0
+    shown = capsys.readouterr().out
+    assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition '...'" in shown
+    assert any("states no load, which run_1 need" in text and "the model's own is taken" in text for text in incomplete(load_campaign(tmp_path)))
+    said = ["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--condition", "load_torque=100 N.m", "--condition", "output_speed=15 rpm"]
+    assert main(said) == 2 and "give --overwrite to have it written anew" in capsys.readouterr().err
+    assert main([*said, "--overwrite"]) == 0
+    assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)

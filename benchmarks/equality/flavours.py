@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -72,10 +73,13 @@ class Flavours:
 
     def plain_python(self, scenario: Scenario) -> np.ndarray:
         """The kernels without a compiler, in a process that was started so."""
-        out = self.folder / "plain.npy"
+        values, out = self.folder / "values.npz", self.folder / "plain.npy"
+        kept: dict[str, Any] = {name: np.asarray(value) for name, value in scenario.values.items()}
+        np.savez(values, **kept)
         program = "import sys; from benchmarks.equality.__main__ import run_plainly; run_plainly(*sys.argv[1:])"
         environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", "PYTHONPATH": str(ROOT)}
-        subprocess.run([sys.executable, "-c", program, scenario.reducer, scenario.name, str(out)], cwd=ROOT, env=environment, check=True)
+        given = [scenario.reducer, scenario.unit, repr(float(scenario.step)), str(values), str(out)]
+        subprocess.run([sys.executable, "-c", program, *given], cwd=ROOT, env=environment, check=True)
         found: np.ndarray = np.load(out)
         return found
 

@@ -43,7 +43,11 @@ def bench_test(options: argparse.Namespace) -> int:
         with task(f"{test.name} on the virtual bench"):
             curves = dict(PROCEDURES[test.name](reducer, settings))
     each = not options.measured and test.name in OWN_FIGURES
-    found = {key: test.evaluate([curve], rated, ratio) for key, curve in curves.items()} if each else {"": test.evaluate([*curves.values()], rated, ratio)}
+    groups = {key: [curve] for key, curve in curves.items()} if each else {"": [*curves.values()]}
+    try:
+        found = {key: test.evaluate(group, rated, ratio) for key, group in groups.items()}
+    except InputFault as fault:
+        raise InputFault(f"{options.measured}: {fault}" if options.measured else str(fault)) from None
     show_bench(reducer.name, test, found, rated, ratio, len(curves), options.measured, options.json)
     return 0
 
@@ -65,7 +69,10 @@ def measured(path: Path, columns: list[str], needed: tuple[str, ...]) -> "dict[s
         headers[name] = (header, unit)
     for name in needed:
         headers.setdefault(name, (name, ""))
-    read = read_columns(path, {header for header, _ in headers.values()}, Options(), str(path))
+    try:
+        read = read_columns(path, {header for header, _ in headers.values()}, Options(), "--measured")
+    except InputFault as fault:
+        raise InputFault(f"{fault}. Say which column is what: {' '.join(f'--column {name}=HEADER:UNIT' for name in needed)}") from None
     converted = {}
     for name, (header, unit) in headers.items():
         values = np.asarray(read[header])

@@ -1,6 +1,7 @@
 """``rvwear campaign from``: a campaign folder from files as a bench writes them."""
 
 import argparse
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -37,6 +38,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     ):
         command.add_argument(option, action="append", default=[], metavar=form, help=text)
     command.add_argument("--held-out", nargs="*", metavar="CONDITION", help="conditions to keep for the test (default: proposed); none without a name")
+    command.add_argument("--overwrite", action="store_true", help="write campaign.toml anew where there is one")
     command.add_argument("--dry-run", action="store_true", help="show what would be written, write nothing")
     add_json(command, "print the guesses with their reasons as JSON, nothing else")
     command.set_defaults(run=run_from)
@@ -60,7 +62,7 @@ def run_from(options: argparse.Namespace) -> int:
     command = f"rvwear {'campaign check' if proposal.needs else f'compare {proposal.reducer}'} {folder}"
     text = campaign_text(proposal, folder)
     if not options.dry_run:
-        write_campaign(proposal, folder)
+        write_campaign(proposal, folder, options.overwrite)
     if options.json:
         json_text(proposal.as_json() | {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command})
         return 0
@@ -68,9 +70,21 @@ def run_from(options: argparse.Namespace) -> int:
     if options.dry_run:
         print(f"\n{text}")
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")
+    elif proposal.needs:
+        print(f"{folder / 'campaign.toml'} is written, but lacks what is needed; say it in the file, or once more on the command line:\n  {again(options)}")
     else:
         print(f"{folder / 'campaign.toml'} is written; next:\n  {command}")
     return 0
+
+
+def again(options: argparse.Namespace) -> str:
+    """The command as it was given, to be completed by what is needed."""
+    words = ["rvwear", "campaign", "from", *options.files]
+    for option in ("output", "reducer"):
+        words += [f"--{option}", given] if (given := getattr(options, option)) else []
+    for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
+        words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
+    return shlex.join([*words, "--overwrite"]) + " --condition '...'"
 
 
 def asked(options: argparse.Namespace) -> str | None:

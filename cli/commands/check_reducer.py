@@ -23,6 +23,26 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     command.set_defaults(run=run_check, export=[])
 
 
+def add_list(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    command = actions.add_parser("list", help="the reducers of the library, with a line each")
+    add_json(command, "print as JSON, nothing else")
+    command.set_defaults(run=run_list)
+
+
+def run_list(options: argparse.Namespace) -> int:
+    from cli.screen import json_text
+    from reducers.library import available
+    from reducers.reducer import load_reducer
+
+    found = {name: load_reducer(name).description for name in available()}
+    if options.json:
+        json_text({"reducers": found})
+    else:
+        longest = max(map(len, found))
+        print("\n".join(f"{name:<{longest}}  {text}" for name, text in found.items()))
+    return 0
+
+
 def run_check(options: argparse.Namespace) -> int:
     """Exit code 2 if no such reducer can be made."""
     from cli.screen import json_text

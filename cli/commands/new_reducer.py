@@ -22,6 +22,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     actions = group.add_subparsers(dest="action", required=True, metavar="ACTION")
 
     check_reducer.add_command(actions)
+    check_reducer.add_list(actions)
     new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
     new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
     new.add_argument("--pins", type=int, required=True, help="pins in the ring: one more than a disc has lobes")

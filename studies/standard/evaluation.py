@@ -102,7 +102,7 @@ class Way:
         near = np.abs(self.torque - torque) <= NEAR * (self.torque[-1] - self.torque[0])
         inside = self.torque[0] <= torque <= self.torque[-1]
         if inside and np.count_nonzero(near) >= ENOUGH and np.ptp(self.torque[near]) > 0.0:
-            slope, level = np.polyfit(self.torque[near] - torque, self.angle[near], 1)
+            _slope, level = np.polyfit(self.torque[near] - torque, self.angle[near], 1)
             return float(level)
         return float(np.interp(torque, self.torque, self.angle))
 
@@ -231,6 +231,7 @@ def read_dynamic(curve: Curve) -> dict[str, tuple[float, str, str]]:
     """``back_angle`` is the output's angle at the same input angles with the other sense of turning."""
     difference = np.abs(curve["output_angle"] - curve["back_angle"])
     return {
-        "dynamic_lost_motion": (float(np.mean(difference)) * ARCMIN, "arcmin", "output angle turning one way less that turning the other, at equal input angles: mean"),
+        "dynamic_lost_motion": (float(np.mean(difference)) * ARCMIN, "arcmin",
+                                "output angle turning one way less that turning the other, at equal input angles: mean"),
         "dynamic_lost_motion_largest": (float(difference.max()) * ARCMIN, "arcmin", "the same, its largest value"),
-    }
+    }  # fmt: skip

@@ -40,7 +40,10 @@ def rated_of(reducer: Reducer, settings: list[Setting]) -> tuple[float, float]:
     plant = plant_of(reducer, settings)
     torque, speed = abs(plant.number("load_torque")), abs(plant.number("input_speed"))
     if torque == 0.0 or speed == 0.0:
-        raise InputFault(f"load_torque = {torque:g} N.m, input_speed = {speed:g} rad/s: a standard test has a rated torque and speed; give --torque, --set input.speed=...")
+        raise InputFault(
+            f"output.load_torque = {torque:g} N.m, input.speed = {speed:g} rad/s: a standard test has a rated torque and speed;"
+            " give --torque, --set input.speed=2000rpm"
+        )
     return torque, speed
 
 

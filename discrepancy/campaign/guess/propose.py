@@ -169,7 +169,7 @@ def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], w
                 remedy = f"--condition '{(EXAMPLES | PIN_ON_DISC)[factor]}', or a {{{factor}}} in --names"
                 found[run.condition, factor] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
     if not wishes.reducer:
-        found["", "reducer"] = Doubt("campaign", "which reducer it is has to be said", "--reducer RV20E-121 (rvwear reducer list), or a reducer file")
+        found["", "reducer"] = Doubt("campaign", "which reducer it is has to be said", "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
     whole: dict[tuple[str, str], list[Doubt]] = {}
     for need in found.values():
         whole.setdefault((need.text, need.remedy), []).append(need)

@@ -79,11 +79,11 @@ def checked(proposal: Proposal) -> Campaign:
             raise InputFault(str(fault).replace(f"{folder / FILE}: ", "").replace(str(folder), ".")) from None
 
 
-def write_campaign(proposal: Proposal, folder: Path) -> Path:
-    """The file that was written; InputFault if there is one already."""
+def write_campaign(proposal: Proposal, folder: Path, overwrite: bool = False) -> Path:
+    """The file that was written; InputFault if there is one already that may not be replaced."""
     place = folder / FILE
-    if place.exists():
-        raise InputFault(f"{place} exists already; choose another folder by --output, nothing is overwritten")
+    if place.exists() and not overwrite:
+        raise InputFault(f"{place} exists already and is not overwritten; give --overwrite to have it written anew, or another folder by --output")
     folder.mkdir(parents=True, exist_ok=True)
     write_text(place, campaign_text(proposal, folder))
     return place
