@@ -169,6 +169,18 @@ def test_corrections_of_conditions_that_are_gone_are_said_and_left_out(tmp_path)
     assert found["proposal"]["conditions"].keys() == {"20degC"} and "30degC" in found["gone"][0]
 
 
+def test_a_correction_that_nothing_can_be_made_of_changes_nothing(tmp_path):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.new_file("Schleife_30.csv", CSV.encode())
+    wish(folder, {"reducer": "RV20E-121", "names": ["loop_{temperature}degC_{replicate}", "Schleife_{temperature}"]})
+    with pytest.raises(InputFault, match="^Schleife_30.csv does not fit names"):
+        wish(folder, {"reducer": "RV20E-121", "names": ["loop_{temperature}degC_{replicate}"]})
+    assert view(folder)["proposal"]["conditions"].keys() == {"20degC", "30degC"}
+
+
 def test_what_is_wrong_is_said_in_words(served):
     _, address = served
     for path, given, words in (
