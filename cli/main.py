@@ -15,6 +15,7 @@ import warnings
 from typing import Any
 
 from cli.commands import (
+    bench,
     build,
     campaign,
     comparison,
@@ -23,7 +24,9 @@ from cli.commands import (
     effects,
     ensemble,
     example,
+    family,
     fmu,
+    forecast,
     life,
     new_reducer,
     reducer,
@@ -41,7 +44,27 @@ from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
 
 # In the order of the help.
-GROUPS = (reducer, new_reducer, system, life, ensemble, reproduce, build, fmu, campaign, comparison, workbench, effects, example, schema, doctor, completion)
+GROUPS = (
+    reducer,
+    bench,
+    new_reducer,
+    family,
+    system,
+    life,
+    ensemble,
+    reproduce,
+    build,
+    fmu,
+    campaign,
+    comparison,
+    forecast,
+    workbench,
+    effects,
+    example,
+    schema,
+    doctor,
+    completion,
+)
 
 
 class PrintVersion(argparse.Action):

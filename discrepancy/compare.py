@@ -17,7 +17,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
-from discrepancy.key_figures import KeyFigure, key_figures
+from discrepancy.key_figures import KeyFigure, key_figures, too_soft
 from discrepancy.model_file import ModelFile
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
@@ -71,8 +71,9 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     runs = runs_of(space, predictions)
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
-    warnings = incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures_of(diagnostician, model))
+    figures = figures_of(diagnostician, model)
+    warnings = too_soft(figures) + incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 
 
 def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:

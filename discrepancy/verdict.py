@@ -15,7 +15,7 @@ from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
-from discrepancy.key_figures import KeyFigure, calibrated_first
+from discrepancy.key_figures import KeyFigure, calibrated_first, too_soft
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -91,7 +91,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
-    warnings = incomplete(model.campaign) + warnings_of(model, list(found.warnings))
+    warnings = too_soft(figures) + incomplete(model.campaign) + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 

@@ -4,6 +4,7 @@ Nothing that is read can do anything: a message is either one of these or a Fram
 sign for its kind, then its content, little-endian.
 """
 
+import re
 import struct
 from typing import IO, Any
 
@@ -14,6 +15,7 @@ INTEGER, REAL = struct.Struct("<q"), struct.Struct("<d")
 # Bytes of a message and how deep its lists may be (assumed: the largest state that is known takes a hundredth).
 MOST, DEEPEST = 4_000_000_000, 12
 NUMBERS = "fiubcmMSU"
+KIND = re.compile(rf"[<>|=]?[{NUMBERS}][0-9]{{0,9}}(\[[0-9]{{0,9}}[a-zA-Z]{{1,2}}\])?")
 
 
 class FrameFault(ValueError):
@@ -114,10 +116,14 @@ class Reader:
         return count
 
     def array(self, depth: int) -> np.ndarray:
-        dtype = np.dtype(self.next(self.length()).decode("ascii"))
+        kind = self.next(self.length()).decode("ascii")
+        # As NumPy writes them; it would take other texts for fields of a structure and evaluate them.
+        if not KIND.fullmatch(kind):
+            raise FrameFault(f"an array of {kind[:20]!r}")
+        dtype = np.dtype(kind)
         shape, content = self.take(depth + 1), self.take(depth + 1)
-        if dtype.kind not in NUMBERS or not isinstance(content, bytes):
-            raise FrameFault(f"an array of {dtype}")
+        if not isinstance(content, bytes):
+            raise FrameFault(f"an array of {dtype} without its numbers")
         return np.frombuffer(content, dtype).reshape(shape).copy()
 
 

@@ -23,10 +23,13 @@ from reproduce import (  # noqa: F401  each registers its claims
     geometry_claims,
     individuality_claims,
     literature_claims,
+    loss_claims,
     pin_wear_claims,
     pressure_claims,
+    prototype_claims,
     raceway_claims,
     raceway_law_claims,
+    rigidity_claims,
     sliding_claims,
     stiffness_claims,
 )  # fmt: skip

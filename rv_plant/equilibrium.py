@@ -20,10 +20,10 @@ from rv_plant.output_pins import has_output_pins
 LONGEST_STEP = 3e-5
 # With output pins, whose clearance may be a tenth of a millimetre and more.
 LONGEST_STEP_IN_PLAY = 2e-4
-# So many times the iterations where one without load is looked for anew: its last contacts come slowly.
-PATIENCE = 16
 # The residual is weighed with at least this force [N]; rounding leaves 1e-8 N.
 LEAST_FORCE = 30.0
+# So many times the iterations where one of a load of a few such forces, or none, is looked for anew: its last contacts come slowly.
+PATIENCE, WEAK = 16, 10.0
 # Stiffness that stands for "a typical diagonal" [N/m].
 TYPICAL_STIFFNESS = 1e8
 
@@ -204,7 +204,8 @@ def equilibrium(r, ideal_output, cage_angle, load_torque):
     r.iterations = 0
     if newton(r, ideal_output, cage_angle, load_torque, r.max_iterations):
         return True
-    most = r.max_iterations if load_torque != 0.0 else PATIENCE * r.max_iterations
+    weak = abs(load_torque) < WEAK * LEAST_FORCE * r.pin_circle_radius
+    most = PATIENCE * r.max_iterations if weak else r.max_iterations
     for steps in (4, 16, 64):
         start_anew(r)
         reached = True

@@ -13,7 +13,7 @@ QUASI_STATIC, DYNAMIC = 0, 1
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
 NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
-OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS = range(11, 15)
+OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS, NO_START = range(11, 16)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations, contacts at {reducer_temperature:.4g} K."
@@ -45,6 +45,8 @@ FAULTS = {
     LONG_STEP: "the communication step takes more than 100,000 internal steps at input.speed {input_speed:.6g} rad/s."
     " Use a shorter communication step, a larger numerics.largest_crank_step than {largest_crank_step:.3g} rad,"
     " or in motion a looser numerics.dynamic_tolerance",
+    NO_START: "the motion finds no start at input speed {input_speed:.6g} rad/s, load {load_torque:.6g} N.m: there is an equilibrium at rest, and none with"
+    " the forces of inertia. Check masses, input.speed, backlash and tooth errors (they are in m, not um), or set fidelity to quasi-static",
     RACES_DO_NOT_FIT: "the rollers do not fit: outer_race.radius {outer_race_radius:.6g} m must equal"
     " inner_race.radius {inner_race_radius:.6g} m + 2 roller.radius {roller_radius:.6g} m within 0.1 mm;"
     " the clearance is bearing.clearance",

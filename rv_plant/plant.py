@@ -17,7 +17,7 @@ from rv_plant.dimension import FILE
 from rv_plant.dynamics import assemble_motion
 from rv_plant.effects import HOOKS
 from rv_plant.equilibrium import equilibrium, refine
-from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
+from rv_plant.faults import DYNAMIC, LONG_STEP, NO_EQUILIBRIUM, NO_MOTION, NO_START, QUASI_STATIC, TORQUE_AT_REST, geometry_fault
 from rv_plant.force_paths import add_force_paths, start_force_paths
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift, planet_radius, total_ratio
 from rv_plant.integrator import MOST_ITERATIONS, MOST_SUBSTEPS
@@ -198,7 +198,7 @@ def initialise(records):
     publish(r, r.input_speed / ratio)
     if r.fidelity == DYNAMIC:
         if not start_motion(r):
-            return NO_EQUILIBRIUM
+            return NO_START
         publish_motion(r)
     return 0
 

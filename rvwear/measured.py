@@ -122,7 +122,7 @@ def compare(model: ModelFile | str | Path, campaign: Campaign | str | Path, *, j
     ``jobs``: threads.  InputFault says what is wrong with a file, and where.
 
     >>> import rvwear
-    >>> found = rvwear.compare("RV20E-121", "examples/hidden_effect/campaign")
+    >>> found = rvwear.compare("RV20E-121-rigid", "examples/hidden_effect/campaign")
     >>> found
     <Comparison of 26 runs: hysteresis[locked=input] errs by 2.16 times its noise>
     >>> list(found.key_figures.columns[:5])
@@ -137,7 +137,7 @@ def diagnose(model: ModelFile | str | Path, campaign: Campaign | str | Path, *, 
     Takes minutes; the answer is kept, and given at once when model, campaign and program are the same.
 
     >>> import rvwear
-    >>> found = rvwear.diagnose("RV20E-121", "examples/hidden_effect/campaign")
+    >>> found = rvwear.diagnose("RV20E-121-rigid", "examples/hidden_effect/campaign")
     >>> found
     <Diagnosis: one effect: thermal_expansion>
     >>> found.effects[0].parameters[["parameter", "unit"]].values.tolist()

@@ -233,7 +233,7 @@ def campaign_of(folder, law, seed, strength, size):
 
 def extended(campaign, folder, capsys):
     """What ``rvwear extend --draft`` says."""
-    code = main(["extend", "RV20E-121", str(campaign), "--draft", str(folder), "--output", str(folder / "better.toml"), "--json"])
+    code = main(["extend", "RV20E-121-rigid", str(campaign), "--draft", str(folder), "--output", str(folder / "better.toml"), "--json"])
     out = capsys.readouterr()
     assert code in (0, 1), out.err
     return json.loads(out.out)

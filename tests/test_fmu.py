@@ -66,7 +66,7 @@ def test_every_quantity_has_a_unit_that_is_defined(path):
     bare = {"loaded_teeth", "residual", "first_stage_ratio", "poisson_ratio", "exponent_lankarani", "tolerance",
             "mesh_wear_coefficient", "raceway_wear_coefficient", "run_in_ratio", "load_exponent", "slip_ratio_inner",
             "slip_ratio_outer", "acceleration", "restitution", "sun_teeth", "tooth_stiffness_variation",
-            "spectral_radius", "dynamic_tolerance", "energy_error", "pin_wear_share"}  # fmt: skip
+            "spectral_radius", "dynamic_tolerance", "energy_error", "pin_wear_share", "mesh_friction", "mesh_friction_excess", "roller_friction"}  # fmt: skip
     bare = {v.path for v in (*plant_variables(), *wear_variables()) if v.name in bare}
     bare |= {v.path for effect in (*PLANT.values(), *WEAR.values()) for v in effect.variables() if v.unit == "1"}
     for variable in root.iter("ScalarVariable"):

@@ -7,7 +7,7 @@ import pytest
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
+from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, too_soft, ways
 from discrepancy.problem import Candidate, Parameter, Record
 from studies.hysteresis import torque_way
 
@@ -99,6 +99,11 @@ def test_figures_hold_what_was_measured_against_the_model_with_noise():
 
 def figure(name, measured, model, noise):
     return KeyFigure("hysteresis", "a", name, "rad", measured, model, noise, 2, True)
+
+
+def test_a_base_that_is_softer_than_what_was_measured_is_said():
+    assert "8.2 times as stiff" in too_soft([figure(STIFFNESS, 8.2, 1.0, 0.1)])[0]
+    assert not too_soft([figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)])
 
 
 def test_springs_friction_and_play_come_first_where_the_base_is_stiffer_by_a_factor():

@@ -150,6 +150,9 @@ def test_a_table_whose_mean_has_lost_its_sign(tmp_path):
     path.write_text(TABLE.format(a78="x"))
     with pytest.raises(InputFault, match=r"line 5: column a78 = 'x' is no number"):
         measured_in(path)
+    path.write_text(TABLE.replace("-0.007,300", "-0.007,5,300"))
+    with pytest.raises(InputFault, match=r"line 2: has 1 cells more than the head has columns"):
+        measured_in(path)
     path.write_text(TABLE.replace("p78", "q78"))
     with pytest.raises(InputFault, match="has no column 'p78'"):
         measured_in(path)

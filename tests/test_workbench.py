@@ -83,7 +83,9 @@ def test_the_page_fetches_nothing_from_elsewhere(served):
     elsewhere = [name for name, text in texts.items() if "https://" in text or ("http://" in text.replace("http://www.w3.org/2000/svg", ""))]
     assert status == 200 and not elsewhere
     # What the first view needs is small: it paints at once.
-    assert sum(len(texts[name]) for name in ("index.html", "style.css", "app.js", "net.js", "dom.js", "in.js", "plot.js", "scale.js")) < 120_000
+    first = ("index.html", "style.css", "app.js", "net.js", "dom.js", "in.js", "in_runs.js", "in_conditions.js", "plot.js", "paint.js", "hand.js", "behind.js",
+             "scale.js")  # fmt: skip
+    assert sum(len(texts[name]) for name in first) < 120_000
 
 
 @pytest.mark.parametrize("name", ["../out.csv", "a/../../out.csv", "..", ".hidden.csv", "campaign.toml", "a\x00.csv", "con:.csv"])
@@ -100,6 +102,18 @@ def test_a_link_leads_nowhere_else(tmp_path):
     (folder.root / "link.csv").symlink_to(tmp_path / "secret.csv")
     with pytest.raises(InputFault, match="outside"):
         folder.inside("link.csv")
+    assert folder.measurements() == []
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd.toml", "../other.toml", "../../x", "/etc/hosts", "RV20E-122"])
+def test_no_model_is_read_from_elsewhere(tmp_path, name):
+    (tmp_path / "other.toml").write_text("[reducer]")
+    folder = opened(tmp_path / "in")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.remember("wishes", {"reducer": name})
+    with pytest.raises(InputFault, match="outside|no such reducer"):
+        folder.model({"model": name})
+    assert "outside" in view(folder)["fault"] or "no such reducer" in view(folder)["fault"]
 
 
 def test_a_dropped_file_overwrites_nothing(tmp_path):
@@ -189,3 +203,82 @@ def test_stop_asks_and_ends_nobody_by_number(tmp_path):
     jobs.place_of(folder, "life").mkdir(parents=True, exist_ok=True)
     jobs.stop(folder, "life")
     assert (jobs.place_of(folder, "life") / "stop").exists()
+
+
+# what the page is told ------------------------------------------------------------------------
+def test_numbers_have_as_many_decimals_as_their_noise():
+    from workbench.look import decimals_of, text_of
+
+    assert [decimals_of(noise) for noise in (22.0, 1.9, 0.0073, 0.0)] == [0, 1, 4, 4]
+    assert text_of(-0.011412, decimals_of(0.0082)) == "−0.0114" and text_of(1440.951, 0) == "1,441"
+
+
+def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
+    from discrepancy.problem import Parameter
+    from workbench.trying import around, slider
+
+    bounded = slider(Parameter("clearance", "m", 0.0, 0.0, 1e-3, 2e-6, 1), True)
+    assert (bounded["low"], round(bounded["high"], 9), bounded["unit"], bounded["bounds"]) == (0.0, 10.0, "µm", [0.0, 1000.0])
+    carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
+    assert carried["low"] < 0.0 < carried["off"] < carried["high"]
+
+
+def test_of_many_samples_one_turn_is_tried():
+    import numpy as np
+
+    from discrepancy.problem import Record
+    from workbench.trying import FEW, thinned
+
+    angle = np.linspace(0.0, 20.0 * np.pi, 50_001)
+    many = Record("r", "transmission_error", "rad", "c", 1, np.sin(78 * angle), {"angle": angle}, {"direction": 1})
+    few = thinned(many)
+    assert 0.8 * FEW < len(few.values) <= FEW and few.axes["angle"].max() < 2.0 * np.pi
+    assert np.allclose(few.values, np.sin(78 * few.axes["angle"])) and thinned(few) is few
+
+
+def test_results_are_told_without_numbers_that_json_lacks(tmp_path):
+    import numpy as np
+
+    from workbench.told import write_json
+
+    write_json(tmp_path / "a.json", {"x": [1.0, float("nan"), np.float64(np.inf)], "y": np.arange(2)})
+    assert json.loads((tmp_path / "a.json").read_text()) == {"x": [1.0, None, None], "y": [0, 1]}
+
+
+def test_columns_of_a_comparison_are_read_without_parsing():
+    import numpy as np
+
+    from workbench.look import Columns
+
+    columns = Columns()
+    places = [columns.add(np.array(row)) for row in ([1.0, 2.0], [3.0])]
+    found = np.frombuffer(columns.bytes(), "<f4")
+    assert [found[p["from"] : p["from"] + p["count"]].tolist() for p in places] == [[1.0, 2.0], [3.0]]
+
+
+def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
+    from workbench.reducers import completed
+
+    folder = opened(tmp_path)
+    asked = {"ratio": "121", "pins": "40", "rated": "167", "known": {"pin.radius": "2mm"}, "name": "mine"}
+    with pytest.raises(InputFault, match="^ratio 8100: must lie"):
+        completed(folder, {**asked, "ratio": "8100"})
+    assert completed(folder, {**asked, "save": True})["saved"] == "mine.toml"
+    with pytest.raises(InputFault, match="not overwritten"):
+        completed(folder, {**asked, "save": True})
+    assert folder.models() == ["mine.toml"]
+
+
+def test_the_file_of_an_ensemble_is_that_of_the_form(tmp_path):
+    from studies.ensemble.ensemble_file import load_ensemble
+    from workbench.ensemble_step import text_of
+
+    row = {"name": "bearing.clearance", "unit": "um", "distribution": "normal", "first": "2,5", "second": 0.4}
+    given = {"model": "RV20E-121", "hours": "3000", "samples": "4", "scatters": [row], "limits": {"disc_flank_um": "5"}}
+    (tmp_path / "ensemble.toml").write_text(text_of(opened(tmp_path), given), encoding="utf-8")
+    drawn = load_ensemble(tmp_path / "ensemble.toml")
+    assert (drawn.samples, drawn.hours, drawn.limits, [s.name for s in drawn.scatters]) == (4, 3000.0, {"disc_flank_um": 5.0}, ["bearing_clearance"])
+    with pytest.raises(InputFault, match="power of two"):
+        text_of(opened(tmp_path), given | {"samples": 5})
+    with pytest.raises(InputFault, match="no such distribution"):
+        text_of(opened(tmp_path), given | {"scatters": [row | {"name": 'a" = 1'}]})

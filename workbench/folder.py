@@ -6,13 +6,15 @@ All state is here: a page that is loaded anew, a second tab and a server that wa
 import json
 import os
 import re
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.readers import kind_of
 from fmu_src.checked_file import replacing, write_text
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest
+from reducers.library import available
 
 MEMORY = ".workbench"
 CAMPAIGN, MODEL = "campaign.toml", "model.toml"
@@ -64,7 +66,11 @@ class Folder:
         found: list[Path] = []
         for here, folders, names in os.walk(self.root):
             folders[:] = sorted(name for name in folders if not name.startswith((".", "_")) and name not in ("fmus", "results"))
-            found += [Path(here) / name for name in sorted(names) if kind_of(Path(name)) and not name.startswith(".")]
+            # Links that lead out of the folder are no files of it.
+            found += [
+                Path(here) / name for name in sorted(names)
+                if kind_of(Path(name)) and not name.startswith(".") and (Path(here) / name).resolve().is_relative_to(self.root.resolve())
+            ]  # fmt: skip
             if len(found) > MOST_FILES:
                 break
         return found[:MOST_FILES]
@@ -78,7 +84,20 @@ class Folder:
         name = str(given.get("model") or "")
         if not name:
             raise InputFault("which model is held against the measurements has to be said first: choose a reducer or a model file")
-        return self.inside(name) if name.endswith(".toml") else name
+        if name.endswith(".toml"):
+            return self.inside(name)
+        if name not in available():
+            raise InputFault(f"{name}: there is no such reducer; choose from {', '.join(available())}, or a file of the folder{nearest(name, available(), 1)}")
+        return name
+
+    def measured(self) -> str:
+        """The reducer that campaign.toml says was measured, if it is one of the library or of the folder."""
+        try:
+            content = tomllib.loads(self.campaign.read_text(encoding="utf-8"))
+            name = str(content["campaign"]["reducer"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return ""
+        return name if name in available() or name in self.models() else ""
 
     # what the page remembers ----------------------------------------------------------------
     def recall(self, name: str) -> dict[str, Any]:

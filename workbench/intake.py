@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from fmu_src.faults import InputFault
 from pages.look import significant
@@ -73,8 +75,7 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[s
     """The proposal, and corrections that no longer fit anything: conditions are named anew where the pattern of names changes."""
     files = folder.measurements()
     reducer = given.get("reducer")
-    own = folder.root / str(reducer)
-    wishes = wishes_of({**given, "reducer": str(own) if reducer and own.is_file() else reducer})
+    wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
     name = campaign_name(folder.root)
     try:
         return propose(files, wishes, name), []
@@ -99,7 +100,9 @@ def view(folder: Folder) -> dict[str, Any]:
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
     }  # fmt: skip
-    if not files:
+    if found["saved"]:
+        found |= checked_campaign(folder)
+    if not files or (found["saved"] and not found["own"]):
         return found
     try:
         proposal, found["gone"] = proposed(folder, given)
@@ -113,6 +116,19 @@ def view(folder: Folder) -> dict[str, Any]:
     found["text"] = text_of(folder, proposal)
     found["command"] = command(folder, given)
     return found
+
+
+def checked_campaign(folder: Folder) -> dict[str, Any]:
+    """What campaign.toml holds as it is read, and what ``rvwear campaign check`` finds."""
+    try:
+        campaign = load_campaign(folder.root)
+        check = check_campaign(campaign)
+    except InputFault as fault:
+        return {"fault": str(fault).replace(f"{folder.root}/", "")}
+    return {
+        "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
+        "findings": [{"level": f.level, "text": f.text, "remedy": f.remedy} for f in check.findings],
+    }
 
 
 @lru_cache(maxsize=4096)

@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy.compare import Comparison
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, comparison, spectra
-from discrepancy.page.runs import Run, axis_of, by_signal, runs_of
+from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
@@ -19,6 +19,8 @@ from pages.words import number
 MOST_ORDERS = 200
 # A prediction for an axis with fewer samples is drawn with dots besides.
 FEW = 40
+# Samples of a run that is drawn at all.
+LEAST = 3
 
 
 class Columns:
@@ -55,7 +57,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
         "places": [asdict(g) for g in result.diagnostician.localisation.findings],
-        "orders": named,
+        "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()
 
@@ -98,18 +100,23 @@ def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str
     first = members[0]
     unit = first.record.unit
     factor, shown = amounts.scale(unit, name)
-    series = [run for run in members if run.series]
+    series = [run for run in members if over_an_axis(run)]
     told: dict[str, Any] = {
         "signal": name, "title": amounts.signal_title(name), "unit": shown, "held_out": any(r.record.held_out for r in members), "runs": [],
-        "singles": [single(run, factor, ratios) for run in members if not run.series],
+        "singles": [single(run, factor, ratios) for run in members if not over_an_axis(run)],
     }  # fmt: skip
     if series:
         axis = axis_of(series[0])
         told["axis"] = {"name": axis, "title": amounts.axis_title(axis, series[0].speed)}
         told["loop"] = axis == "torque"
         told["runs"] = [drawn(run, factor, columns, ratios) for run in series if axis_of(run) == axis]
-        told["spectra"] = orders_of(series, factor, named)
+        told["spectra"] = orders_of([run for run in series if run.series], factor, named)
     return told
+
+
+def over_an_axis(run: Run) -> bool:
+    """Whether there is something to draw a run over, were it of few samples."""
+    return axis_name(run.record) is not None and run.measured.size >= LEAST
 
 
 def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:

@@ -31,6 +31,7 @@ STATIC = Path(__file__).with_name("static")
 MOST_UPLOADED = 2_000_000_000
 # How often a change is looked for, and how long at most a page hears nothing [s].
 LOOK, SILENCE = 0.35, 15.0
+HIGHEST_PORT = 65535
 
 Handler = Callable[[Request], Awaitable[Response]]
 
@@ -118,9 +119,11 @@ class Workbench:
         """What all tabs show alike."""
         folder = self.folder
         view = folder.recall("view")
+        if not view.get("model"):
+            view["model"] = folder.measured()
         return {
-            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "reducers": available(),
-            "view": view, "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
+            "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "view": view,
+            "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:
@@ -156,11 +159,9 @@ class Workbench:
         return JSONResponse(await run_in_threadpool(jobs.result, self.folder, request.path_params["kind"]))
 
     async def live(self, request: Request) -> Response:
-        """What a job that runs has so far."""
-        found = self.folder.recall(f"jobs/{jobs.place_of(self.folder, request.path_params['kind']).name}/live")
-        if not found:
-            raise InputFault("there is nothing yet")
-        return JSONResponse(found)
+        """What a job that runs has so far; empty if that is nothing yet."""
+        place = jobs.place_of(self.folder, request.path_params["kind"])
+        return JSONResponse(self.folder.recall(f"jobs/{place.name}/live"))
 
     async def columns(self, request: Request) -> Response:
         place = jobs.place_of(self.folder, request.path_params["kind"]) / "columns.bin"
@@ -194,7 +195,7 @@ class Workbench:
         given = await content(request)
         words, rows = await run_in_threadpool(
             lambda: self.hand().curve(self.folder, str(given.get("model") or ""), str(given.get("run")), dict(given.get("values") or {}),
-                                      int(given.get("ticket", 0)), bool(given.get("roughly"))))  # fmt: skip
+                                      int(given.get("ticket", 0)), bool(given.get("roughly")), str(given.get("beside") or "")))  # fmt: skip
         return Response(json.dumps(words | {"count": rows.shape[1]}).encode() + b"\n" + rows.astype("<f4").tobytes(), media_type="application/octet-stream")
 
     async def everywhere(self, request: Request) -> Response:
@@ -247,6 +248,8 @@ def app_of(bench: Workbench, token: str) -> Guard:
 
 def serve(folder: Folder, port: int, cores: int, ready: Callable[[str], None]) -> None:
     """Until Ctrl-C; ``ready`` is told the address."""
+    if not 0 <= port <= HIGHEST_PORT:
+        raise InputFault(f"--port {port}: ports go from 0 (any that is free) to {HIGHEST_PORT}")
     token = new_token()
     bench = Workbench(folder, cores)
     with socket.socket() as listening:

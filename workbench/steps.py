@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
+from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
 from workbench.makers import makers
@@ -169,5 +170,5 @@ def command(folder: Folder, given: dict[str, Any], name: str) -> str:
 
 
 STEPS: dict[str, Step] = {
-    "compare": compare_step, "diagnose": diagnose_step, "next": next_step, "extend": extend_step, "build": build_step, "life": life,
+    "compare": compare_step, "diagnose": diagnose_step, "next": next_step, "extend": extend_step, "build": build_step, "life": life, "ensemble": ensemble,
 }  # fmt: skip

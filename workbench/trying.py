@@ -13,10 +13,12 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.model_file import every_effect, load_model
 from discrepancy.page import amounts
 from discrepancy.page.runs import axis_name
+from discrepancy.prediction.candidates import parameter_of
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate, Parameter, Record
 from discrepancy.scales import of_axis, of_parameter
 from fmu_src.arrays import Floats
+from fmu_src.effect import EffectParameter
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
 
@@ -24,6 +26,8 @@ from workbench.folder import Folder
 REACH = 5.0
 # Samples of the curve that follows the hand: more than a screen is wide make no picture better.
 FEW = 1200
+# Models that stay in memory.
+KEPT = 2
 
 
 class Trial:
@@ -31,19 +35,28 @@ class Trial:
 
     def __init__(self) -> None:
         self.lock = threading.Lock()
-        self.key: tuple[str, str, str] | None = None
-        self.model: PhysicalModel | None = None
-        # Runs with as many samples as are drawn, beside whole ones.
-        self.few: dict[str, tuple[Record, Record]] = {}
+        # By folder, model and what they were; the last two, for one may be looked at beside the other.
+        self.models: dict[tuple[str, str, str], PhysicalModel] = {}
         self.asked = 0
 
     def opened(self, folder: Folder, model: str) -> PhysicalModel:
         """The model, made anew where folder or model have changed."""
         key = (str(folder.root), model, folder.stamp(model))
-        if self.model is None or self.key != key:
-            self.model = PhysicalModel(load_model(folder.model({"model": model})), load_campaign(folder.root))
-            self.key, self.few = key, {}
-        return self.model
+        found = self.models.pop(key, None)
+        if found is None:
+            campaign = load_campaign(folder.root)
+            few = replace(campaign, records=tuple(thinned(record) for record in campaign.records))
+            found = PhysicalModel(load_model(folder.model({"model": model})), few)
+            while len(self.models) >= KEPT:
+                self.models.pop(next(iter(self.models)))
+        self.models[key] = found
+        return found
+
+    def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
+        """What is calibrated first, as the last comparison of this model found it; else where it starts."""
+        last = folder.recall("jobs/compare/result")
+        known = last.get("nuisances", {}) if last.get("model") == model else {}
+        return found.standing() | {name: float(known[name]) for name in known if name in {p.name for p in found.nuisances}}
 
     def controls(self, folder: Folder, model: str) -> dict[str, Any]:
         """Every effect with its parameters as sliders, and the runs that can be looked at."""
@@ -63,10 +76,12 @@ class Trial:
             numbers = [base_number(c) for c in found.candidates if c.part == BASE]
             runs = [{"run": r.name, "signal": stream_of(r), "title": amounts.signal_title(stream_of(r)), "condition": r.condition, "replicate": r.replicate,
                      "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records]  # fmt: skip
-            return {"model": model, "effects": effects, "numbers": numbers, "runs": runs, "present": present(found)}
+            return {"model": model, "effects": present(found) + effects, "numbers": numbers, "runs": runs}
 
-    def curve(self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int, roughly: bool = False) -> tuple[dict[str, Any], Floats]:
-        """Predicted values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted).
+    def curve(
+        self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int, roughly: bool = False, beside: str = ""
+    ) -> tuple[dict[str, Any], Floats]:
+        """Values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted, model ``beside``).
 
         ``roughly``: while the hand moves, within some parts in a hundred of what the values change.
         """
@@ -74,12 +89,17 @@ class Trial:
         with self.lock:
             if ticket < self.asked:
                 # The hand has moved on.
-                return {"late": True}, np.zeros((4, 0))
+                return {"late": True}, np.zeros((5, 0))
             found = self.opened(folder, model)
-            record, whole = self.thinned(found, run)
+            record = run_of(found, run)
             own = checked_values(found, values)
-            base = predicted(found, record, whole, {}, False)
-            tried = predicted(found, record, whole, own, roughly) if own else base
+            standing = self.standing(folder, model, found)
+            base = found.one(record, standing)
+            tried = found.one(record, standing | own, rough=roughly) if own else base
+            other = base
+            if beside and beside != model:
+                second = self.opened(folder, beside)
+                other = second.one(run_of(second, run), self.standing(folder, beside, second))
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
@@ -87,13 +107,14 @@ class Trial:
             axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
             words = {"unit": unit, "axis": axis, "loop": name == "torque", "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
                      "title": amounts.signal_title(stream_of(record)), "condition": record.condition}  # fmt: skip
-            return words, np.array([x, factor * record.values, factor * base, factor * tried])
+            return words, np.array([x, factor * record.values, factor * base, factor * tried, factor * other])
 
     def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
         """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition."""
         with self.lock:
             found = self.opened(folder, model)
             own = checked_values(found, values)
+            standing = self.standing(folder, model, found)
             cells: dict[str, list[tuple[float, float, float]]] = {}
             units: dict[str, str] = {}
             seen = set()
@@ -102,10 +123,9 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                few, whole = self.thinned(found, record.name)
-                base, tried = predicted(found, few, whole, {}, True), predicted(found, few, whole, own, True)
+                base, tried = found.one(record, standing, rough=True), found.one(record, standing | own, rough=True)
                 units[key[0]] = record.unit
-                cells.setdefault(key[0], []).append((rms(tried - base), rms(few.values - base), rms(few.values - tried)))
+                cells.setdefault(key[0], []).append((rms(tried - base), rms(record.values - base), rms(record.values - tried)))
         rows = []
         for signal, entries in cells.items():
             change, before, after = (math.sqrt(float(np.mean(np.square(column)))) for column in zip(*entries))
@@ -114,25 +134,27 @@ class Trial:
                          "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
         return rows
 
-    def thinned(self, model: PhysicalModel, run: str) -> tuple[Record, Record]:
-        """A run with as many samples as a screen shows; the same object each time, so that what was predicted is found again; and the whole run."""
-        if run not in self.few:
-            record = next((r for r in model.records if r.name == run), None)
-            if record is None:
-                raise InputFault(f"{run}: there is no such run")
-            step = max(1, math.ceil(len(record.values) / FEW))
-            # Under a name of its own: what is kept of whole runs does not fit it.
-            thin = {k: np.asarray(v)[::step] if np.size(v) == len(record.values) else v for k, v in record.axes.items()}
-            self.few[run] = (record if step == 1 else replace(record, name=f"{run}, every {step}", values=record.values[::step], axes=thin)), record
-        return self.few[run]
+
+def run_of(model: PhysicalModel, run: str) -> Record:
+    """InputFault where there is none of that name."""
+    found = next((r for r in model.records if r.name == run), None)
+    if found is None:
+        raise InputFault(f"{run}: there is no such run, or no prediction of it")
+    return found
 
 
-def predicted(model: PhysicalModel, record: Record, whole: Record, values: Mapping[str, float], rough: bool) -> Floats:
-    """Of a run or of every so manieth of its samples, where its roller cages stood added."""
-    own = {**model.standing(), **values}
-    found = model.one(record, own, rough=rough)
-    ripple = None if record is whole else model.cages.ripple(whole, own)
-    return found if ripple is None else found + ripple[:: math.ceil(len(ripple) / len(found))]
+def thinned(record: Record) -> Record:
+    """A run with as many samples as a screen shows: of an angle the first turn alone, for a line through few samples of many waves shows none of them."""
+    values = np.asarray(record.values)
+    kept = np.arange(len(values))
+    if "angle" in record.axes and len(values) > FEW:
+        angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
+        kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
+    kept = kept[:: max(1, math.ceil(len(kept) / FEW))]
+    if len(kept) == len(values):
+        return record
+    axes = {k: np.asarray(v)[kept] if np.size(v) == len(values) else v for k, v in record.axes.items()}
+    return replace(record, values=values[kept], axes=axes)
 
 
 def rms(values: Floats) -> float:
@@ -159,15 +181,37 @@ def base_number(candidate: Candidate) -> dict[str, Any]:
     return {"name": candidate.name, "title": candidate.title, "parameters": [slider(p, True) for p in candidate.parameters]}
 
 
+def own_parameters(model: PhysicalModel) -> dict[str, list[tuple[EffectParameter, Parameter]]]:
+    """Of the effects that the model carries, as they stand in it; elements of arrays are left as they are."""
+    about = every_effect()
+    found = {}
+    for name, entries in model.file.effects.items():
+        known = {p.variable.name: p for p in about[name].parameters if p.kind != "choice"}
+        found[name] = [(known[key], around(parameter_of(known[key], float(entry["value"])), known[key].variable.start)) for key, entry in entries.items()
+                       if key in known]  # fmt: skip
+    return found
+
+
+def around(p: Parameter, start: float) -> Parameter:
+    """With a slider that reaches from where the effect vanishes to as far beyond where it stands."""
+    return replace(p, sign=0, scale=max(p.scale, 1.2 * abs(p.off - start) / REACH))
+
+
 def present(model: PhysicalModel) -> list[dict[str, Any]]:
-    """Effects that the model carries already."""
-    return [{"name": name, "title": amounts.effect_title(name), "values": {k: float(v["value"]) for k, v in parameters.items()}}
-            for name, parameters in model.file.effects.items()]  # fmt: skip
+    """Effects that the model carries already: their sliders begin where they stand, and ``without`` takes them away."""
+    about = every_effect()
+    return [
+        {"name": name, "title": amounts.effect_title(name), "part": "", "signals": [], "law": about[name].law, "says": about[name].signature,
+         "source": about[name].source, "carried": True, "without": {p.variable.name: p.variable.start for p, _ in own if p.kind == "amplitude"},
+         "parameters": [slider(parameter, p.kind == "amplitude") for p, parameter in own]}
+        for name, own in own_parameters(model).items()
+    ]  # fmt: skip
 
 
 def checked_values(model: PhysicalModel, values: Mapping[str, Any]) -> dict[str, float]:
     """SI values of known parameters within their bounds; InputFault for any other."""
     known = {p.name: p for c in model.candidates for p in c.parameters}
+    known |= {p.name: p for own in own_parameters(model).values() for _, p in own}
     found = {}
     for name, value in values.items():
         if name not in known:

@@ -143,13 +143,15 @@ def reached(columns: dict[str, Floats], torque: float, path: Path) -> dict[str, 
 def of_table(path: Path) -> Iterator[Measured]:
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.DictReader(file))
-    heads = list(rows[0]) if rows else []
+    heads = [name for name in rows[0] if name] if rows else []
     orders = [int(name[1:]) for name in heads if re.fullmatch(r"a[1-9]\d*", name)]
     missing = [n for n in ("dir", "rpm", "T", "tor", *(f"p{k}" for k in orders)) if n not in heads]
     if missing or not orders:
         raise InputFault(f"{path}: has no column {(missing or ['a1'])[0]!r}; a table of orders has dir, rpm, T, tor, a0, a1, p1 ... (1e-6 deg, rad)")
     for number, row in enumerate(rows, start=2):
         place = f"{path}: line {number}"
+        if None in row:
+            raise InputFault(f"{place}: has {len(row[None])} cells more than the head has columns; correct it or delete the line")
         if row["dir"] not in SENSES:
             raise InputFault(f"{place}: column dir = {row['dir']!r}; fw or bw is needed")
         speed, torque, temperature = (figure(row, name, place) for name in ("rpm", "tor", "T"))

@@ -183,8 +183,12 @@ class Diagnostician:
     def say_place(self) -> None:
         """Where the misfit is, as soon as it is known."""
         found = self.localisation.findings
-        more = f", and {len(found) - 1} more" if len(found) > 1 else ""
-        say(f"misfit: {found[0].signal}, {found[0].feature}, by {found[0].dependence} (p = {found[0].p:.1g}){more}" if found else "no misfit has a place")
+        if not found:
+            say("no place, order or dependence carries a significant misfit")
+            return
+        best, more = found[0], f", and {len(found) - 1} more" if len(found) > 1 else ""
+        where = "everywhere alike" if best.dependence == "everywhere" else f"changing with {best.dependence}"
+        say(f"misfit: {best.signal}, {best.feature}, {where} (p = {best.p:.1g}){more}")
 
     def say_scores(self) -> None:
         """Which effects come nearest before any is fitted in earnest."""

@@ -85,14 +85,14 @@ class Fitter:
     def predict(self, values: dict[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         return self.model.predict(values, which)
 
-    def slopes(self, number: Number, values: dict[str, float], which: Sequence[int] | None = None) -> list[Floats]:
-        """Derivative of every record by a number at ``values``."""
+    def slopes(self, number: Number, values: dict[str, float], at: Sequence[Floats], which: Sequence[int] | None = None) -> list[Floats]:
+        """Derivative of every record by a number at ``values``, where ``at`` is predicted."""
         high = self.predict({**values, number.name: values[number.name] + number.step}, which)
-        return [(a - b) / number.step for a, b in zip(high, self.predict(values, which))]
+        return [(a - b) / number.step for a, b in zip(high, at)]
 
     def linear(self, number: Number, starts: dict[str, float]) -> list[Floats]:
         if number.name not in self.kept:
-            self.kept[number.name] = self.slopes(number, starts)
+            self.kept[number.name] = self.slopes(number, starts, self.predict(starts))
         return self.kept[number.name]
 
     def fit(self, rungs: Sequence[Rung], training: Sequence[int]) -> Fitted:
@@ -114,7 +114,7 @@ class Fitter:
             left = np.concatenate([(self.records[i].values - y) for i, y in zip(training, at)]) / scale
             columns = []
             for n in numbers:
-                slopes = self.slopes(n, values, training) if n.anew else [self.linear(n, starts)[i] for i in training]
+                slopes = self.slopes(n, values, at, training) if n.anew else [self.linear(n, starts)[i] for i in training]
                 columns.append(np.concatenate(slopes) / scale * n.step)
             steps, covariance, cost = weighted(np.column_stack(columns), left)
             values = {n.name: float(np.clip(values[n.name] + n.step * limited(n, s), n.lower, n.upper)) for n, s in zip(numbers, steps)}

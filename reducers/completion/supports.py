@@ -4,7 +4,7 @@
 [Stribeck]  the most loaded roller of a bearing without clearance carries 4.08 F/Z.
 [ISO 6336]  mesh stiffness of steel spur gears about 20 N/(mm um) of face width, 14 of one pair of teeth.
 [catalogue]  moment rigidity in the RV-E series: 372 N m/arcmin (RV-20E) to 7,448 (RV-450E), 9.1e9 N/m^2 times the cube of the pin circle
-    radius within a fifth.  Quoted from reprints of the rating table.
+    radius within a fifth.  From memory and secondary pages.
 
 A crank is a beam on two bearings: between them it bends under the discs' forces, which are taken as those at rated torque.  Palmgren's
 compliance is that of rollers on rigid rings; what rings in their seats, crowned rollers, the walls of the discs' holes and the plates of the carrier

@@ -6,18 +6,44 @@ import { recolour } from "./plot.js";
 
 const VIEWS = { in: "In", look: "Look", diagnose: "Diagnose", try: "Try", reducer: "Reducer", life: "Life" };
 const NAMES = Object.keys(VIEWS);
-const WORK = { compare: "Comparing", diagnose: "Diagnosing", next: "Looking for the next experiment", extend: "Adding the effect", build: "Building FMUs", life: "Living", ensemble: "Living many times" };
-const KEYS = [["1 … 6", "the views, in their order"], ["/", "search"], ["?", "this list"], ["a, b", "in a chart: which cursor is set"], ["← →", "in a chart: move the cursor; with Shift ten times as far"], ["+ − 0", "in a chart: zoom in, out, show all"],
-  ["Page ↑ ↓", "in a chart: move along"], ["Del", "in a chart: take the cursor away"], ["wheel", "in a chart that was clicked: zoom"], ["drag", "in a chart: zoom to what is framed; with Shift move along"], ["Alt + click", "in a chart: set cursor B"]];
+const WORK = {
+  compare: "Comparing",
+  diagnose: "Diagnosing",
+  next: "Looking for the next experiment",
+  extend: "Adding the effect",
+  build: "Building FMUs",
+  life: "Living",
+  ensemble: "Living many times",
+};
+const KEYS = [
+  ["1 … 6", "the views, in their order"],
+  ["/", "search"],
+  ["?", "this list"],
+  ["a, b", "in a chart: which cursor is set"],
+  ["← →", "in a chart: move the cursor; with Shift ten times as far"],
+  ["+ − 0", "in a chart: zoom in, out, show all"],
+  ["Page ↑ ↓", "in a chart: move along"],
+  ["Del", "in a chart: take the cursor away"],
+  ["wheel", "in a chart that was clicked: zoom"],
+  ["drag", "in a chart: zoom to what is framed; with Shift move along"],
+  ["Alt + click", "in a chart: set cursor B"],
+];
 
 export const context = { state: null, go, act, start, modelChooser, model: () => context.state?.view?.model || "" };
-const main = document.getElementById("view"), work = document.getElementById("work"), gone = document.getElementById("gone");
-let current = null, opening = 0;
+const main = document.getElementById("view"),
+  work = document.getElementById("work"),
+  gone = document.getElementById("gone");
+let current = null,
+  opening = 0;
 
 // colours ---------------------------------------------------------------------------------
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let chosen = null;
-try { chosen = localStorage.getItem("rvwear colours"); } catch { /* private window */ }
+try {
+  chosen = localStorage.getItem("rvwear colours");
+} catch {
+  /* private window */
+}
 function paint() {
   document.documentElement.classList.toggle("dark", chosen ? chosen === "dark" : dark.matches);
   recolour();
@@ -26,16 +52,27 @@ function paint() {
 dark.addEventListener("change", paint);
 document.getElementById("colours").addEventListener("click", () => {
   chosen = document.documentElement.classList.contains("dark") ? "light" : "dark";
-  try { localStorage.setItem("rvwear colours", chosen); } catch { /* private window */ }
+  try {
+    localStorage.setItem("rvwear colours", chosen);
+  } catch {
+    /* private window */
+  }
   paint();
 });
 paint();
 
 // views -----------------------------------------------------------------------------------
 const tabs = document.getElementById("tabs");
-tabs.append(...NAMES.map((name, i) => h("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-selected": "false", title: `key ${i + 1}`, onclick: () => go(name) }, VIEWS[name])));
+tabs.append(
+  ...NAMES.map((name, i) =>
+    h("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-selected": "false", title: `key ${i + 1}`, onclick: () => go(name) }, VIEWS[name]),
+  ),
+);
 
-export function go(name) { if (location.hash === `#${name}`) open(name); else location.hash = name; }
+export function go(name) {
+  if (location.hash === `#${name}`) open(name);
+  else location.hash = name;
+}
 
 async function open(name) {
   const mine = ++opening;
@@ -54,10 +91,17 @@ addEventListener("hashchange", () => open(wanted()));
 
 // what goes wrong, said where it is seen -----------------------------------------------------
 export async function act(promise, place = null) {
-  try { return await promise; } catch (fault) {
+  try {
+    return await promise;
+  } catch (fault) {
     if (fault.name !== "Fault" && !("message" in fault)) throw fault;
     const text = note(fault.message, "bad");
-    if (place) clear(place, text); else { main.prepend(text); setTimeout(() => text.remove(), 12000); text.scrollIntoView({ block: "nearest" }); }
+    if (place) clear(place, text);
+    else {
+      main.prepend(text);
+      setTimeout(() => text.remove(), 12000);
+      text.scrollIntoView({ block: "nearest" });
+    }
     if (fault.constructor.name !== "Fault") console.error(fault);
     return undefined;
   }
@@ -68,21 +112,38 @@ export async function start(kind, given = {}) {
 }
 
 export function modelChooser(label = "model") {
-  const state = context.state;
-  const known = [...(state?.models ?? []), ...(state?.reducers ?? [])];
-  return h("label", { class: "inline" }, label, choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }));
+  const state = context.state,
+    reducers = state?.library ?? [];
+  const known = [...(state?.models ?? []), ...reducers];
+  return h(
+    "label",
+    { class: "inline" },
+    label,
+    choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }),
+  );
 }
 
 // what is being computed ----------------------------------------------------------------------
 function showWork(jobs) {
   const running = Object.entries(jobs).find(([, job]) => job.state === "running");
   work.hidden = !running;
-  if (!running) { work.replaceChildren(); return; }
-  const [kind, job] = running, task = [...job.tasks].reverse().find((t) => t.total) ?? job.tasks.at(-1), inner = job.tasks.at(-1);
+  if (!running) {
+    work.replaceChildren();
+    return;
+  }
+  const [kind, job] = running,
+    task = [...job.tasks].reverse().find((t) => t.total) ?? job.tasks.at(-1),
+    inner = job.tasks.at(-1);
   const bar = h("progress", task?.total ? { max: task.total, value: task.done, "aria-label": task.what } : { "aria-label": "at work" });
   const said = job.said.at(-1);
-  clear(work, h("b", {}, WORK[kind]), bar, h("span", { class: "doing" }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
-    h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""), h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"));
+  clear(
+    work,
+    h("b", {}, WORK[kind]),
+    bar,
+    h("span", { class: "doing" }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
+    h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
+  );
 }
 
 function heard(state) {
@@ -91,24 +152,58 @@ function heard(state) {
   document.getElementById("folder").textContent = state.name;
   document.getElementById("folder").title = state.folder;
   showWork(state.jobs);
-  if (first) open(wanted()); else current?.update?.(state);
+  if (first) open(wanted());
+  else current?.update?.(state);
   return state;
 }
 
 const events = new EventSource("events");
-events.onmessage = (event) => { gone.hidden = true; heard(JSON.parse(event.data)); };
-events.onerror = () => { gone.hidden = false; gone.textContent = "The server does not answer. What was found is in the folder: start rvwear workbench there again, and open the address that it prints."; };
+events.onmessage = (event) => {
+  gone.hidden = true;
+  heard(JSON.parse(event.data));
+};
+events.onerror = () => {
+  gone.hidden = false;
+  gone.textContent = "The server does not answer. What was found is in the folder: start rvwear workbench there again, and open the address that it prints.";
+};
 
 // keys ----------------------------------------------------------------------------------------
 const help = document.getElementById("help");
-const showKeys = () => { clear(help, h("h2", {}, "Keys"), h("table", {}, h("tbody", {}, KEYS.map(([key, what]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, what))))), h("p", { class: "row" }, h("button", { type: "button", onclick: () => help.close() }, "Close"))); help.showModal(); };
+const showKeys = () => {
+  clear(
+    help,
+    h("h2", {}, "Keys"),
+    h(
+      "table",
+      {},
+      h(
+        "tbody",
+        {},
+        KEYS.map(([key, what]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, what))),
+      ),
+    ),
+    h("p", { class: "row" }, h("button", { type: "button", onclick: () => help.close() }, "Close")),
+  );
+  help.showModal();
+};
 document.getElementById("keys").addEventListener("click", showKeys);
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || help.open) return;
   const typing = event.target.closest?.("input, select, textarea");
-  if (typing) { if (event.key === "Escape") typing.blur(); return; }
+  if (typing) {
+    if (event.key === "Escape") typing.blur();
+    return;
+  }
   const place = Number(event.key) - 1;
-  if (NAMES[place]) { go(NAMES[place]); event.preventDefault(); }
-  else if (event.key === "?") showKeys();
-  else if (event.key === "/") { const search = main.querySelector("input[type=search]"); if (search) { search.focus(); event.preventDefault(); } }
+  if (NAMES[place]) {
+    go(NAMES[place]);
+    event.preventDefault();
+  } else if (event.key === "?") showKeys();
+  else if (event.key === "/") {
+    const search = main.querySelector("input[type=search]");
+    if (search) {
+      search.focus();
+      event.preventDefault();
+    }
+  }
 });

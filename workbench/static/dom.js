@@ -15,12 +15,19 @@ export function h(tag, given = {}, ...children) {
   return element;
 }
 
-export const clear = (element, ...children) => { element.replaceChildren(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false)); return element; };
+export const clear = (element, ...children) => {
+  element.replaceChildren(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
+  return element;
+};
 
 export function choose(options, value, onchange, given = {}) {
   const all = options.map((o) => (Array.isArray(o) ? o : [o, o]));
   if (value && !all.some(([v]) => v === value)) all.unshift([value, value]);
-  const list = h("select", { onchange: (event) => onchange(event.target.value), ...given }, all.map(([v, text]) => h("option", { value: v }, text)));
+  const list = h(
+    "select",
+    { onchange: (event) => onchange(event.target.value), ...given },
+    all.map(([v, text]) => h("option", { value: v }, text)),
+  );
   list.value = value ?? "";
   return list;
 }
@@ -28,19 +35,55 @@ export function choose(options, value, onchange, given = {}) {
 // A table with right-aligned columns of numbers; cells may be elements.
 export function table(head, rows, right = [], given = {}) {
   const side = (i) => (right.includes(i) ? { class: "num" } : {});
-  return h("div", { class: "scroll" }, h("table", given,
-    h("thead", {}, h("tr", {}, head.map((text, i) => h("th", { ...side(i), scope: "col" }, text)))),
-    h("tbody", {}, rows.map((row) => (row instanceof HTMLElement ? row : h("tr", {}, row.map((cell, i) => h("td", side(i), cell))))))));
+  return h(
+    "div",
+    { class: "scroll" },
+    h(
+      "table",
+      given,
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          head.map((text, i) => h("th", { ...side(i), scope: "col" }, text)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        rows.map((row) =>
+          row instanceof HTMLElement
+            ? row
+            : h(
+                "tr",
+                {},
+                row.map((cell, i) => h("td", side(i), cell)),
+              ),
+        ),
+      ),
+    ),
+  );
 }
 
 // A command line to copy.
 export function command(text) {
   if (!text) return null;
-  const button = h("button", { type: "button", onclick: async () => {
-    await navigator.clipboard.writeText(text).catch(() => {});
-    button.textContent = "copied";
-    setTimeout(() => { button.textContent = "copy"; }, 1500);
-  } }, "copy");
+  const button = h(
+    "button",
+    {
+      type: "button",
+      onclick: async () => {
+        await navigator.clipboard.writeText(text).catch(() => {});
+        button.textContent = "copied";
+        setTimeout(() => {
+          button.textContent = "copy";
+        }, 1500);
+      },
+    },
+    "copy",
+  );
   return h("div", { class: "command" }, h("code", {}, text), button);
 }
 
@@ -50,10 +93,15 @@ export const note = (text, tone = "") => h("p", { class: `note ${tone}`, role: t
 export function spark(values) {
   const known = values.filter((v) => v !== null && Number.isFinite(v));
   if (known.length < 2) return null;
-  const low = Math.min(...known), span = Math.max(...known) - low || 1;
-  let path = "", pen = "M";
+  const low = Math.min(...known),
+    span = Math.max(...known) - low || 1;
+  let path = "",
+    pen = "M";
   values.forEach((v, i) => {
-    if (v === null || !Number.isFinite(v)) { pen = "M"; return; }
+    if (v === null || !Number.isFinite(v)) {
+      pen = "M";
+      return;
+    }
     path += `${pen}${((96 * i) / (values.length - 1)).toFixed(1)} ${(20 - (18 * (v - low)) / span).toFixed(1)}`;
     pen = "L";
   });

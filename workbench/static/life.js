@@ -1,58 +1,168 @@
 // Life: wear over the hours as it grows; paused, gone on with, its report at the end.
 
 import { clear, command, h, note, number } from "./dom.js";
+import { ensemble } from "./ensemble.js";
 import { get } from "./net.js";
 import { Plot } from "./plot.js";
 
 const COLOURS = ["--predicted", "--measured", "--tried", "--residual"];
 
 export function show(root, context) {
-  let live = null, result = null, hours = "10000", torque = "", plot = null;
-  const top = h("div"), words = h("div"), chart = h("div", { class: "panel", hidden: true }), below = h("div");
-  root.append(top, words, chart, below);
+  let live = null,
+    result = null,
+    hours = "10000",
+    torque = "",
+    plot = null;
+  const top = h("div"),
+    words = h("div"),
+    chart = h("div", { class: "panel", hidden: true }),
+    below = h("div"),
+    many = h("section");
+  root.append(top, words, chart, below, many);
+  const lives = ensemble(many, context, () => hours);
 
   async function load() {
     const job = context.state?.jobs.life;
     live = job?.state ? await get("results/life/live").catch(() => null) : null;
+    if (!live?.now) live = null;
     result = job?.result && job.state === "done" ? await get("results/life").catch(() => null) : null;
     draw();
   }
 
   function bar() {
-    const job = context.state?.jobs.life, busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+    const job = context.state?.jobs.life,
+      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
     const paused = job?.state === "stopped" || job?.state === "gone";
     const given = () => ({ hours, torque });
-    clear(top, h("div", { class: "row" }, context.modelChooser("model or reducer"),
-      h("label", { class: "inline" }, "hours", h("input", { type: "text", inputmode: "decimal", size: 8, id: "hours", value: hours, onchange: (e) => { hours = e.target.value; } })),
-      h("label", { class: "inline" }, "torque", h("input", { type: "text", inputmode: "decimal", size: 7, value: torque, placeholder: "rated", onchange: (e) => { torque = e.target.value; } }), "N·m"),
-      h("button", { type: "button", class: "main", id: "live", disabled: busy || !context.model(), onclick: () => context.start("life", given()) }, paused ? "Go on" : "Run"),
-      result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null),
-    job?.fault && job.state !== "running" ? note(job.fault, "bad") : null, paused ? note("Paused: the life goes on from its last jump, as long as hours, torque and model stay.") : null);
+    clear(
+      top,
+      h(
+        "div",
+        { class: "row" },
+        context.modelChooser("model or reducer"),
+        h(
+          "label",
+          { class: "inline" },
+          "hours",
+          h("input", {
+            type: "text",
+            inputmode: "decimal",
+            size: 8,
+            id: "hours",
+            value: hours,
+            onchange: (e) => {
+              hours = e.target.value;
+            },
+          }),
+        ),
+        h(
+          "label",
+          { class: "inline" },
+          "torque",
+          h("input", {
+            type: "text",
+            inputmode: "decimal",
+            size: 7,
+            value: torque,
+            placeholder: "rated",
+            onchange: (e) => {
+              torque = e.target.value;
+            },
+          }),
+          "N·m",
+        ),
+        h(
+          "button",
+          { type: "button", class: "main", id: "live", disabled: busy || !context.model(), onclick: () => context.start("life", given()) },
+          paused ? "Go on" : "Run",
+        ),
+        result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null,
+      ),
+      job?.fault && job.state !== "running" ? note(job.fault, "bad") : null,
+      paused ? note("Paused: the life goes on from its last jump, as long as hours, torque and model stay.") : null,
+    );
   }
 
   function draw() {
     bar();
     const now = result ?? live?.now;
-    if (!now) { clear(words, h("p", { class: "quiet" }, "Thousands of hours in jumps of one meshing cycle each; how many jumps it takes is decided by halving them.")); chart.hidden = true; clear(below); return; }
+    if (!now) {
+      clear(words, h("p", { class: "quiet" }, "Thousands of hours in jumps of one meshing cycle each; how many jumps it takes is decided by halving them."));
+      chart.hidden = true;
+      clear(below);
+      return;
+    }
     const last = now.panes.flatMap((p) => p.lines.map((l) => `${l.name} ${number(l.values.at(-1), 3)} ${p.unit}`));
-    clear(words, h("h1", {}, result ? result.title : `${now.model}: ${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} h`), h("p", { class: "lead" }, last.join(" · ")), result ? null : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`));
+    clear(
+      words,
+      h(
+        "h1",
+        {},
+        result ? result.title : `${now.model}: ${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} h`,
+      ),
+      h("p", { class: "lead" }, last.join(" · ")),
+      result
+        ? null
+        : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`),
+    );
     chart.hidden = false;
-    if (!plot) { plot = new Plot({ height: window.innerWidth < 640 ? 560 : 640, label: "wear, lag, transmission error and stiffness over the hours" }); chart.append(plot.element); }
+    if (!plot) {
+      plot = new Plot({ height: window.innerWidth < 640 ? 560 : 640, label: "wear, lag, transmission error and stiffness over the hours" });
+      chart.append(plot.element);
+    }
     const x = Float32Array.from(now.hours);
-    const panes = now.panes.map((p, k) => ({ title: `${p.title} [${p.unit}]`, weight: k ? 1 : 1.6, lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1.8, dots: x.length < 40 })) }));
+    const panes = now.panes.map((p, k) => ({
+      title: `${p.title} [${p.unit}]`,
+      weight: k ? 1 : 1.6,
+      lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1.8, dots: x.length < 40 })),
+    }));
     if (!result && live?.before?.hours) {
       const old = Float32Array.from(live.before.hours);
-      live.before.panes.forEach((p, k) => p.lines.forEach((l, i) => panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1, dash: [4, 4], opacity: 0.6 })));
+      live.before.panes.forEach((p, k) =>
+        p.lines.forEach((l, i) =>
+          panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1, dash: [4, 4], opacity: 0.6 }),
+        ),
+      );
     }
     plot.set({ xTitle: "operating time [h]", panes });
-    clear(below, result ? [h("h2", {}, "On the parts, over the turn, by order"), h("iframe", { class: "report", src: "results/life/report", title: "report of the life", sandbox: "allow-scripts" }), h("p", { class: "quiet small" }, `kept in ${result.file}; `, h("a", { href: "results/life/report", target: "_blank", rel: "noopener" }, "the report in a tab of its own")), command(result.command)] : null);
+    clear(
+      below,
+      result
+        ? [
+            h("h2", {}, "On the parts, over the turn, by order"),
+            h("iframe", { class: "report", src: "results/life/report", title: "report of the life", sandbox: "allow-scripts" }),
+            h(
+              "p",
+              { class: "quiet small" },
+              `kept in ${result.file}; `,
+              h("a", { href: "results/life/report", target: "_blank", rel: "noopener" }, "the report in a tab of its own"),
+            ),
+            command(result.command),
+          ]
+        : null,
+    );
   }
 
   draw();
   load();
   let seen = "";
-  return { update(state) {
-    const job = state.jobs.life, now = `${job?.state}${job?.begun}${job?.result}${state.view?.model}${job?.tasks?.map((t) => t.done).join()}${Object.values(state.jobs).some((j) => j.state === "running")}`;
-    if (now !== seen) { seen = now; load(); }
-  }, recolour: () => plot?.later(), close: () => plot?.destroy() };
+  return {
+    update(state) {
+      const job = state.jobs.life,
+        now = `${job?.state}${job?.begun}${job?.result}${state.view?.model}${job?.tasks?.map((t) => t.done).join()}${Object.values(state.jobs).some((j) => j.state === "running")}`;
+      if (now !== seen) {
+        seen = now;
+        load();
+      }
+      lives.update(state);
+    },
+    recolour: () => {
+      plot?.later();
+      lives.recolour();
+    },
+    close: () => {
+      plot?.destroy();
+      lives.close();
+    },
+  };
 }

@@ -6,13 +6,21 @@ async function answer(response) {
   if (response.ok) return response;
   const text = await response.text();
   let fault = text;
-  try { fault = JSON.parse(text).fault ?? text; } catch { /* plain words */ }
+  try {
+    fault = JSON.parse(text).fault ?? text;
+  } catch {
+    /* plain words */
+  }
   throw new Fault(fault || `the server answers ${response.status}`);
 }
 
 async function sent(path, options) {
   let response;
-  try { response = await fetch(path, options); } catch { throw new Fault("the server does not answer: it was ended; start rvwear workbench again"); }
+  try {
+    response = await fetch(path, options);
+  } catch {
+    throw new Fault("the server does not answer: it was ended; start rvwear workbench again");
+  }
   return answer(response);
 }
 
@@ -35,12 +43,19 @@ export async function wordsAndRows(path, body, rows) {
 // A script of this server, loaded once.
 const loaded = new Map();
 export function script(path) {
-  if (!loaded.has(path)) loaded.set(path, new Promise((done, failed) => {
-    const element = document.createElement("script");
-    element.src = path;
-    element.onload = done;
-    element.onerror = () => { loaded.delete(path); failed(new Fault(`${path} could not be loaded`)); };
-    document.head.append(element);
-  }));
+  if (!loaded.has(path))
+    loaded.set(
+      path,
+      new Promise((done, failed) => {
+        const element = document.createElement("script");
+        element.src = path;
+        element.onload = done;
+        element.onerror = () => {
+          loaded.delete(path);
+          failed(new Fault(`${path} could not be loaded`));
+        };
+        document.head.append(element);
+      }),
+    );
   return loaded.get(path);
 }

@@ -1,6 +1,7 @@
 // Orders of a signal over the output's turn: of one condition as stems, of all as a waterfall; hovering names what makes an order.
 
 import { h, number, table } from "./dom.js";
+import { LEFT, RIGHT } from "./paint.js";
 import { Plot } from "./plot.js";
 
 const SHOWN = 12;
@@ -13,46 +14,110 @@ export function orders(signal, condition, result, plots) {
     const plot = new Plot({ height: 240, label: `orders of ${signal.title} at ${condition}` });
     const x = Float32Array.from(chosen.measured, (_, i) => i);
     const stem = (name, values, colour, shift) => ({ name, x, y: Float32Array.from(values), colour, width: 2.2, stems: true, shift, sorted: true });
-    plot.set({ xTitle: "order", panes: [{ title: `amplitude [${signal.unit}]`, floor: true, zero: true, lines: [stem("measured", chosen.measured, "--measured", -0.22), stem("predicted", chosen.predicted, "--predicted", 0.22)] }] });
+    plot.set({
+      xTitle: "order",
+      panes: [
+        {
+          title: `amplitude [${signal.unit}]`,
+          floor: true,
+          zero: true,
+          lines: [stem("measured", chosen.measured, "--measured", -0.22), stem("predicted", chosen.predicted, "--predicted", 0.22)],
+        },
+      ],
+    });
     plots.push(plot);
-    const hover = (order) => { said.replaceChildren(...about(order, result, chosen, signal.unit)); };
+    const hover = (order) => {
+      said.replaceChildren(...about(order, result, chosen, signal.unit));
+    };
     plot.canvas.addEventListener("pointermove", (event) => {
-      const box = plot.canvas.getBoundingClientRect(), [low, high] = plot.range();
-      const at = low + ((event.clientX - box.left - 56) / (box.width - 68)) * (high - low);
-      const near = [Math.round(at) - 1, Math.round(at), Math.round(at) + 1].filter((o) => o > 0 && o < chosen.measured.length).sort((p, q) => chosen.measured[q] - chosen.measured[p])[0];
+      const box = plot.canvas.getBoundingClientRect(),
+        [low, high] = plot.range();
+      const at = low + ((event.clientX - box.left - LEFT) / (box.width - LEFT - RIGHT)) * (high - low);
+      const near = [Math.round(at) - 1, Math.round(at), Math.round(at) + 1]
+        .filter((o) => o > 0 && o < chosen.measured.length)
+        .sort((p, q) => chosen.measured[q] - chosen.measured[p])[0];
       if (near) hover(near);
     });
-    const strongest = chosen.measured.map((v, order) => [order, Math.max(v, chosen.predicted[order])]).sort((p, q) => q[1] - p[1]).slice(0, SHOWN).map(([order]) => order).filter((o) => o > 0).sort((p, q) => p - q);
-    parts.push(plot.element, said, h("details", {}, h("summary", {}, `The ${strongest.length} strongest orders, and what makes them`), table(["order", "measured", "predicted", "of the residual", "makes it"], strongest.map((o) => h("tr", { tabindex: 0, onfocus: () => hover(o), onpointerenter: () => hover(o) },
-      [h("b", {}, String(o)), number(chosen.measured[o], 3), number(chosen.predicted[o], 3), number(chosen.residual[o], 3), makersOf(o, result)].map((cell, i) => h("td", { class: i && i < 4 ? "num" : undefined }, cell)))), [1, 2, 3])));
+    const strongest = chosen.measured
+      .map((v, order) => [order, Math.max(v, chosen.predicted[order])])
+      .sort((p, q) => q[1] - p[1])
+      .slice(0, SHOWN)
+      .map(([order]) => order)
+      .filter((o) => o > 0)
+      .sort((p, q) => p - q);
+    parts.push(
+      plot.element,
+      said,
+      h(
+        "details",
+        {},
+        h("summary", {}, `The ${strongest.length} strongest orders, and what makes them`),
+        table(
+          ["order", "measured", "predicted", "of the residual", "makes it"],
+          strongest.map((o) =>
+            h(
+              "tr",
+              { tabindex: 0, onfocus: () => hover(o), onpointerenter: () => hover(o) },
+              [h("b", {}, String(o)), number(chosen.measured[o], 3), number(chosen.predicted[o], 3), number(chosen.residual[o], 3), makersOf(o, result)].map(
+                (cell, i) => h("td", { class: i && i < 4 ? "num" : undefined }, cell),
+              ),
+            ),
+          ),
+          [1, 2, 3],
+        ),
+      ),
+    );
   }
   if (signal.spectra.length > 1) parts.push(waterfall(signal, said, result));
   return h("div", {}, parts);
 }
 
-const makersOf = (order, result) => [result.orders[String(order)] ? `${result.orders[String(order)]}` : "", (result.makers?.[String(order)] ?? []).map((m) => m.title).join(", ")].filter(Boolean).join(": ") || "–";
+const makersOf = (order, result) =>
+  [result.orders[String(order)] ? `${result.orders[String(order)]}` : "", (result.makers?.[String(order)] ?? []).map((m) => m.title).join(", ")]
+    .filter(Boolean)
+    .join(": ") || "–";
 
 function about(order, result, spectrum, unit) {
-  const name = result.orders[String(order)], makers = result.makers?.[String(order)] ?? [];
-  return [h("b", {}, `order ${order}`), `${name ? ` (${name})` : ""}: measured ${number(spectrum.measured[order], 3)} ${unit}, predicted ${number(spectrum.predicted[order], 3)} ${unit}. `,
-    makers.length ? `Effects that make it: ${makers.map((m) => `${m.title} (${Math.round(100 * m.share)} % of its strongest order)`).join("; ")}.` : result.makers && Object.keys(result.makers).length ? "No effect of the catalogue makes it alone." : ""];
+  const name = result.orders[String(order)],
+    makers = result.makers?.[String(order)] ?? [];
+  return [
+    h("b", {}, `order ${order}`),
+    `${name ? ` (${name})` : ""}: measured ${number(spectrum.measured[order], 3)} ${unit}, predicted ${number(spectrum.predicted[order], 3)} ${unit}. `,
+    makers.length
+      ? `Effects that make it: ${makers.map((m) => `${m.title} (${Math.round(100 * m.share)} % of its strongest order)`).join("; ")}.`
+      : result.makers && Object.keys(result.makers).length
+        ? "No effect of the catalogue makes it alone."
+        : "",
+  ];
 }
 
 // Conditions above each other, orders along: the darker the stronger, of what was measured or of what is left.
 function waterfall(signal, said, result) {
-  const canvas = h("canvas", { style: { width: "100%", height: `${Math.min(420, 26 * signal.spectra.length + 40)}px` }, role: "img", "aria-label": `orders of ${signal.title} for each condition` });
+  const canvas = h("canvas", {
+    style: { width: "100%", height: `${Math.min(420, 26 * signal.spectra.length + 40)}px` },
+    role: "img",
+    "aria-label": `orders of ${signal.title} for each condition`,
+  });
   let which = "measured";
   const draw = () => {
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+    const ratio = window.devicePixelRatio || 1,
+      width = canvas.clientWidth,
+      height = canvas.clientHeight;
     if (!width) return;
-    canvas.width = width * ratio; canvas.height = height * ratio;
-    const c = canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    const c = canvas.getContext("2d"),
+      style = getComputedStyle(document.documentElement);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.font = "11.5px system-ui, sans-serif";
-    const left = Math.min(150, width * 0.3), tall = (height - 34) / signal.spectra.length, count = Math.min(...signal.spectra.map((s) => s[which].length));
+    const left = Math.min(150, width * 0.3),
+      tall = (height - 34) / signal.spectra.length,
+      count = Math.min(...signal.spectra.map((s) => s[which].length));
     const most = Math.max(...signal.spectra.flatMap((s) => s[which].slice(0, count)));
     signal.spectra.forEach((s, row) => {
-      c.fillStyle = style.getPropertyValue("--quiet"); c.textAlign = "right"; c.textBaseline = "middle";
+      c.fillStyle = style.getPropertyValue("--quiet");
+      c.textAlign = "right";
+      c.textBaseline = "middle";
       c.fillText(s.condition.length > 22 ? `${s.condition.slice(0, 21)}…` : s.condition, left - 6, (row + 0.5) * tall);
       c.fillStyle = style.getPropertyValue("--predicted");
       for (let order = 1; order < count; order++) {
@@ -62,20 +127,60 @@ function waterfall(signal, said, result) {
       }
       c.globalAlpha = 1;
     });
-    c.fillStyle = style.getPropertyValue("--quiet"); c.textAlign = "center"; c.textBaseline = "top";
-    for (let order = 0; order < count; order += 20) if (order) c.fillText(String(order), left + ((order - 0.5) / (count - 1)) * (width - left - 8), height - 30);
+    c.fillStyle = style.getPropertyValue("--quiet");
+    c.textAlign = "center";
+    c.textBaseline = "top";
+    for (let order = 0; order < count; order += 20)
+      if (order) c.fillText(String(order), left + ((order - 0.5) / (count - 1)) * (width - left - 8), height - 30);
     c.fillText("order", left + (width - left) / 2, height - 15);
   };
   new ResizeObserver(draw).observe(canvas);
   canvas.addEventListener("pointermove", (event) => {
-    const box = canvas.getBoundingClientRect(), left = Math.min(150, box.width * 0.3), count = signal.spectra[0][which].length;
-    const order = 1 + Math.floor(((event.clientX - box.left - left) / (box.width - left - 8)) * (count - 1)), row = Math.floor((event.clientY - box.top) / ((box.height - 34) / signal.spectra.length));
+    const box = canvas.getBoundingClientRect(),
+      left = Math.min(150, box.width * 0.3),
+      count = signal.spectra[0][which].length;
+    const order = 1 + Math.floor(((event.clientX - box.left - left) / (box.width - left - 8)) * (count - 1)),
+      row = Math.floor((event.clientY - box.top) / ((box.height - 34) / signal.spectra.length));
     const s = signal.spectra[row];
     if (s && order > 0 && order < count) said.replaceChildren(h("b", {}, `${s.condition}, `), ...about(order, result, s, signal.unit));
   });
-  const button = (name) => h("button", { type: "button", "aria-pressed": String(which === name), onclick: (event) => { which = name; for (const b of event.currentTarget.parentElement.children) b.setAttribute("aria-pressed", String(b === event.currentTarget)); draw(); } }, name);
-  return h("div", {}, h("div", { class: "row" }, h("h3", {}, "Waterfall over the conditions"), h("div", { class: "chips" }, ["measured", "predicted", "residual"].map(button))), canvas,
-    h("details", { class: "behind" }, h("summary", {}, "Table"), table(["condition", ...strong(signal).map((o) => `order ${o}`)], signal.spectra.map((s) => [s.condition, ...strong(signal).map((o) => number(s.measured[o], 3))]), strong(signal).map((_, i) => i + 1))));
+  const button = (name) =>
+    h(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": String(which === name),
+        onclick: (event) => {
+          which = name;
+          for (const b of event.currentTarget.parentElement.children) b.setAttribute("aria-pressed", String(b === event.currentTarget));
+          draw();
+        },
+      },
+      name,
+    );
+  return h(
+    "div",
+    {},
+    h("div", { class: "row" }, h("h3", {}, "Waterfall over the conditions"), h("div", { class: "chips" }, ["measured", "predicted", "residual"].map(button))),
+    canvas,
+    h(
+      "details",
+      { class: "behind" },
+      h("summary", {}, "Table"),
+      table(
+        ["condition", ...strong(signal).map((o) => `order ${o}`)],
+        signal.spectra.map((s) => [s.condition, ...strong(signal).map((o) => number(s.measured[o], 3))]),
+        strong(signal).map((_, i) => i + 1),
+      ),
+    ),
+  );
 }
 
-const strong = (signal) => signal.spectra[0].measured.map((_, o) => [o, Math.max(...signal.spectra.map((s) => s.measured[o]))]).sort((p, q) => q[1] - p[1]).slice(0, SHOWN).map(([o]) => o).filter((o) => o > 0).sort((p, q) => p - q);
+const strong = (signal) =>
+  signal.spectra[0].measured
+    .map((_, o) => [o, Math.max(...signal.spectra.map((s) => s.measured[o]))])
+    .sort((p, q) => q[1] - p[1])
+    .slice(0, SHOWN)
+    .map(([o]) => o)
+    .filter((o) => o > 0)
+    .sort((p, q) => p - q);

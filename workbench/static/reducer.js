@@ -5,8 +5,16 @@ import { post } from "./net.js";
 import { cards, figure, recolour, warnings } from "./page.js";
 
 export function show(root, context) {
-  let data = null, form = {}, known = {}, made = null, search = "", model = context.model(), timer = 0;
-  const faults = h("div"), top = h("div"), body = h("div");
+  let data = null,
+    form = {},
+    known = {},
+    made = null,
+    search = "",
+    model = context.model(),
+    timer = 0;
+  const faults = h("div"),
+    top = h("div"),
+    body = h("div");
   root.append(faults, top, body);
 
   async function load(name = model) {
@@ -20,46 +28,233 @@ export function show(root, context) {
 
   function draw() {
     const all = [...data.files, ...data.library];
-    clear(top, h("div", { class: "row" }, h("label", { class: "inline" }, "reducer", choose([["", "choose…"], ...all.map((r) => [r, r])], model, (v) => { made = null; load(v); })),
-      h("button", { type: "button", id: "new", onclick: () => { made ??= {}; draw(); } }, "Complete one from a few numbers"),
-      data.reducer && context.model() !== model ? h("button", { type: "button", onclick: () => context.act(post("state", { model }), faults) }, "Use it as the model") : null));
-    if (made) { clear(body, newOne()); return; }
-    if (!data.reducer) { clear(body, h("p", { class: "quiet" }, "Choose a reducer, or complete one from ratio, pins and rated torque.")); return; }
+    clear(
+      top,
+      h(
+        "div",
+        { class: "row" },
+        h(
+          "label",
+          { class: "inline" },
+          "reducer",
+          choose([["", "choose…"], ...all.map((r) => [r, r])], model, (v) => {
+            made = null;
+            load(v);
+          }),
+        ),
+        h(
+          "button",
+          {
+            type: "button",
+            id: "new",
+            onclick: () => {
+              made ??= {};
+              draw();
+            },
+          },
+          "Complete one from a few numbers",
+        ),
+        data.reducer && context.model() !== model
+          ? h("button", { type: "button", onclick: () => context.act(post("state", { model }), faults) }, "Use it as the model")
+          : null,
+      ),
+    );
+    if (made) {
+      clear(body, newOne());
+      return;
+    }
+    if (!data.reducer) {
+      clear(body, h("p", { class: "quiet" }, "Choose a reducer, or complete one from ratio, pins and rated torque."));
+      return;
+    }
     const r = data.reducer;
-    clear(body, h("h1", {}, r.name), h("p", { class: "lead" }, r.description), h("p", { class: "quiet" }, Object.entries(r.counts).filter(([, v]) => v).map(([k, v]) => `${v} ${k}`).join(", "), data.carries?.length ? `; the model carries ${data.carries.join(", ")}` : ""),
-      r.findings.map((t) => note(t, "bad")), h("div", { class: "grid" }, r.figures.map(figure)), numbers(r.numbers));
+    clear(
+      body,
+      h("h1", {}, r.name),
+      h("p", { class: "lead" }, r.description),
+      h(
+        "p",
+        { class: "quiet" },
+        Object.entries(r.counts)
+          .filter(([, v]) => v)
+          .map(([k, v]) => `${v} ${k}`)
+          .join(", "),
+        data.carries?.length ? `; the model carries ${data.carries.join(", ")}` : "",
+      ),
+      r.findings.map((t) => note(t, "bad")),
+      h("div", { class: "grid" }, r.figures.map(figure)),
+      numbers(r.numbers),
+    );
   }
 
   function numbers(rows) {
     const list = h("div");
-    const fill = () => clear(list, table(["number", "value", "unit", "range", "meaning", "source"], rows.filter((n) => !search || `${n.name} ${n.meaning} ${n.source}`.toLowerCase().includes(search)).map((n) => [h("code", {}, n.name), h("span", { class: n.outside ? "bad" : "" }, n.value), n.unit, n.range || h("span", { class: "quiet" }, "–"),
-      h("span", { class: "small" }, n.meaning), h("span", { class: "small" }, n.assumed ? [h("span", { class: "fair" }, n.source.split(":")[0]), n.source.slice(n.source.split(":")[0].length)] : n.source)]), [1], { class: "stack2" }));
+    const fill = () =>
+      clear(
+        list,
+        table(
+          ["number", "value", "unit", "range", "meaning", "source"],
+          rows
+            .filter((n) => !search || `${n.name} ${n.meaning} ${n.source}`.toLowerCase().includes(search))
+            .map((n) => [
+              h("code", {}, n.name),
+              h("span", { class: n.outside ? "bad" : "" }, n.value),
+              n.unit,
+              n.range,
+              h("span", { class: "small" }, n.meaning),
+              h(
+                "span",
+                { class: "small" },
+                n.assumed ? [h("span", { class: "fair" }, n.source.split(":")[0]), n.source.slice(n.source.split(":")[0].length)] : n.source,
+              ),
+            ]),
+          [1],
+          { class: "stack2" },
+        ),
+      );
     fill();
-    return h("section", {}, h("div", { class: "row spread" }, h("h2", { style: { margin: 0 } }, `${rows.length} numbers`), h("input", { type: "search", placeholder: "search numbers  ( / )", oninput: (e) => { search = e.target.value.toLowerCase(); fill(); } })), h("div", { class: "panel" }, list));
+    return h(
+      "section",
+      {},
+      h(
+        "div",
+        { class: "row spread" },
+        h("h2", { style: { margin: 0 } }, `${rows.length} numbers`),
+        h("input", {
+          type: "search",
+          placeholder: "search numbers  ( / )",
+          oninput: (e) => {
+            search = e.target.value.toLowerCase();
+            fill();
+          },
+        }),
+      ),
+      h("div", { class: "panel" }, list),
+    );
   }
 
   // Answers at once: each number that is typed draws the reducer anew, or says where it cannot be made.
   function newOne() {
-    const result = h("div"), said = h("div");
+    const result = h("div"),
+      said = h("div");
     const ask = async (save = false) => {
-      if (!form.ratio || !form.pins || !form.rated) { clear(result, h("p", { class: "quiet" }, "Ratio, pins and rated torque are needed; everything else follows by design rules, and narrows with what you know.")); return; }
+      if (!form.ratio || !form.pins || !form.rated) {
+        clear(
+          result,
+          h("p", { class: "quiet" }, "Ratio, pins and rated torque are needed; everything else follows by design rules, and narrows with what you know."),
+        );
+        return;
+      }
       if (!result.childElementCount || result.firstChild.className === "quiet") clear(result, h("p", { class: "quiet" }, "Completing and checking…"));
       const found = await context.act(post("reducer/new", { ...form, known, save }), said);
-      if (!found) { clear(result); return; }
-      clear(said, found.saved ? h("p", { class: "note" }, `${found.saved} is in the folder`) : null, found.findings.map((t) => note(t, "bad")));
-      if (found.saved) { made = null; await context.act(post("state", { model: found.saved }), faults); load(found.saved); return; }
+      if (!found) {
+        clear(result);
+        return;
+      }
+      clear(
+        said,
+        found.saved ? h("p", { class: "note" }, `${found.saved} is in the folder`) : null,
+        found.findings.map((t) => note(t, "bad")),
+      );
+      if (found.saved) {
+        made = null;
+        await context.act(post("state", { model: found.saved }), faults);
+        load(found.saved);
+        return;
+      }
       const held = document.activeElement?.id;
-      clear(result, h("h1", {}, found.page.title), h("p", { class: "quiet" }, `${found.page.conditions}; ${found.page.finding}`), cards(found.page.cards), warnings(found.page.warnings), h("div", { class: "grid" }, found.page.sections.flatMap((s) => s.figures).map(figure)),
-        h("div", { class: "row" }, h("label", { class: "inline" }, "name", h("input", { type: "text", value: form.name ?? found.name, onchange: (e) => { form.name = e.target.value; } })), h("button", { type: "button", class: "main", id: "save-reducer", onclick: () => ask(true) }, "Save it in the folder")),
-        h("h2", {}, "Every number of its file"), h("p", { class: "quiet small" }, "A number that you have measured is typed over; what hangs on it follows."),
-        h("div", { class: "panel" }, table(["number", "value", "unit", "range", "by"], found.numbers.map((n) => [h("code", {}, n.name), n.asked ? h("input", { type: "text", size: 9, id: `n-${n.name}`, class: n.given ? "changed" : "", value: n.value, "aria-label": n.name, onchange: (e) => { const text = e.target.value.trim().replace(",", "."); if (text) known[n.name] = /[a-zµ%]/i.test(text.replace(/e[-+]?\d+$/i, "")) ? text : `${text}${n.unit}`; else delete known[n.name]; ask(); } }) : n.value, n.unit, n.range, h("span", { class: "small" }, n.source)]), [], { class: "stack2" })), command(found.command));
+      clear(
+        result,
+        h("h1", {}, found.page.title),
+        h("p", { class: "quiet" }, `${found.page.conditions}; ${found.page.finding}`),
+        cards(found.page.cards),
+        warnings(found.page.warnings),
+        h("div", { class: "grid" }, found.page.sections.flatMap((s) => s.figures).map(figure)),
+        h(
+          "div",
+          { class: "row" },
+          h(
+            "label",
+            { class: "inline" },
+            "name",
+            h("input", {
+              type: "text",
+              value: form.name ?? found.name,
+              onchange: (e) => {
+                form.name = e.target.value;
+              },
+            }),
+          ),
+          h("button", { type: "button", class: "main", id: "save-reducer", onclick: () => ask(true) }, "Save it in the folder"),
+        ),
+        h("h2", {}, "Every number of its file"),
+        h("p", { class: "quiet small" }, "A number that you have measured is typed over; what hangs on it follows."),
+        h(
+          "div",
+          { class: "panel" },
+          table(
+            ["number", "value", "unit", "range", "by"],
+            found.numbers.map((n) => [
+              h("code", {}, n.name),
+              n.asked
+                ? h("input", {
+                    type: "text",
+                    size: 9,
+                    id: `n-${n.name}`,
+                    class: n.given ? "changed" : "",
+                    value: n.value,
+                    "aria-label": n.name,
+                    onchange: (e) => {
+                      const text = e.target.value.trim().replace(",", ".");
+                      if (text) known[n.name] = /[a-zµ%]/i.test(text.replace(/e[-+]?\d+$/i, "")) ? text : `${text}${n.unit}`;
+                      else delete known[n.name];
+                      ask();
+                    },
+                  })
+                : n.value,
+              n.unit,
+              n.range,
+              h("span", { class: "small" }, n.source),
+            ]),
+            [],
+            { class: "stack2" },
+          ),
+        ),
+        command(found.command),
+      );
       if (held) document.getElementById(held)?.focus();
     };
-    const fields = data.asked.map(([name, label, unit, needed]) => h("label", { class: "inline" }, `${label}${needed ? " *" : ""}`, h("input", { type: "text", inputmode: "decimal", size: 7, id: `ask-${name}`, value: form[name] ?? "", placeholder: { speed: "15", rollers: "16", lost_motion: "1", cranks: "2 or 3" }[name], oninput: (e) => { form[name] = e.target.value; clearTimeout(timer); timer = setTimeout(() => ask(), 350); } }), unit));
+    const fields = data.asked.map(([name, label, unit, needed]) =>
+      h(
+        "label",
+        { class: "inline" },
+        `${label}${needed ? " *" : ""}`,
+        h("input", {
+          type: "text",
+          inputmode: "decimal",
+          size: 7,
+          id: `ask-${name}`,
+          value: form[name] ?? "",
+          placeholder: { speed: "15", rollers: "16", lost_motion: "1", cranks: "2 or 3" }[name],
+          oninput: (e) => {
+            form[name] = e.target.value;
+            clearTimeout(timer);
+            timer = setTimeout(() => ask(), 350);
+          },
+        }),
+        unit,
+      ),
+    );
     ask();
     return [h("div", { class: "panel" }, h("h1", {}, "A reducer of which little is known"), h("div", { class: "row" }, fields), said), result];
   }
 
   load();
-  return { update(state) { if (data && JSON.stringify(state.models) !== JSON.stringify(data.files) && !made) load(); }, recolour: () => recolour(root), close: () => clearTimeout(timer) };
+  return {
+    update(state) {
+      if (data && JSON.stringify(state.models) !== JSON.stringify(data.files) && !made) load();
+    },
+    recolour: () => recolour(root),
+    close: () => clearTimeout(timer),
+  };
 }

@@ -3,7 +3,8 @@
 export function ticks(low, high, wanted) {
   const span = high - low;
   if (!(span > 0) || !Number.isFinite(span)) return [];
-  const raw = span / Math.max(1, wanted), power = 10 ** Math.floor(Math.log10(raw));
+  const raw = span / Math.max(1, wanted),
+    power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 2.5, 5, 10].map((k) => k * power).find((s) => s >= raw * 0.999);
   const found = [];
   for (let v = Math.ceil(low / step - 1e-9) * step; v <= high + 1e-9 * span; v += step) found.push(Math.abs(v) < 1e-9 * step ? 0 : v);
@@ -26,10 +27,12 @@ export function isSorted(x) {
 
 // First index whose x is not below the value.
 export function firstFrom(x, value) {
-  let low = 0, high = x.length;
+  let low = 0,
+    high = x.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (x[middle] < value) low = middle + 1; else high = middle;
+    if (x[middle] < value) low = middle + 1;
+    else high = middle;
   }
   return low;
 }
@@ -42,7 +45,8 @@ export function nearestIndex(x, value) {
 }
 
 export function span(values, from = 0, to = values.length) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (let i = from; i < to; i++) {
     const v = values[i];
     if (v < low) low = v;
@@ -57,11 +61,15 @@ export function seen(x, low, high) {
 }
 
 // Lowest and highest of each BLOCK samples of a long line: what is far out is drawn and measured by these.
-const BLOCK = 64, LONG = 40_000;
+const BLOCK = 64,
+  LONG = 40_000;
 export function blocks(line) {
   if (line.y.length < LONG) return null;
   if (!line.blocks) {
-    const { y } = line, count = Math.ceil(y.length / BLOCK), low = new Float32Array(count), high = new Float32Array(count);
+    const { y } = line,
+      count = Math.ceil(y.length / BLOCK),
+      low = new Float32Array(count),
+      high = new Float32Array(count);
     for (let b = 0; b < count; b++) [low[b], high[b]] = span(y, b * BLOCK, Math.min(y.length, (b + 1) * BLOCK));
     line.blocks = { low, high };
   }
@@ -72,62 +80,102 @@ export function blocks(line) {
 export function spanOf(line, from, to) {
   const coarse = blocks(line);
   if (!coarse || to - from < 4 * BLOCK) return span(line.y, from, to);
-  const first = Math.ceil(from / BLOCK), last = Math.floor(to / BLOCK);
+  const first = Math.ceil(from / BLOCK),
+    last = Math.floor(to / BLOCK);
   const parts = [span(line.y, from, first * BLOCK), span(line.y, last * BLOCK, to), [span(coarse.low, first, last)[0], span(coarse.high, first, last)[1]]];
   return [Math.min(...parts.map((p) => p[0])), Math.max(...parts.map((p) => p[1]))];
 }
 
-// A long rising line by its blocks: one stroke down and up for each column of pixels.
-export function traceBlocks(context, line, from, to, px, py) {
-  const { low, high } = blocks(line), { x } = line;
-  let column = NaN, bottom = Infinity, top = -Infinity;
-  const flush = () => { if (top >= bottom) { context.lineTo(column + 0.5, py(bottom)); context.lineTo(column + 0.5, py(top)); } };
-  context.moveTo(px(x[from]), py(line.y[from]));
-  for (let b = Math.floor(from / BLOCK); b < Math.ceil(to / BLOCK); b++) {
-    const at = Math.floor(px(x[Math.min(x.length - 1, b * BLOCK)]));
-    if (at !== column) { flush(); column = at; bottom = Infinity; top = -Infinity; }
-    if (low[b] < bottom) bottom = low[b];
-    if (high[b] > top) top = high[b];
+// Lowest and highest of a rising line in each column of pixels, told as (column, lowest, highest) in the line's unit.
+function columns(line, from, to, px, tell) {
+  const { x, y } = line,
+    coarse = farOut(line, from, to, Math.abs(px(x[to - 1]) - px(x[from])) || 1) ? blocks(line) : null;
+  const step = coarse ? BLOCK : 1;
+  let column = NaN,
+    low = Infinity,
+    high = -Infinity;
+  const flush = () => {
+    if (high >= low) tell(column, low, high);
+  };
+  for (let i = coarse ? Math.floor(from / BLOCK) : from; i < (coarse ? Math.ceil(to / BLOCK) : to); i++) {
+    const at = Math.floor(px(x[Math.min(x.length - 1, i * step)])),
+      below = coarse ? coarse.low[i] : y[i],
+      above = coarse ? coarse.high[i] : y[i];
+    if (at !== column) {
+      flush();
+      column = at;
+      low = Infinity;
+      high = -Infinity;
+    }
+    if (below < low) low = below;
+    if (above > high) high = above;
   }
   flush();
 }
-export const farOut = (line, from, to, pixels) => line.y.length >= LONG && to - from > 2 * BLOCK * pixels;
+const farOut = (line, from, to, pixels) => line.y.length >= LONG && to - from > 2 * BLOCK * pixels;
 
-// A rising line on a canvas: of many samples in one column of pixels the first, the lowest, the highest and the last.
-export function traceSorted(context, x, y, from, to, px, py) {
-  let column = -Infinity, low = 0, high = 0, last = 0, count = 0, pen = false;
-  const flush = () => {
-    if (count > 2) { context.lineTo(column + 0.5, low); context.lineTo(column + 0.5, high); context.lineTo(column + 0.5, last); }
-    else if (count === 2) context.lineTo(column + 0.5, last);
-  };
-  const dense = to - from > 2.5 * Math.abs(px(x[Math.max(from, to - 1)]) - px(x[from]));
-  for (let i = from; i < to; i++) {
-    const value = y[i];
-    if (value !== value) { flush(); count = 0; pen = false; column = -Infinity; continue; }
-    const sx = px(x[i]), sy = py(value);
-    if (!dense) { if (pen) context.lineTo(sx, sy); else context.moveTo(sx, sy); pen = true; continue; }
-    const at = Math.floor(sx);
-    if (at === column) {
-      if (sy < low) low = sy;
-      if (sy > high) high = sy;
-      last = sy; count++;
-    } else {
-      flush();
-      if (pen) context.lineTo(at + 0.5, sy); else context.moveTo(at + 0.5, sy);
-      pen = true; column = at; low = high = last = sy; count = 1;
-    }
+// A rising line on a canvas: sample by sample, or, where many share a column of pixels, a bar for each column that touches its neighbour.
+export function traceSorted(context, line, from, to, px, py) {
+  const { x, y } = line,
+    wide = Math.abs(px(x[Math.max(from, to - 1)]) - px(x[from]));
+  if (to - from > 3 * wide) {
+    const thick = Math.max(1, context.lineWidth);
+    let lastTop = NaN,
+      lastBottom = NaN;
+    columns(line, from, to, px, (column, low, high) => {
+      let top = py(high),
+        bottom = py(low);
+      if (lastBottom < top) top = lastBottom;
+      if (lastTop > bottom) bottom = lastTop;
+      lastTop = py(high);
+      lastBottom = py(low);
+      context.fillRect(column, top - thick / 2, 1, bottom - top + thick);
+    });
+    return;
   }
-  if (dense) flush();
+  let pen = false;
+  context.beginPath();
+  for (let i = from; i < to; i++) {
+    if (y[i] !== y[i]) {
+      pen = false;
+      continue;
+    }
+    if (pen) context.lineTo(px(x[i]), py(y[i]));
+    else context.moveTo(px(x[i]), py(y[i]));
+    pen = true;
+  }
+  context.stroke();
+}
+
+// The area between two rising lines: what either reaches in each column of pixels.
+export function fillBetween(context, lower, upper, from, to, px, py) {
+  const bottom = [],
+    top = [];
+  columns(upper, from, to, px, (column, _, high) => top.push([column + 0.5, py(high)]));
+  columns(lower, from, to, px, (column, low) => bottom.push([column + 0.5, py(low)]));
+  context.beginPath();
+  for (const [x, y] of top) context.lineTo(x, y);
+  for (const [x, y] of bottom.reverse()) context.lineTo(x, y);
+  context.fill();
 }
 
 // A line that turns back, as a loop does: samples that fall on the last pixel are left out.
 export function tracePath(context, x, y, px, py) {
-  let lastX = NaN, lastY = NaN, pen = false;
+  let lastX = NaN,
+    lastY = NaN,
+    pen = false;
   for (let i = 0; i < x.length; i++) {
-    if (y[i] !== y[i]) { pen = false; continue; }
-    const sx = px(x[i]), sy = py(y[i]);
+    if (y[i] !== y[i]) {
+      pen = false;
+      continue;
+    }
+    const sx = px(x[i]),
+      sy = py(y[i]);
     if (pen && Math.abs(sx - lastX) < 0.5 && Math.abs(sy - lastY) < 0.5) continue;
-    if (pen) context.lineTo(sx, sy); else context.moveTo(sx, sy);
-    pen = true; lastX = sx; lastY = sy;
+    if (pen) context.lineTo(sx, sy);
+    else context.moveTo(sx, sy);
+    pen = true;
+    lastX = sx;
+    lastY = sy;
   }
 }

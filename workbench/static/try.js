@@ -3,109 +3,292 @@
 import { choose, clear, h, number, table, words } from "./dom.js";
 import { post, wordsAndRows } from "./net.js";
 import { Plot } from "./plot.js";
-
-const plain = (value) => String(Number(value.toPrecision(4)));
+import { entry } from "./try_effects.js";
 
 export function show(root, context) {
-  let data = null, run = null, values = {}, kept = null, keptName = "", ticket = Date.now(), busy = false, again = false, search = "", settle = 0, last = null, model = "";
-  const faults = h("div"), top = h("div"), list = h("ul", { class: "list", "aria-label": "effects" }), right = h("div"), told = h("p", { class: "quiet small", id: "followed", "aria-live": "off" }), everywhere = h("div");
+  let data = null,
+    run = null,
+    values = {},
+    kept = null,
+    keptName = "",
+    ticket = Date.now(),
+    busy = false,
+    again = false,
+    search = "",
+    settle = 0,
+    last = null,
+    beside = "",
+    model = "";
+  const faults = h("div"),
+    top = h("div"),
+    list = h("ul", { class: "list", "aria-label": "effects" }),
+    right = h("div"),
+    told = h("p", { class: "quiet small", id: "followed", "aria-live": "off" }),
+    everywhere = h("div");
   const plot = new Plot({ height: window.innerWidth < 640 ? 340 : 440, label: "measured, predicted and tried" });
-  root.append(faults, top, h("div", { class: "sides" }, h("div", { class: "panel" }, h("input", { type: "search", placeholder: "search effects  ( / )", style: { width: "100%" }, oninput: (e) => { search = e.target.value.toLowerCase(); drawList(); } }), list), right));
+  root.append(
+    faults,
+    top,
+    h(
+      "div",
+      { class: "sides" },
+      h(
+        "div",
+        { class: "panel" },
+        h("input", {
+          type: "search",
+          placeholder: "search effects  ( / )",
+          style: { width: "100%" },
+          oninput: (e) => {
+            search = e.target.value.toLowerCase();
+            drawList();
+          },
+        }),
+        list,
+      ),
+      right,
+    ),
+  );
   clear(right, h("div", { class: "panel" }, plot.element, told), everywhere);
 
   async function load() {
     model = context.model();
     clear(top, h("div", { class: "row" }, context.modelChooser("model")));
-    if (!context.state?.saved || !model) { clear(faults, h("p", { class: "quiet" }, context.state?.saved ? "Choose a model." : "Drop measurements first, and save them under In.")); return; }
+    if (!context.state?.saved || !model) {
+      clear(faults, h("p", { class: "quiet" }, context.state?.saved ? "Choose a model." : "Drop measurements first, and save them under In."));
+      return;
+    }
     clear(faults, h("p", { class: "quiet" }, "Making the model ready…"));
     const found = await context.act(post("try", { model }), faults);
     if (!found) return;
     clear(faults);
     data = found;
-    run = data.runs.find((r) => r.run === run)?.run ?? (data.runs.find((r) => r.signal.startsWith("transmission_error")) ?? data.runs.find((r) => r.axis) ?? data.runs[0])?.run;
-    drawTop(); drawList(); follow();
+    run =
+      data.runs.find((r) => r.run === run)?.run ??
+      (data.runs.find((r) => r.signal.startsWith("transmission_error")) ?? data.runs.find((r) => r.axis) ?? data.runs[0])?.run;
+    drawTop();
+    drawList();
+    follow();
   }
 
   function drawTop() {
     const names = new Map();
     for (const r of data.runs) if (!names.has(`${r.signal}|${r.condition}`) || r.run === run) names.set(`${r.signal}|${r.condition}`, r);
-    clear(top, h("div", { class: "row" }, context.modelChooser("model"), h("label", { class: "inline" }, "run", choose([...names.values()].map((r) => [r.run, `${r.title}, ${r.condition}${r.held_out ? " (held out)" : ""}`]), run, (v) => { run = v; kept = null; follow(); }, { id: "run" })),
-      h("button", { type: "button", onclick: () => { values = {}; drawList(); follow(); } }, "All off"), h("button", { type: "button", title: "hold this curve and compare further ones with it", onclick: () => { kept = last; keptName = summary(); follow(); } }, "Keep as A"),
-      kept ? h("button", { type: "button", onclick: () => { kept = null; follow(); } }, "Let A go") : null, data.present.length ? h("span", { class: "tag" }, `the model carries ${data.present.map((p) => p.title).join(", ")}`) : null));
+    clear(
+      top,
+      h(
+        "div",
+        { class: "row" },
+        context.modelChooser("model"),
+        h(
+          "label",
+          { class: "inline" },
+          "run",
+          choose(
+            [...names.values()].map((r) => [r.run, `${r.title}, ${r.condition}${r.held_out ? " (held out)" : ""}`]),
+            run,
+            (v) => {
+              run = v;
+              kept = null;
+              follow();
+            },
+            { id: "run" },
+          ),
+        ),
+        h(
+          "button",
+          {
+            type: "button",
+            onclick: () => {
+              values = {};
+              drawList();
+              follow();
+            },
+          },
+          "All off",
+        ),
+        h(
+          "button",
+          {
+            type: "button",
+            title: "hold this curve and compare further ones with it",
+            onclick: () => {
+              kept = last;
+              keptName = summary();
+              follow();
+            },
+          },
+          "Keep as A",
+        ),
+        kept
+          ? h(
+              "button",
+              {
+                type: "button",
+                onclick: () => {
+                  kept = null;
+                  follow();
+                },
+              },
+              "Let A go",
+            )
+          : null,
+        h(
+          "label",
+          { class: "inline" },
+          "beside",
+          choose(
+            [["", "no other model"], ...[...context.state.models, ...context.state.library].filter((m) => m !== model).map((m) => [m, m])],
+            beside,
+            (v) => {
+              beside = v;
+              follow();
+            },
+            { id: "beside" },
+          ),
+        ),
+      ),
+    );
   }
 
-  const summary = () => Object.entries(values).map(([k, v]) => `${words(k)} ${shown(k, v)}`).join(", ") || "base model";
+  const summary = () =>
+    Object.entries(values)
+      .map(([k, v]) => `${words(k)} ${shown(k, v)}`)
+      .join(", ") || "base model";
   const parameters = () => [...data.effects, ...data.numbers].flatMap((e) => e.parameters);
-  const shown = (name, value) => { const p = parameters().find((q) => q.name === name); return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3); };
+  const shown = (name, value) => {
+    const p = parameters().find((q) => q.name === name);
+    return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3);
+  };
 
+  const shownEntry = (e) => entry(e, { values, search, drawList, follow });
   function drawList() {
+    if (!data) return;
     const on = (e) => e.parameters.some((p) => p.name in values);
     const fits = (e) => !search || `${e.title} ${e.says ?? ""} ${e.parameters.map((p) => p.name).join(" ")}`.toLowerCase().includes(search);
     const effects = data.effects.filter((e) => fits(e) || on(e)).sort((p, q) => on(q) - on(p));
     const numbers = data.numbers.filter((e) => fits(e) || on(e));
-    clear(list, effects.map(entry), numbers.length ? h("li", {}, h("details", { open: numbers.some(on) || !!search }, h("summary", {}, `${numbers.length} numbers of the reducer that are not known for sure`), numbers.map(entry))) : null);
-  }
-
-  function entry(e) {
-    const on = e.parameters.some((p) => p.name in values);
-    return h("li", {}, h("details", { open: on || (!!search && search.length > 2) }, h("summary", { title: e.law }, e.title, on ? h("span", { class: "tag good", style: { "margin-left": "6px" } }, "on") : null), e.law ? h("p", { class: "quiet small" }, e.law) : null, e.says ? h("p", { class: "quiet small" }, e.says) : null, e.parameters.map((p) => slider(e, p)), e.source ? h("p", { class: "quiet small" }, `source: ${e.source}`) : null));
-  }
-
-  function slider(e, p) {
-    const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off, step = (p.high - p.low) / 400;
-    const range = h("input", { type: "range", min: p.low, max: p.high, step: "any", value, "aria-label": `${words(p.name)} [${p.unit}]`, "data-parameter": p.name, oninput: () => set(Number(range.value)) });
-    const field = h("input", { type: "number", step: "any", value: plain(value), "aria-label": `${words(p.name)}, number`, onchange: () => { range.value = field.value; set(Number(field.value)); } });
-    range.addEventListener("keydown", (event) => { const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key]; if (by) { event.preventDefault(); range.value = Number(range.value) + by * step; set(Number(range.value)); } });
-    const set = (v) => {
-      if (Math.abs(v - p.off) < 1e-12 * Math.max(1, Math.abs(p.high))) delete values[p.name]; else values[p.name] = (v - p.offset) / p.factor;
-      if (document.activeElement !== field) field.value = plain(v);
-      follow();
-    };
-    return h("div", { class: "slider" }, h("span", { class: "name", title: p.description }, `${words(p.name)}${p.unit ? ` [${p.unit}]` : ""}${p.amplitude ? "" : " · shape"}`), range, field, h("span", { class: "quiet small", style: { "grid-column": "1 / -1" } }, `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`));
+    clear(
+      list,
+      effects.map(shownEntry),
+      numbers.length
+        ? h(
+            "li",
+            {},
+            h(
+              "details",
+              { open: numbers.some(on) || !!search },
+              h("summary", {}, `${numbers.length} numbers of the reducer that are not known for sure`),
+              numbers.map(shownEntry),
+            ),
+          )
+        : null,
+    );
   }
 
   // One request at a time; while it is on its way only the last position of the hand counts.
   async function follow(roughly = true) {
     if (!run) return;
-    if (busy) { again = true; return; }
+    if (busy) {
+      again = true;
+      return;
+    }
     busy = true;
-    const begun = performance.now(), asked = { model, run, values, ticket: ++ticket, roughly };
+    const begun = performance.now(),
+      asked = { model, run, values, ticket: ++ticket, roughly, beside };
     try {
-      const [told_, rows] = await wordsAndRows("try/curve", asked, 4);
-      if (!told_.late) { last = { told: told_, rows }; drawCurve(roughly ? performance.now() - begun : null); }
-    } catch (fault) { clear(faults, h("p", { class: "note bad" }, fault.message)); }
+      const [told_, rows] = await wordsAndRows("try/curve", asked, 5);
+      if (!told_.late) {
+        last = { told: told_, rows };
+        drawCurve(roughly ? performance.now() - begun : null);
+      }
+    } catch (fault) {
+      clear(faults, h("p", { class: "note bad" }, fault.message));
+    }
     busy = false;
-    if (again) { again = false; await follow(); return; }
+    if (again) {
+      again = false;
+      await follow();
+      return;
+    }
     clearTimeout(settle);
     // Exactly, and for all signals, when the hand rests.
     if (roughly) settle = setTimeout(() => follow(false).then(spread), 300);
   }
 
   function drawCurve(took) {
-    const { told: t, rows: [x, measured, base, tried] } = last, own = Object.keys(values).length > 0;
-    const lines = [{ name: "measured", x, y: measured, colour: "--measured", width: 1.1 }, { name: "model", x, y: base, colour: "--predicted", width: 1.6 }];
+    const {
+        told: t,
+        rows: [x, measured, base, tried, other],
+      } = last,
+      own = Object.keys(values).length > 0;
+    const lines = [
+      { name: "measured", x, y: measured, colour: "--measured", width: 1.1 },
+      { name: "model", x, y: base, colour: "--predicted", width: 1.6 },
+    ];
     if (kept && kept.rows[0].length === x.length) lines.push({ name: "A", x, y: kept.rows[3], colour: "--a", width: 1.6 });
     if (own) lines.push({ name: "with what is tried", x, y: tried, colour: "--tried", width: 2 });
+    if (beside) lines.push({ name: beside, x, y: other, colour: "--b", width: 1.6 });
     const difference = (y) => measured.map((v, i) => v - y[i]);
     const lower = [{ name: "measured − model", x, y: difference(base), colour: "--predicted", width: 1.1 }];
     if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--a", width: 1.1 });
+    if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--b", width: 1.1 });
     if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--tried", width: 1.3 });
-    plot.set({ xTitle: t.axis.title, loop: t.loop, panes: [{ title: `${t.title.split(" (")[0]} [${t.unit}]`, weight: 2, lines }, { title: `difference [${t.unit}]`, weight: 1, zero: true, lines: lower }] });
+    plot.set({
+      xTitle: t.axis.title,
+      loop: t.loop,
+      panes: [
+        { title: `${t.title.split(" (")[0]} [${t.unit}]`, weight: 2, lines },
+        { title: `difference [${t.unit}]`, weight: 1, zero: true, lines: lower },
+      ],
+    });
     if (took !== null) told.dataset.ms = String(Math.round(took));
-    clear(told, `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `, h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`), ` · ${summary()}`, kept ? ` · A: ${keptName}` : "");
+    clear(
+      told,
+      `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `,
+      h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`),
+      ` · ${summary()}`,
+      kept ? ` · A: ${keptName}` : "",
+    );
   }
 
   // What it would do to each signal, when the hand rests.
   async function spread() {
     if (!data) return;
     const own = { ...values };
-    if (!Object.keys(own).length) { clear(everywhere); return; }
+    if (!Object.keys(own).length) {
+      clear(everywhere);
+      return;
+    }
     try {
       const rows = await post("try/everywhere", { model, values: own });
-      clear(everywhere, h("div", { class: "panel" }, h("h3", {}, "What it would do to each signal"), table(["signal", "changes it by", "error before", "after"], rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]), [1, 2, 3])));
-    } catch (fault) { clear(everywhere, h("p", { class: "note bad" }, fault.message)); }
+      clear(
+        everywhere,
+        h(
+          "div",
+          { class: "panel" },
+          h("h3", {}, "What it would do to each signal"),
+          table(
+            ["signal", "changes it by", "error before", "after"],
+            rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
+            [1, 2, 3],
+          ),
+        ),
+      );
+    } catch (fault) {
+      clear(everywhere, h("p", { class: "note bad" }, fault.message));
+    }
   }
 
   load();
-  return { update(state) { if (context.model() !== model || (!data && state.saved && !busy && model)) load(); }, recolour: () => plot.later(), close: () => { clearTimeout(settle); plot.destroy(); } };
+  return {
+    update(state) {
+      if (context.model() !== model || (!data && state.saved && !busy && model)) load();
+    },
+    recolour: () => plot.later(),
+    close: () => {
+      clearTimeout(settle);
+      plot.destroy();
+    },
+  };
 }

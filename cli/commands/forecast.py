@@ -1,0 +1,73 @@
+"""``rvwear forecast``: remaining life from the first inspections of a campaign."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+from cli.options import add_json
+
+if TYPE_CHECKING:
+    from discrepancy.forecast.forecast import Forecast, Range
+    from discrepancy.forecast.readings import Inspections, Limit
+
+
+def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    command = sub.add_parser("forecast", help="how sure is the life: wear and remaining life from inspections so far, with intervals")
+    command.add_argument("campaign", help="folder with campaign.toml")
+    command.add_argument("--limit", required=True, metavar="QUANTITY=NUMBER", help="where the life ends, for instance lost_motion=1arcmin")
+    command.add_argument("--condition", metavar="TEXT", help="which, where the quantity was read at several (the refusal lists them)")
+    command.add_argument("--noise", metavar="NUMBER", help='standard deviation of a reading, for instance "0.3 arcsec" (default: as stated, or by repetitions)')
+    command.add_argument("--until", type=float, metavar="HOURS", help="use inspections up to these hours alone; the others are compared with")
+    command.add_argument("--data", metavar="FOLDER", help="where the data files are (default: as campaign.toml says)")
+    add_json(command)
+    command.set_defaults(run=run_forecast)
+
+
+def run_forecast(options: argparse.Namespace) -> int:
+    from cli.screen import json_text
+    from discrepancy.campaign.load import load_campaign
+    from discrepancy.forecast.forecast import narrowing
+    from discrepancy.forecast.readings import Inspections, inspections, limit_of
+
+    limit = limit_of(options.limit)
+    found = inspections(load_campaign(options.campaign, options.data), limit, options.condition, options.noise)
+    if options.until is not None:
+        every = sorted(found.readings + found.held_out, key=lambda r: r.hours)
+        found = Inspections([r for r in every if r.hours <= options.until], [r for r in every if r.hours > options.until], found.condition)
+    asked = sorted({r.hours for r in found.held_out})
+    forecasts = narrowing(found.readings, limit.value, asked=asked)
+    if options.json:
+        json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts],
+                   "unused": [vars(r) for r in found.held_out]})
+        return 0
+    show(forecasts, found, limit)
+    return 0
+
+
+def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> None:
+    from cli.screen import console, dense
+    from discrepancy.campaign.amount import readable
+    from discrepancy.forecast.forecast import COVERAGE
+
+    def text(r: "Range", scale: float = 1.0) -> str:
+        return f"{readable(scale * r.middle)} ({readable(scale * r.low)} to {readable(scale * r.high)})"
+
+    unit = limit.unit
+    table = dense(f"{limit.quantity} up to {limit.value:g} {unit}, at {found.condition}")
+    heads = ("inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh")
+    for head in heads:
+        table.add_column(head, justify="right")
+    for f in forecasts:
+        intervals = (text(f.remaining), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
+        table.add_row(f"{f.hours:g}", str(f.readings), *(interval.replace(" (", "\n(") for interval in intervals))
+    console(100).print(table)
+    last = forecasts[-1]
+    print(f"middle and interval of {100.0 * COVERAGE:.0f} %; hours count from the last inspection, {last.hours:g} h")
+    if last.beyond > 0.0:
+        print(f"in {100.0 * last.beyond:.0f} % of what is possible the limit is not reached within 100 times these hours")
+    for r in found.held_out:
+        expected = last.later[r.hours]
+        within = "within" if expected.low - 2.0 * r.noise <= r.value <= expected.high + 2.0 * r.noise else "outside"
+        print(f"not used: {readable(r.value, 4)} {unit} at {r.hours:g} h; expected {text(expected)}: {within}")
+    slope = last.rate.middle / 3600.0
+    print(f"for RvReducer: life.expected_rate {slope:.3g} {unit}/s, life.rate_deviation {last.rate_deviation:.2g},"
+          f" life.rate_drift {last.drift / 3600.0:.2g} 1/s, life.reading_noise {found.readings[-1].noise:.3g} {unit}")  # fmt: skip

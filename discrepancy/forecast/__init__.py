@@ -1,0 +1,1 @@
+"""How sure is the life: wear parameters and remaining life from the first inspections, with intervals."""

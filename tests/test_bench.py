@@ -1,0 +1,112 @@
+"""Standard tests: one evaluation for the virtual bench and for measured files, against loops whose answer is known."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from cli.main import main
+from fmu_src.faults import InputFault
+from orchestrator.settings import parse_setting
+from studies.hysteresis import hysteresis
+from studies.standard.evaluation import TESTS, turning_points
+from studies.standard.procedures import PROCEDURES, rated_of, ratio_of
+
+ARCMIN = np.radians(1.0) / 60.0
+RATED, STIFFNESS, PLAY, WIDTH = 100.0, 50.0, 0.8, 0.3  # N.m, N.m/arcmin, arcmin
+
+
+def loop(noise=0.0, cycles=1.0):
+    """-T to +T and back by a spring of known stiffness beside a play, its two ways WIDTH apart."""
+    phase = np.linspace(0.0, 2.0 * np.pi * cycles, int(4001 * cycles))
+    torque = -RATED * np.cos(phase)
+    rising = np.sin(phase) >= 0.0
+    angle = torque / STIFFNESS + 0.5 * PLAY * np.tanh(torque / 0.2) + np.where(rising, -0.5, 0.5) * WIDTH
+    random = np.random.default_rng(1)
+    return {"output_torque": torque + noise * random.normal(size=len(torque)), "output_angle": ARCMIN * (angle + 0.1 * noise * random.normal(size=len(torque)))}
+
+
+def figures(test, *curves, rated=RATED, ratio=121.0):
+    return {figure.name: figure.value for figure in TESTS[test].evaluate(curves, rated, ratio)}
+
+
+@pytest.mark.parametrize("noise, share", [(0.0, 1e-3), (0.05, 0.05)])
+@pytest.mark.parametrize("cycles", [1.0, 1.6])
+def test_loop_of_known_play_width_and_stiffness_is_read_as_it_is(noise, share, cycles):
+    found = figures("lost-motion", loop(noise, cycles))
+    assert found["lost_motion"] == pytest.approx(PLAY + 0.06 * RATED / STIFFNESS, rel=share)
+    assert figures("stiffness", loop(noise, cycles))["torsional_stiffness"] == pytest.approx(STIFFNESS, rel=share)
+    if noise == 0.0:
+        assert found["backlash"] == pytest.approx(WIDTH, rel=0.05)
+
+
+def test_turning_points_are_those_of_the_torque_and_not_of_its_noise():
+    torque = np.concatenate([np.linspace(0, 1, 50), np.linspace(1, -1, 100), np.linspace(-1, 0, 50)])
+    noisy = torque + 0.01 * np.random.default_rng(2).normal(size=200)
+    points = turning_points(noisy)
+    assert len(points) == 4 and abs(points[1] - 49) < 5 and abs(points[2] - 149) < 5
+
+
+def test_virtual_bench_agrees_with_the_hysteresis_study(rv20e):
+    rated = rated_of(rv20e, [])[0]
+    curves = [*PROCEDURES["lost-motion"](rv20e, []).values()]
+    own = hysteresis(rv20e, [])
+    assert figures("lost-motion", *curves, rated=rated)["lost_motion"] == pytest.approx(own.lost_motion_arcmin, rel=1e-3)
+    assert figures("stiffness", *curves, rated=rated)["torsional_stiffness_reverse"] == pytest.approx(own.stiffness_reverse_Nm_per_arcmin, rel=3e-3)
+
+
+def test_losses_that_are_put_in_come_out(rv20e):
+    settings = [parse_setting(text, [rv20e.plant]) for text in ("effects.drag.seal_torque=0.05", "effects.stribeck_friction.friction_coefficient=0.03")]
+    rated, ratio = rated_of(rv20e, settings)[0], ratio_of(rv20e, settings)
+    assert ratio == 121.0
+    unloaded = PROCEDURES["no-load-torque"](rv20e, settings)
+    for curve in unloaded.values():
+        assert figures("no-load-torque", curve)["no_load_torque"] == pytest.approx(0.05, rel=1e-6)
+    starting = figures("starting-torque", *PROCEDURES["starting-torque"](rv20e, settings).values(), ratio=ratio)
+    assert starting["starting_torque_at_output"] == pytest.approx(0.05 * 121.0, rel=1e-6)
+    shares = [figures("efficiency", curve, rated=rated)["efficiency"] for curve in PROCEDURES["efficiency"](rv20e, settings).values()]
+    # Drag weighs less under more load: 0.05 N m of 167/121 N m at the rated torque, friction of the contacts besides.
+    assert shares == sorted(shares) and shares[0] > 80.0 and shares[-1] < 100.0 / (1.0 + 0.05 * 121.0 / 167.0)
+
+
+def test_without_errors_a_reducer_without_load_has_no_transmission_error_and_play_both_ways(rv20e):
+    light, loaded = (figures("transmission-error", curve)["transmission_error"] for curve in PROCEDURES["transmission-error"](rv20e, []).values())
+    assert light < 1e-6 and 5.0 < loaded < 9.0
+    dynamic = figures("dynamic-lost-motion", *PROCEDURES["dynamic-lost-motion"](rv20e, []).values())["dynamic_lost_motion"]
+    assert dynamic == pytest.approx(hysteresis(rv20e, []).lost_motion_arcmin, rel=0.02)
+
+
+def test_measured_file_gives_the_number_of_the_bench_that_it_came_from(rv20e, tmp_path, capsys):
+    curves = PROCEDURES["stiffness"](rv20e, [])
+    rows = ["T kNm;turned;place"]
+    for k, curve in enumerate(curves.values()):
+        rows += [f"{t * 1e-3!r};{float(a / ARCMIN)!r};{k}" for t, a in zip(curve["output_torque"].tolist(), curve["output_angle"].tolist())]
+    (tmp_path / "loops.csv").write_text("\n".join(rows), encoding="utf-8")
+    columns = ["--column", "output_torque=T kNm:kN.m", "--column", "output_angle=turned:arcmin", "--column", "position=place"]
+    found = []
+    for more in ([], ["--measured", str(tmp_path / "loops.csv"), *columns]):
+        assert main(["bench", "--standard", "stiffness", "--json", *more]) == 0
+        found.append({f["name"]: (f["value"], f["spread"]) for f in json.loads(capsys.readouterr().out)["figures"]})
+    for name, (value, spread) in found[0].items():
+        assert found[1][name][0] == pytest.approx(value, rel=1e-9) and found[1][name][1] == pytest.approx(spread, rel=1e-9)
+    assert main(["bench", "--standard", "stiffness", "--measured", str(tmp_path / "loops.csv"), *columns]) == 0
+    shown = capsys.readouterr().out
+    assert "torsional_stiffness_forward" in shown and "between 50 and 100 %" in shown and "8 curves" in shown
+
+
+@pytest.mark.parametrize("columns, said", [
+    ([], "no such column.*--column output_torque=HEADER:UNIT"),
+    (["output_torque=T:N.m", "output_angle=a:kg"], "column 'a' as output_angle in kg"),
+    (["output_torqe=T:N.m"], "did you mean output_torque"),
+    (["output_torque=T:N.m", "output_angle=a:arcmin"], "a.csv: curve 1: the output torque goes from .* to 1 N.m; stiffness needs both senses up to 167 N.m"),
+])  # fmt: skip
+def test_what_a_file_lacks_is_said(tmp_path, columns, said, capsys):
+    (tmp_path / "a.csv").write_text("T,a\n" + "\n".join(f"{np.sin(k)},{k}" for k in np.linspace(0, 7, 50)), encoding="utf-8")
+    assert main(["bench", "--standard", "stiffness", "--measured", str(tmp_path / "a.csv"), *[x for c in columns for x in ("--column", c)]]) == 2
+    assert re.search(said, capsys.readouterr().err)
+
+
+def test_one_way_alone_is_no_loop():
+    with pytest.raises(InputFault, match="one way alone"):
+        figures("lost-motion", {"output_torque": np.linspace(-100, 100, 50), "output_angle": np.zeros(50)})

@@ -1,0 +1,107 @@
+"""Forecasts of remaining life: samples against a closed form, limits and refusals, a campaign's readings, intervals on made lives."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.forecasts import Life, summary, through_points
+from cli.main import main
+from discrepancy.campaign.load import load_campaign
+from discrepancy.forecast import posterior
+from discrepancy.forecast.forecast import Range, Reading, forecast, narrowing
+from discrepancy.forecast.growth import FIRST, Growth
+from discrepancy.forecast.readings import inspections, limit_of
+from fmu_src.faults import InputFault
+
+TEST = Path(__file__).parent.parent / "examples" / "durability_test"
+
+
+def test_growth_without_walk_has_a_closed_form(monkeypatch):
+    """L = L_0 + v (t + (r - 1) tau (1 - exp(-t/tau))) where the rate neither walks nor rises."""
+    monkeypatch.setattr("discrepancy.forecast.growth.TREND", 0.0)
+    growth = Growth(40.0, 1e-3, 2e4, drift=0.0)
+    x = np.array([[0.1, 0.3, -0.4, 0.5, *np.zeros(growth.dimensions - 4)]])
+    level, rate, excess, decay = (float(v[0]) for v in growth.numbers(x))
+    t = growth.hours
+    expected = level + rate * (t + excess * decay * (1.0 - np.exp(-t / decay)))
+    assert np.abs(growth.levels(x)[0] - expected).max() < 2e-3 * (expected[-1] - level)
+    crossing = growth.crossings(growth.levels(x), float(np.interp(5000.0, t, growth.levels(x)[0])))
+    assert crossing[0] == pytest.approx(5000.0, rel=1e-6)
+    assert np.isinf(growth.crossings(growth.levels(x), 1e9)[0])
+
+
+def test_samples_are_those_of_a_known_law():
+    """With the level alone seen it is known as well as its reading; everything else stays as it was before."""
+    growth = Growth(40.0, 1e-3, 1e4)
+    x = posterior.samples(growth, np.array([0.0]), np.array([41.0]), np.array([0.5]))
+    level = growth.numbers(x)[0]
+    assert level.mean() == pytest.approx(41.0, abs=0.05) and level.std() == pytest.approx(0.5, rel=0.1)
+    assert np.abs(x[:, 1:].mean(axis=0)).max() < 0.15 and np.abs(x[:, 1:].std(axis=0) - 1.0).max() < 0.15
+
+
+def test_intervals_narrow_and_hold():
+    """A straight life with exact readings: the true remaining life lies in all intervals, and the last is far narrower than the first."""
+    hours = [0.0, 500.0, 1000.0, 2000.0, 4000.0, 6000.0]
+    readings = [Reading(t, 40.0 + 2e-3 * t, 0.2) for t in hours]
+    found = narrowing(readings, 60.0)
+    assert [f.hours for f in found] == hours[1:]
+    assert all(f.remaining.holds(10_000.0 - f.hours) for f in found)
+    widths = [f.remaining.high / f.remaining.low for f in found]
+    assert widths[-1] < 0.3 * widths[0] and widths[-1] < 3.0
+    assert found[-1].rate.holds(2e-3) and found[-1].drift == pytest.approx(0.09 / (FIRST + 6000.0))
+    over = forecast([*readings, Reading(12_000.0, 65.0, 0.2)], 60.0, asked=[15_000.0])
+    assert over.remaining == Range(0.0, 0.0, 0.0) and over.later[15_000.0].low > 65.0
+
+
+def test_rivals_of_the_benchmark_know_their_own_law():
+    noise, limit = 0.1, 60.0
+    line = [Reading(t, 40.0 + 2e-3 * t, noise) for t in (0.0, 1000.0, 2000.0, 4000.0)]
+    assert through_points(line, limit, np.array([1.0])).holds(6000.0)
+    root = [Reading(t, 40.0 + 0.2 * t**0.5, noise) for t in (0.0, 500.0, 1000.0, 2000.0, 4000.0)]
+    assert through_points(root, limit, np.linspace(0.2, 3.0, 57)).holds(6000.0)
+    assert not through_points(root, limit, np.array([1.0])).holds(6000.0)
+    life = Life(line, limit, 10_000.0, [])
+    assert summary([life, life], [Range(6000.0, 5000.0, 8000.0), Range(3000.0, 2000.0, 4000.0)])["holds"] == 0.5
+
+
+def test_readings_of_a_campaign():
+    campaign, limit = load_campaign(TEST), limit_of("lost_motion = 60 arcsec")
+    assert (limit.value, limit.unit) == (pytest.approx(1.0), "arcmin")
+    found = inspections(campaign, limit)
+    assert [r.hours for r in found.readings] == pytest.approx([0.0, 600.0, 800.0, 1000.0]) and len(found.held_out) == 2
+    assert found.readings[0].value == pytest.approx(42.74 / 60.0) and found.readings[0].noise == pytest.approx(0.2 / 60.0)
+    assert inspections(campaign, limit, noise="0.6 arcsec").readings[0].noise == pytest.approx(0.01)
+
+
+def test_command(capsys):
+    assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert [f["readings"] for f in said["forecasts"]] == [2, 3, 4] and len(said["unused"]) == 2
+    last = said["forecasts"][-1]["later"]["1550.0"]
+    assert last["low"] < 55.66 / 60.0 < last["high"]
+    assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--until", "800"]) == 0
+    shown = capsys.readouterr().out
+    assert "not used: 0.9277 arcmin at 1550 h" in shown and "life.expected_rate" in shown
+
+
+@pytest.mark.parametrize(("options", "says"), (
+    (["--limit", "lostmotion=1arcmin"], "did you mean lost_motion"),
+    (["--limit", "lost_motion=1kg"], "kg"),
+    (["--limit", "wear_depth=5um"], "no run of wear_depth; there is lost_motion"),
+    (["--limit", "lost_motion=30arcsec"], "below the first reading"),
+    (["--limit", "lost_motion=1arcmin", "--until", "10"], "at 1 number"),
+    (["--limit", "lost_motion=1arcmin", "--condition", "x"], "say which with --condition"),
+))  # fmt: skip
+def test_refusals(options, says, capsys):
+    assert main(["forecast", str(TEST), *options]) == 2
+    assert says in capsys.readouterr().err
+
+
+def test_noise_that_nobody_states_is_asked_for():
+    campaign = load_campaign(TEST)
+    for r in campaign.records:
+        object.__setattr__(r, "stated_noise", None)
+    with pytest.raises(InputFault, match="--noise"):
+        inspections(campaign, limit_of("lost_motion=1arcmin"))

@@ -1,0 +1,189 @@
+// After the diagnosis: what to measure next, the effect added, how the error fell, the units built.
+
+import { choose, command, h, number, table, words } from "./dom.js";
+import { cards, sections } from "./page.js";
+
+export function nextPart(bag) {
+  const { next, context } = bag;
+  const busy = Object.values(context.state.jobs).some((j) => j.state === "running");
+  const sheet = next
+    ? [
+        h("p", { class: "lead" }, next.verdict),
+        next.open.map((text) => h("p", {}, `• ${text}`)),
+        next.proposals.length
+          ? h(
+              "div",
+              { id: "sheet" },
+              table(
+                ["☐", "experiment", "price", "least separation", "mean separation"],
+                next.proposals.map((p) => ["☐", p.experiment, number(p.cost, 4), number(p.least, 3), number(p.mean, 3)]),
+                [2, 3, 4],
+              ),
+            )
+          : null,
+        Object.keys(next.stakes).length
+          ? h(
+              "p",
+              { class: "quiet small" },
+              `What it costs not to know: ${Object.entries(next.stakes)
+                .map(([k, v]) => `at ${words(k)} up to ${v}`)
+                .join("; ")}`,
+            )
+          : null,
+        h(
+          "div",
+          { class: "row" },
+          h("a", { class: "button", href: "results/next/report?download", download: "" }, "Sheet for the rig"),
+          h("button", { type: "button", onclick: () => print() }, "Print"),
+        ),
+        command(next.command),
+      ]
+    : null;
+  return h(
+    "section",
+    {},
+    h("h2", {}, "What to measure next"),
+    h(
+      "div",
+      { class: "panel" },
+      sheet,
+      h("button", { type: "button", id: "next", disabled: busy, onclick: () => context.start("next") }, next ? "Ask again" : "Propose the next experiment"),
+    ),
+  );
+}
+
+export function addPart(bag) {
+  const { answer, extension, context } = bag;
+  let anyway = false;
+  const busy = Object.values(context.state.jobs).some((j) => j.state === "running");
+  const named = answer.effects.flatMap((e) => e.candidates),
+    numbersOff = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
+  const one = answer.confusable.length ? answer.effects.map((e) => e.candidates[0]) : null;
+  const options = one ?? (named.length ? [named.join(" + ")] : numbersOff.length ? [numbersOff.join(" + ")] : answer.rejected.slice(0, 5).map((r) => r.name));
+  if (!options.length) return null;
+  let choice = options[0];
+  const keep = h("input", {
+    type: "checkbox",
+    onchange: () => {
+      anyway = keep.checked;
+    },
+  });
+  return h(
+    "section",
+    {},
+    h("h2", {}, "Add it to the model"),
+    h(
+      "div",
+      { class: "panel" },
+      h(
+        "p",
+        { class: "quiet small" },
+        "It is fitted to the runs that are not held out and judged on those that are; it stays only if their error falls. The model is model.toml in the folder.",
+      ),
+      h(
+        "div",
+        { class: "row" },
+        options.length > 1
+          ? choose(
+              options.map((o) => [o, words(o)]),
+              choice,
+              (v) => {
+                choice = v;
+              },
+            )
+          : h("b", {}, words(choice)),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "main",
+            id: "extend",
+            disabled: busy,
+            onclick: () => context.start("extend", { model: answer.model, effects: choice.split(" + "), anyway }),
+          },
+          "Add it",
+        ),
+        h("label", { class: "inline small" }, keep, "keep it even if it does not help"),
+      ),
+      extension
+        ? [
+            h(
+              "p",
+              { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
+              `${extension.effects.map(words).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
+            ),
+            cards(extension.page.cards),
+            sections(extension.page.sections),
+            command(extension.command),
+          ]
+        : null,
+    ),
+  );
+}
+
+export function ladder(bag) {
+  const { extension, built, context } = bag;
+  if (!extension) return null;
+  const busy = Object.values(context.state.jobs).some((j) => j.state === "running"),
+    steps = extension.steps;
+  const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.training_before ?? 0]), 1);
+  const bar = (value, tone) =>
+    value === null || value === undefined
+      ? "–"
+      : h(
+          "span",
+          { class: tone },
+          h("span", { class: "off" }, number(value, 3)),
+          h("span", { class: "bar", style: { width: `${Math.max(2, (90 * value) / most)}px` } }),
+        );
+  return h(
+    "section",
+    { id: "ladder" },
+    h("h2", {}, "How the error fell"),
+    h(
+      "div",
+      { class: "panel" },
+      table(
+        ["step", "fitted runs, before", "after", "unused runs, before", "after", "verdict"],
+        steps.map((s) => [
+          s.effects.map(words).join(" + "),
+          bar(s.training_before, "quiet"),
+          bar(s.training_after, "quiet"),
+          bar(s.held_out_before, "bad"),
+          bar(s.held_out_after, "good"),
+          `${s.verdict}${s.kept === false ? ", not kept" : ""}`,
+        ]),
+      ),
+      h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
+      h(
+        "div",
+        { class: "row" },
+        h(
+          "button",
+          {
+            type: "button",
+            onclick: () => {
+              context.go("look");
+              context.start("compare", { model: "model.toml" });
+            },
+          },
+          "Look at the better model",
+        ),
+        h("button", { type: "button", onclick: () => context.start("diagnose", { model: "model.toml" }) }, "Is anything else missing?"),
+        h("button", { type: "button", id: "build", disabled: busy, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
+      ),
+      built
+        ? [
+            h("h3", {}, "FMUs"),
+            table(
+              ["file", "size"],
+              built.files.map((f) => [f.name, `${Math.round(f.bytes / 1000).toLocaleString("en")} kB`]),
+              [1],
+            ),
+            command(built.command),
+          ]
+        : null,
+      sections(extension.ladder.sections),
+    ),
+  );
+}

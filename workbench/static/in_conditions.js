@@ -1,0 +1,104 @@
+// Conditions of the dropped files: what is needed, what is not sure, and the table of their numbers.
+
+import { choose, h, note, table, words } from "./dom.js";
+
+const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "direction", "mounting"];
+const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", temperature: "degC", hours: "h" };
+
+// What is needed first, then what is not sure: each with the place where it is answered.
+export function questions(bag) {
+  const { data, putIn } = bag;
+  const { needs, doubts } = data.proposal;
+  const general = needs.filter((n) => n.place !== "campaign").flatMap((n) => [...n.text.matchAll(/needs (.+)$/g)].map((m) => [n, m[1].split(" or ")]));
+  const asked = new Map(general.map(([n, keys]) => [keys.join(), [n, keys]]));
+  return [
+    needs.length
+      ? h(
+          "div",
+          { class: "panel" },
+          h("h2", { style: { "margin-top": 0 } }, "Needed"),
+          [...asked.values()].map(([n, keys]) =>
+            h(
+              "div",
+              { class: "row" },
+              h("span", {}, `${n.place}: `),
+              keys.map((key, i) => [i ? "or " : "", amount(key, data.wishes.conditions?.[key] ?? "", (text) => putIn("conditions", key, text), `need-${key}`)]),
+            ),
+          ),
+          needs.filter((n) => n.place === "campaign").map((n) => h("p", {}, `${n.text}: choose it above`)),
+        )
+      : null,
+    doubts.length
+      ? h(
+          "details",
+          { open: doubts.length < 6 },
+          h("summary", {}, `${doubts.length} not sure`),
+          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text}`])),
+        )
+      : null,
+  ];
+}
+
+// A number with its unit: typing the number alone is enough.
+function amount(key, text, onchange, id) {
+  if (key === "direction") return choose([["", "–"], "forward", "reverse"], text, onchange, { id, "aria-label": key });
+  const plain = UNITS[key] && text.endsWith(` ${UNITS[key]}`) ? text.slice(0, -UNITS[key].length - 1) : text;
+  const field = h("input", {
+    type: "text",
+    value: plain,
+    size: 8,
+    id,
+    "aria-label": words(key),
+    inputmode: UNITS[key] ? "decimal" : undefined,
+    onchange: () => {
+      const given = field.value.trim();
+      onchange(given && UNITS[key] && /^[-+]?[\d.,]+(e[-+]?\d+)?$/i.test(given) ? `${given.replace(",", ".")} ${UNITS[key]}` : given);
+    },
+  });
+  return h("label", { class: "inline" }, words(key), field, UNITS[key] ?? "");
+}
+
+export function conditions(bag) {
+  const { data, wish, putIn } = bag;
+  const all = data.proposal.conditions,
+    used = new Set(Object.values(all).flatMap((c) => Object.keys(c)));
+  const keys = CONDITION.filter((k) => used.has(k) || (k === "output_speed" && !used.has("input_speed")) || ["load_torque", "temperature"].includes(k));
+  const rows = Object.entries(all).map(([name, stated]) => {
+    const held = data.proposal.held_out[name],
+      runs = data.proposal.runs.filter((r) => r.condition === name);
+    const keep = h("input", {
+      type: "checkbox",
+      checked: !!held,
+      "aria-label": `${name} held out`,
+      onchange: () =>
+        wish((w) => {
+          const now = new Set(w.held_out ?? Object.keys(data.proposal.held_out));
+          if (keep.checked) now.add(name);
+          else now.delete(name);
+          w.held_out = [...now];
+        }),
+    });
+    return [
+      h("b", {}, name),
+      String(runs.length),
+      ...keys.map((key) => {
+        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", `${name}:${key}`, text), `c-${name}-${key}`);
+        return label.tagName === "LABEL"
+          ? h("span", { class: "inline" }, label.querySelector("input"), " ", h("span", { class: "quiet" }, UNITS[key] ?? ""))
+          : label;
+      }),
+      h("label", { title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, ` ${held.reason}`) : ""),
+    ];
+  });
+  return h(
+    "section",
+    {},
+    h("h2", {}, "Conditions"),
+    h(
+      "p",
+      { class: "quiet small" },
+      "Read from names and heads of the files; what stands here wins. Held-out conditions are never fitted: the error that counts is theirs.",
+    ),
+    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows)),
+  );
+}

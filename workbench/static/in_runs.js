@@ -1,0 +1,155 @@
+// What dropped files are taken for, group by group: quantity, columns with curve and unit, why; each corrected by a click.
+
+import { choose, h, spark, table, words } from "./dom.js";
+import { drop } from "./net.js";
+
+export function runs(bag) {
+  const { data } = bag;
+  const groups = new Map();
+  for (const run of data.proposal.runs) {
+    const key = JSON.stringify([run.quantity.value, Object.entries(run.columns).map(([role, e]) => [role, e.header, e.unit.value]), run.names, run.tags]);
+    groups.set(key, [...(groups.get(key) ?? []), run]);
+  }
+  return h(
+    "section",
+    {},
+    h("h2", {}, "What the files are taken for"),
+    [...groups.values()].map((members) => group(bag, members)),
+  );
+}
+
+function group(bag, members) {
+  const { data, choices, wish, putIn, context, faults, load } = bag;
+  const first = members[0],
+    quantity = choices.quantities[first.quantity.value];
+  const own = [...new Set(members.map((m) => m.file.split("/").at(-1)))];
+  const forAll = (part, of, value) =>
+    wish((w) => {
+      w[part] = { ...w[part] };
+      for (const name of own) {
+        const key = of(name);
+        if (value) w[part][key] = value;
+        else delete w[part][key];
+      }
+    });
+  const headers = (data.columns[first.file] ?? []).map((c) => c.name);
+  const rows = Object.entries(first.columns).map(([role, entry]) => {
+    const column = (data.columns[first.file] ?? []).find((c) => c.name === entry.header),
+      units = quantity.roles[role]?.units ?? [];
+    return [
+      h("span", { title: quantity.roles[role]?.description }, words(role)),
+      choose(
+        headers.map((name) => [name, name]),
+        entry.header,
+        (value) =>
+          wish((w) => {
+            w.columns = { ...w.columns, [role]: value };
+          }),
+        { "aria-label": `column of ${role}` },
+      ),
+      column ? spark(column.curve) : "",
+      unitOf(entry, units, (unit) => forAll("units", (name) => `${name}:${entry.header}`, unit)),
+      h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.column.reason}; unit: ${entry.unit.reason}`),
+    ];
+  });
+  const tags = Object.entries(first.tags).map(([tag, guess]) => {
+    const known = choices.tags[tag]?.choices ?? [],
+      change = (value) => putIn("tags", tag, value);
+    return h(
+      "label",
+      { class: `inline${guess.sure ? "" : " fair"}`, title: guess.reason },
+      tag,
+      known.length ? choose(known, guess.value, change) : h("input", { type: "text", value: guess.value, size: 12, onchange: (e) => change(e.target.value) }),
+    );
+  });
+  const pattern = h("input", {
+    type: "text",
+    value: first.names,
+    size: Math.min(44, Math.max(18, first.names.length + 2)),
+    "aria-label": "pattern of the names",
+    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
+    onchange: () =>
+      wish((w) => {
+        w.names = [...(w.names ?? []).filter((n) => n !== first.names), ...(pattern.value.trim() ? [pattern.value.trim()] : [])];
+      }),
+  });
+  return h(
+    "div",
+    { class: "panel" },
+    h(
+      "div",
+      { class: "row spread" },
+      h(
+        "div",
+        { class: "row" },
+        choose(
+          Object.keys(choices.quantities).map((q) => [q, words(q)]),
+          first.quantity.value,
+          (value) => forAll("quantities", (name) => name, value),
+          { "aria-label": "quantity", title: quantity.description },
+        ),
+        first.quantity.sure ? null : h("span", { class: "tag fair" }, "not sure"),
+        tags,
+      ),
+      h("label", { class: "inline small" }, "names say", pattern),
+    ),
+    first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
+    table(
+      ["role", "column", "curve", "unit", "why"],
+      rows.map((row) =>
+        h(
+          "tr",
+          {},
+          row.map((cell, i) => h("td", { class: i === 4 ? "reason" : undefined }, cell)),
+        ),
+      ),
+    ),
+    h(
+      "details",
+      {},
+      h("summary", {}, `${members.length} run${members.length === 1 ? "" : "s"}: ${own.slice(0, 3).join(", ")}${own.length > 3 ? " …" : ""}`),
+      table(
+        ["run", "file", "condition", "repetition", "said of it", ""],
+        members.map((run) => [
+          run.id,
+          run.file,
+          run.condition,
+          `${run.replicate.value} (${run.replicate.reason})`,
+          Object.entries(run.stated)
+            .map(([k, g]) => `${words(k)} ${g.value}`)
+            .join(", ") || "–",
+          h(
+            "button",
+            {
+              type: "button",
+              class: "plainly",
+              title: "put the file aside (.workbench/aside)",
+              onclick: () => context.act(drop(`files/${encodeURIComponent(run.file)}`).then(load), faults),
+            },
+            "put aside",
+          ),
+        ]),
+      ),
+    ),
+  );
+}
+
+function unitOf(entry, units, change) {
+  const other = "other…",
+    all = units.includes(entry.unit.value) ? units : [entry.unit.value, ...units];
+  const list = choose(
+    [...all.map((u) => [u, u]), [other, other]],
+    entry.unit.value,
+    (value) => {
+      if (value !== other) {
+        change(value);
+        return;
+      }
+      const field = h("input", { type: "text", size: 8, "aria-label": "unit", onchange: () => change(field.value.trim()) });
+      list.replaceWith(field);
+      field.focus();
+    },
+    { "aria-label": `unit of ${entry.header}` },
+  );
+  return list;
+}

@@ -1,0 +1,194 @@
+// Pieces of Look: the key figures, what a chart of a signal holds, single numbers, where the model fails.
+
+import { h, note, number, table, words } from "./dom.js";
+
+const CLEAR = 3,
+  FEW_FIGURES = 12;
+const tone = (off) => (off > 5 ? "bad" : off > CLEAR ? "fair" : "");
+
+// In the order in which one asks.
+const ORDER = ["torsional stiffness", "lost motion", "width of the loop", "peak to peak"];
+const rank = (f) => {
+  const i = ORDER.findIndex((name) => f.name.startsWith(name));
+  return i < 0 ? ORDER.length : i + (f.name.length > ORDER[i].length ? 0.5 : 0);
+};
+
+// What an engineer asks first: stiffness, lost motion, width, error by order; as they are measured and as the model has them.
+export function keyFigures({ result, all, text, matches, search, showAll }) {
+  const found = result.figures.filter((f) => matches(`${f.title} ${f.name} ${f.condition}`));
+  const worst = new Map();
+  for (const f of [...found].sort((p, q) => Math.abs(q.off) - Math.abs(p.off))) if (!worst.has(f.signal + f.name)) worst.set(f.signal + f.name, f);
+  const rows = (all || text ? [...found] : [...worst.values()].slice(0, FEW_FIGURES)).sort(
+    (p, q) => p.title.localeCompare(q.title) || rank(p) - rank(q) || Math.abs(q.off) - Math.abs(p.off),
+  );
+  if (!result.figures.length) return null;
+  const most = Math.max(5, ...rows.map((f) => Math.abs(f.off)));
+  return h(
+    "section",
+    { id: "figures" },
+    h(
+      "div",
+      { class: "row spread" },
+      h("h2", { style: { margin: 0 } }, "Key figures"),
+      h(
+        "label",
+        { class: "inline" },
+        h("input", {
+          type: "search",
+          placeholder: "search signals, figures, conditions  ( / )",
+          size: 30,
+          value: text,
+          oninput: (e) => search(e.target.value),
+        }),
+      ),
+    ),
+    h(
+      "div",
+      { class: "panel" },
+      table(
+        ["signal", "figure", "condition", "measured", "noise", "model", "off, in noise"],
+        rows.map((f, i) => [
+          rows[i - 1]?.title === f.title ? "" : f.title,
+          h("b", {}, f.name),
+          f.condition,
+          `${f.measured} ${f.unit}`,
+          h("span", { class: "quiet" }, `± ${f.noise}`),
+          `${f.model} ${f.unit}`,
+          h(
+            "span",
+            { class: tone(Math.abs(f.off)), title: f.repeated ? `from ${f.runs} repetitions` : "from the noise of the samples: nothing is repeated" },
+            h("span", { class: "off" }, number(f.off, 3)),
+            h("span", { class: "bar", style: { width: `${Math.max(2, (46 * Math.abs(f.off)) / most)}px` } }),
+          ),
+        ]),
+        [3, 4, 5, 6],
+        { class: "stack" },
+      ),
+      rows.length < result.figures.length && !text
+        ? h(
+            "button",
+            {
+              type: "button",
+              class: "plainly",
+              onclick: showAll,
+            },
+            `all ${result.figures.length} figures (each is shown where it is furthest off)`,
+          )
+        : null,
+    ),
+  );
+}
+
+export function spec({ part, shift, several }, signal, members) {
+  const upper = [],
+    lower = [],
+    bands = [];
+  members.forEach((run, k) => {
+    const raw = part(run.x),
+      x = shift ? raw.map((v) => v + shift) : raw,
+      p = raw,
+      opacity = several ? 0.55 : Math.max(0.35, 0.95 - 0.2 * k),
+      predicted = part(run.predicted),
+      name = several ? ` · ${run.condition}` : "";
+    if (k === 0) {
+      const noise = 2 * run.noise;
+      bands.push({ x: p, low: predicted.map((v) => v - noise), high: predicted.map((v) => v + noise) });
+    }
+    upper.push({ name: k && !several ? "" : `measured${name}`, x, y: part(run.measured), colour: "--measured", width: 1.1, opacity, dots: run.dots });
+    lower.push({
+      name: k && !several ? "" : `residual / noise${name}`,
+      x: p,
+      y: part(run.residual),
+      colour: "--residual",
+      width: 1.1,
+      opacity,
+      dots: run.dots,
+    });
+    if (k === 0 || several) upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, opacity: several ? 0.8 : 1 });
+  });
+  return {
+    xTitle: signal.axis.title,
+    loop: signal.loop,
+    panes: [
+      { title: `${signal.title.split(" (")[0]} [${signal.unit}]`, weight: 2, lines: upper, bands },
+      { title: "residual / noise", weight: 1, zero: true, limits: [-2, 2], lines: lower },
+    ],
+  };
+}
+
+export function singles(signal) {
+  const count = signal.singles.reduce((n, run) => n + run.measured.length, 0);
+  return h(
+    "details",
+    { class: "panel", open: count <= 30 },
+    h("summary", {}, h("b", {}, `${signal.title}: ${count} single number${count === 1 ? "" : "s"} [${signal.unit}]`)),
+    table(
+      ["run", "condition", "measured", "noise", "model", "off, in noise"],
+      signal.singles.flatMap((run) =>
+        run.measured.map((value, i) => [
+          run.run,
+          h("span", {}, run.condition, run.held_out ? h("span", { class: "tag held" }, "held out") : ""),
+          value,
+          h("span", { class: "quiet" }, `± ${run.noise}`),
+          run.predicted[i],
+          h("span", { class: tone(Math.abs(run.off[i])) }, number(run.off[i], 3)),
+        ]),
+      ),
+      [2, 3, 4, 5],
+    ),
+  );
+}
+
+export const fails = (result, context) =>
+  result.places.length
+    ? h(
+        "section",
+        {},
+        h("h2", {}, "Where the model fails"),
+        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together."),
+        h(
+          "div",
+          { class: "panel" },
+          table(
+            ["signal", "what", "depends on", "share of the misfit", "p"],
+            result.places
+              .slice(0, 20)
+              .map((p) => [
+                result.signals.find((s) => s.signal === p.signal)?.title ?? words(p.signal),
+                p.feature,
+                words(p.dependence),
+                `${Math.round(100 * p.share)} %`,
+                p.p.toExponential(0),
+              ]),
+            [3, 4],
+          ),
+        ),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "main",
+            onclick: () => {
+              context.go("diagnose");
+              context.start("diagnose");
+            },
+          },
+          "Which effect is missing?",
+        ),
+      )
+    : h("p", { class: "lead" }, "No place, order or dependence carries a significant misfit.");
+
+export const notes = (result) =>
+  result.warnings.length + result.calibrated.length > 0 &&
+  h(
+    "details",
+    { open: result.warnings.length > 0 && result.warnings.length < 4 },
+    h("summary", {}, `${result.warnings.length} notes${result.calibrated.length ? `, ${result.calibrated.length} calibrated` : ""}`),
+    result.warnings.map((t) => note(t)),
+    result.calibrated.length
+      ? table(
+          ["calibrated", "value", "meaning"],
+          result.calibrated.map((c) => [words(c.name), c.value, c.meaning]),
+        )
+      : null,
+  );

@@ -1,0 +1,94 @@
+// One effect under Try: what it is, and its sliders.
+
+import { h, number, words } from "./dom.js";
+
+const plain = (value) => String(Number(value.toPrecision(4)));
+
+export function entry(e, { values, search, drawList, follow }) {
+  const on = e.parameters.some((p) => p.name in values);
+  return h(
+    "li",
+    {},
+    h(
+      "details",
+      { open: on || (!!search && search.length > 2) },
+      h(
+        "summary",
+        { title: e.law },
+        e.title,
+        on || e.carried
+          ? h("span", { class: "tag good", style: { "margin-left": "6px" } }, e.carried ? (on ? "in the model, changed" : "in the model") : "on")
+          : null,
+      ),
+      e.law ? h("p", { class: "quiet small" }, e.law) : null,
+      e.says ? h("p", { class: "quiet small" }, e.says) : null,
+      e.carried
+        ? h(
+            "button",
+            {
+              type: "button",
+              onclick: () => {
+                Object.assign(values, e.without);
+                drawList();
+                follow();
+              },
+            },
+            "Without it",
+          )
+        : null,
+      e.parameters.map((p) => slider(p, values, follow)),
+      e.source ? h("p", { class: "quiet small" }, `source: ${e.source}`) : null,
+    ),
+  );
+}
+
+function slider(p, values, follow) {
+  const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off,
+    step = (p.high - p.low) / 400;
+  const range = h("input", {
+    type: "range",
+    min: p.low,
+    max: p.high,
+    step: "any",
+    value,
+    "aria-label": `${words(p.name)} [${p.unit}]`,
+    "data-parameter": p.name,
+    oninput: () => set(Number(range.value)),
+  });
+  const field = h("input", {
+    type: "number",
+    step: "any",
+    value: plain(value),
+    "aria-label": `${words(p.name)}, number`,
+    onchange: () => {
+      range.value = field.value;
+      set(Number(field.value));
+    },
+  });
+  range.addEventListener("keydown", (event) => {
+    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    if (by) {
+      event.preventDefault();
+      range.value = Number(range.value) + by * step;
+      set(Number(range.value));
+    }
+  });
+  const set = (v) => {
+    if (Math.abs(v - p.off) < 1e-12 * Math.max(1, Math.abs(p.high))) delete values[p.name];
+    else values[p.name] = (v - p.offset) / p.factor;
+    if (document.activeElement !== field) field.value = plain(v);
+    follow();
+  };
+  return h(
+    "div",
+    { class: "slider" },
+    h("span", { class: "name", title: p.description }, `${words(p.name)}${p.unit ? ` [${p.unit}]` : ""}${p.amplitude ? "" : " · shape"}`),
+    range,
+    field,
+    h(
+      "span",
+      { class: "quiet small", style: { "grid-column": "1 / -1" } },
+      `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`,
+    ),
+  );
+}
