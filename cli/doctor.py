@@ -22,9 +22,9 @@ GOOD, ABSENT, WRONG = "ok", "absent", "wrong"
 PARTS = {
     "measurements": "reading MAT 7.3, MDF, TDMS, Parquet and Excel; writing Parquet and Excel",
     "pictures": "figures as SVG, PDF and PNG (--picture)",
+    "workbench": "the whole loop in a browser (rvwear workbench)",
     "ensembles": "lives of many reducers on all cores or a cluster (rvwear ensemble)",
     "build": "FMUs for other platforms, and for this one without a C compiler",
-    "workbench": "the loop of measurement and model in a browser (rvwear workbench)",
     "wasm": "stepping FMUs as WebAssembly (rvwear run --wasm)",
 }  # fmt: skip
 REQUIREMENT = re.compile(r"([A-Za-z0-9._-]+)(?:\[.*?\])?\s*(?:>=\s*([\d.]+))?")

@@ -14,6 +14,7 @@ from cli.schemas import KINDS, explained, schema_of, settable
 from fmu_src.project import NAME
 from fmu_src.source_hash import ROOT
 from reducers.reducer import every_table, must_be_stated
+from reproduce import stated
 
 REFERENCE, SCHEMAS = ROOT / "docs" / "reference", ROOT / "docs" / "schema"
 PLAIN_KINDS = {"string": "text", "number": "number", "integer": "whole number", "boolean": "`true`, `false`", "object": "table"}
@@ -158,11 +159,23 @@ def commands(top: argparse.ArgumentParser, before: str = "") -> Iterator[tuple[s
                 yield from inner or [(f"{before}{name}", texts.get(name, ""), command)]
 
 
+def claims_page() -> str:
+    """What the sources and the literature say, by id."""
+    lines = [MADE + "# Claims\n", "What the two source documents, catalogues and later literature say, held against the computation by `rvwear reproduce ID`;"
+             " [a tutorial](../tutorials/paper_figure.md) shows one.\n"]  # fmt: skip
+    sources: dict[str, list[str]] = {}
+    for name, (source, title, says) in stated().items():
+        sources.setdefault(source, []).append(f"| {name} | {cell(title)} | {cell(says)} |")
+    for source, rows in sources.items():
+        lines += [f"\n## {source[:1].upper()}{source[1:]}\n", "| id | claim | what the source says |", "|---|---|---|", *rows]
+    return "\n".join(lines) + "\n"
+
+
 def files() -> dict[Path, str]:
     """Everything that is made, by its place."""
     found = {REFERENCE / f"{kind}_file.md": file_page(kind) for kind in KINDS}
     found |= {SCHEMAS / f"{kind}.schema.json": json.dumps(schema_of(kind), indent=1) + "\n" for kind in KINDS}
-    return found | {REFERENCE / "commands.md": commands_page()}
+    return found | {REFERENCE / "commands.md": commands_page(), REFERENCE / "claims.md": claims_page()}
 
 
 if __name__ == "__main__":

@@ -23,19 +23,22 @@ from reproduce import (  # noqa: F401  each registers its claims
     geometry_claims,
     individuality_claims,
     literature_claims,
+    loss_claims,
     pin_wear_claims,
     pressure_claims,
+    prototype_claims,
     raceway_claims,
     raceway_law_claims,
+    rigidity_claims,
     sliding_claims,
     stiffness_claims,
 )  # fmt: skip
-from reproduce.claim import REGISTRY, Claim
+from reproduce.claim import REGISTRY, STATED, Claim
 from reproduce.context import Context
 from reproduce.page import page_of
-from reproduce.table import as_json, print_table
+from reproduce.table import as_json, print_table, tables_of
 
-__all__ = ["Claim", "as_json", "available_claims", "print_table", "run", "write_page"]
+__all__ = ["Claim", "as_json", "available_claims", "print_table", "run", "stated", "tables_of", "write_page"]
 
 
 def available_claims() -> list[str]:
@@ -43,14 +46,23 @@ def available_claims() -> list[str]:
     return sorted(REGISTRY, key=lambda name: ("TNLCI".index(name[0]), name))
 
 
+def chosen(selected: list[str] | None) -> list[str]:
+    """The ids that ids or prefixes of them name; InputFault for one that names none."""
+    ids = available_claims()
+    for name in selected or ():
+        if not any(known.startswith(name) for known in ids):
+            raise InputFault(f"claim {name!r}: there is none; the claims are {', '.join(ids)}")
+    return [known for known in ids if not selected or known.startswith(tuple(selected))]
+
+
+def stated(selected: list[str] | None = None) -> dict[str, tuple[str, str, str]]:
+    """(source, title, what the source says) of claims by id; nothing is computed."""
+    return {name: STATED[name] for name in chosen(selected)}
+
+
 def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None) -> list[Claim]:
     """Judge the claims of the given ids or id prefixes ("T", "N1"), or all; ``progress`` gets lines of text."""
-    ids = available_claims()
-    if selected:
-        for name in selected:
-            if not any(known.startswith(name) for known in ids):
-                raise InputFault(f"claim {name!r}: there is none; the claims are {', '.join(ids)}")
-        ids = [known for known in ids if known.startswith(tuple(selected))]
+    ids = chosen(selected)
     context = Context(lambda text: progress(f"  run   {text}"))
     claims = []
     for i, name in enumerate(ids, 1):

@@ -109,12 +109,15 @@ class Claim:
 
 Finder = Callable[[Context], Finding]
 REGISTRY: dict[str, Callable[[Context], Claim]] = {}
+# Of each claim its source, title, and what the source says.
+STATED: dict[str, tuple[str, str, str]] = {}
 
 
 def states(identity: str, source: str, title: str, says: str) -> Callable[[Finder], Finder]:
     """Register the function below as the claim ``identity`` of a source."""
     if identity in REGISTRY:
         raise ValueError(f"claim {identity} is registered twice")
+    STATED[identity] = source, title, says
 
     def register(function: Finder) -> Finder:
         def judge(context: Context) -> Claim:

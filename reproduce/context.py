@@ -13,6 +13,10 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from orchestrator.settings import Setting, parse_setting
+from reducers.completion.complete import complete
+from reducers.completion.file import reducer_at
+from reducers.completion.given import Given
+from reducers.completion.known import known_numbers
 from reducers.reducer import Reducer, load_reducer
 from reproduce.contacts import Contacts, contacts_of
 from studies.hysteresis import LOST_MOTION_SHARE, Hysteresis, hysteresis
@@ -21,10 +25,15 @@ from studies.pair import Pair, make_pair
 from studies.solve import ARCSEC, record_turn
 
 BX, RV = "BX-40E", "RV20E-121"
+# The same as soft, as loose and as lossy as real ones.
+REAL_BX, REAL_RV = "RV-40E", "RV-20E"
+LIBRARY = {BX: "BX-40E-rigid", RV: "RV20E-121-rigid", REAL_BX: "BX-40E", REAL_RV: "RV20E-121"}
+# Yang et al., Mech. Mach. Theory 163 (2021) 104384, as in a public repetition of the paper.
+RV_80E = ("pin.circle_radius=77.5mm", "pin.radius=4mm", "crank.eccentricity=1.5mm")
 MODIFIED = ("disc.equidistant_modification=-13um", "disc.shift_modification=-20um")
 RIGID_BEARINGS = ("bearing.clearance=0um", "roller.stiffness=1e8", "numerics.tolerance=1e-6")
 STAND, TURN = ("wear.pins=stand",), ()
-POSITIONS, TOLERANCE, HOURS = 72, 0.02, 10_000.0
+POSITIONS, TOLERANCE, HOURS, PINS = 72, 0.02, 10_000.0, 40
 # At most [h]: statements are looked at from a few hundred hours on.
 FIRST_JUMP = 200.0
 
@@ -84,8 +93,13 @@ class Context:
         return made
 
     def reducer(self, name: str) -> Reducer:
-        """As the sources have it: on rigid supports, without losses; by a name of the library that has no ``-rigid``, otherwise as it is."""
-        return self.once(("reducer", name), lambda: load_reducer(f"{name}-rigid" if name in (BX, RV) else name))
+        """BX and RV as the sources have them, on rigid supports and without losses; REAL_BX and REAL_RV as the library has them."""
+        return self.once(("reducer", name), lambda: load_reducer(LIBRARY[name]))
+
+    def rv80e(self) -> Reducer:
+        """An RV-80E with ratio 153 and three cranks, completed from what is published of one."""
+        given = Given(153.0, PINS, 784.0, 222.0, cranks=3, known=known_numbers(RV_80E))
+        return self.once(("reducer", "RV-80E"), lambda: reducer_at(complete(given), {}, "RV-80E"))
 
     def settings(self, name: str, texts: tuple[str, ...]) -> list[Setting]:
         reducer = self.reducer(name)

@@ -6,8 +6,12 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from exports.tables import Table as Export
+from exports.tables import rows_table
 from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Audited, Claim, Number
 
+# Wide enough for the table, also where the output goes to a file.
+WIDTH = 100
 STYLES = {REPRODUCED: "green", CONDITIONAL: "yellow", CONTRADICTED: "red", NOT_TESTABLE: "dim"}
 
 
@@ -29,7 +33,7 @@ def audited_text(number: Number) -> str:
 
 def print_table(claims: list[Claim]) -> None:
     """One row per claim, and below what the independent check does not confirm."""
-    console = Console(width=max(Console().width, 130), markup=False)
+    console = Console(width=max(Console().width, WIDTH), markup=False)
     table = Table(title="Claims of the sources against the computation", title_justify="left", show_lines=True)
     for head in ("id", "claim", "verdict", "why"):
         table.add_column(head, ratio={"claim": 3, "verdict": 2, "why": 7}.get(head))
@@ -72,3 +76,19 @@ def plain(value: Audited | None) -> float | list[float] | None:
     if value is None:
         return None
     return [float(v) for v in value] if isinstance(value, tuple) else float(value)
+
+
+def tables_of(claims: list[Claim]) -> list[Export]:
+    """Verdicts, and every number computed, printed and checked, for other programs."""
+    verdicts = [
+        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict, "condition": c.condition, "why": c.why} for c in claims
+    ]  # fmt: skip
+    numbers = [
+        {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "printed_formula": nan(n.printed), "independent_check": audited_text(n)}
+        for c in claims for n in c.numbers
+    ]  # fmt: skip
+    return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {})]
+
+
+def nan(value: float | None) -> float:
+    return float("nan") if value is None else value

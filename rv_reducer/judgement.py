@@ -11,6 +11,7 @@ short a time drowns in the equilibrium's tolerance; it is taken as proportional 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
 from rv_plant.supports import twist_compliance
+from rv_reducer.estimate import estimate, start_estimate
 from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
@@ -90,6 +91,7 @@ def extrapolate_life(r, flank_rate, race_rate):
     lost_motion_rate = 0.0
     if depth > 0.0:
         lost_motion_rate = (r.lost_motion - r.new_lost_motion) * (flank_rate + race_rate) / depth
+    r.own_rate = lost_motion_rate
     r.remaining_life, r.limited_by = LONGEST_LIFE, NONE
     flank = time_until(r.flank_depth_limit, r.worst_flank_depth, flank_rate)
     if flank < r.remaining_life:
@@ -119,6 +121,7 @@ def start_judgement(records):
     if r.new_lost_motion == 0.0:
         r.new_lost_motion = r.lost_motion
     extrapolate_life(r, 0.0, 0.0)
+    start_estimate(r)
 
 
 @kernel
@@ -135,6 +138,7 @@ def judge(records, turned):
     judged_race = r.judged_inner_volume if race_volume == r.inner_race_volume else r.judged_outer_volume
     flank_rate = growth(r.worst_flank_depth, r.flank_volume, r.judged_flank_volume, passed)
     extrapolate_life(r, flank_rate, growth(r.worst_race_depth, race_volume, judged_race, passed))
+    estimate(r)
     # What is missing comes on top of the next interval.
     r.judged_time, r.turned = r.operating_time, min(r.turned - r.judgement_interval, 0.0)
     r.judged_flank_volume = r.flank_volume

@@ -14,6 +14,7 @@ from fmu_src.variables import SEEN, SETTABLE, Variable
 from rv_plant.terminals import MECHANICAL as TERMINALS
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
+from rv_reducer import estimate
 from rv_reducer.exchange import PLANT_TO_WEAR, WEAR_TO_PLANT
 from wear_fmu.variables import Resolution, wear_table
 
@@ -126,6 +127,8 @@ def judgement(z: Variable) -> list[Variable]:
         Variable("pausing", "state", "1", "where a step may end before its time: nowhere, where the judgement changes, wherever surfaces wore",
                  integer=True),
         state("paused_after", "s", "how much of the last step was done; 0: all of it"),
+        *estimate.variables(),
+        state("own_rate", "rad/s", "growth of lost motion by the unit's own wear"),
         state("turned", "rad", "turning of the cranks since the last judgement"),
         state("judged_time", "s", "operating time at the last judgement"),
         state("judged_flank_volume", "m^3", "flank.volume at the last judgement"),

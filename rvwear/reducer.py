@@ -80,7 +80,7 @@ def modes(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = Non
 
     chosen = reducer_of(reducer)
     found = natural_modes(chosen, settings_of(chosen, settings or {}), held)
-    return pd.DataFrame([{"frequency_Hz": mode.frequency_Hz, "damping_ratio": mode.damping_ratio} | mode.energy_share for mode in found])
+    return pd.DataFrame([{"frequency_Hz": mode.frequency_Hz, "damping_ratio": mode.damping_ratio, "moves": mode.moves} | mode.energy_share for mode in found])
 
 
 def life(

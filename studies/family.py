@@ -129,9 +129,9 @@ def stiffness_of(reducer: Reducer, *texts: str) -> float:
     return hysteresis(reducer, settings, STEPS, ANGLES).stiffness_Nm_per_arcmin
 
 
-def input_torque(reducer: Reducer, torque: float, output_rpm: float, ratio: float) -> float:
-    """Mean over a turn of the cranks [N m]."""
-    texts = (f"output.load_torque={torque!r}N.m", f"input.speed={output_rpm * ratio!r}rpm")
+def input_torque(reducer: Reducer, torque: float, output_rpm: float, ratio: float, *more: str) -> float:
+    """Mean over a turn of the cranks [N m], with ``more`` settings."""
+    texts = (f"output.load_torque={torque!r}N.m", f"input.speed={output_rpm * ratio!r}rpm", *more)
     pair = make_pair(reducer, [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts], positions=POSITIONS)
     pair.wear.set("acceleration", 0.0)
     return float(record_turn(pair, POSITIONS)["drive_torque"].mean())

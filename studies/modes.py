@@ -31,12 +31,13 @@ ALIKE = 0.5
 
 @dataclass(frozen=True)
 class Mode:
-    """One mode: frequency, damping ratio, what moves, and the share of each body in its kinetic energy."""
+    """One mode: frequency, damping ratio, what moves, and the shares of its kinetic energy by body, and by what a group of bodies does (``parts``)."""
 
     frequency_Hz: float
     damping_ratio: float
     moves: str
     energy_share: dict[str, float]
+    parts: dict[str, float]
     shape: dict[str, float]
 
 
@@ -91,15 +92,16 @@ def modes(reducer: Reducer, settings: list[Setting], held: bool = True) -> list[
         named = {names[i]: float(x) for i, x in zip(free, shape)}
         weighed = {names[i]: float(x) for i, x in zip(free, np.sqrt(mass[free]) * shape)}
         frequency = float(omega / (2.0 * np.pi))
-        floats = frequency < FLOATING
+        floats, groups = frequency < FLOATING, groups_of(weighed, reducer)
         found.append(Mode(
-            frequency, 0.0 if floats else float(loss / (2.0 * omega)), moving(weighed, reducer) + (", held by nothing" if floats else ""), shares, named,
+            frequency, 0.0 if floats else float(loss / (2.0 * omega)), moving(groups) + (", held by nothing" if floats else ""), shares,
+            energies(groups), named,
         ))  # fmt: skip
     return found
 
 
-def moving(weighed: dict[str, float], reducer: Reducer) -> str:
-    """What a mode is called: the groups of bodies with most of the kinetic energy, and how those of a group move."""
+def groups_of(weighed: dict[str, float], reducer: Reducer) -> dict[str, list[list[float]]]:
+    """What the bodies of each group do in a mode, ``weighed`` with the roots of their masses."""
     t = reducer.topology
     groups: dict[str, list[list[float]]] = {}
     for kind, count in (("disc", t.discs), ("crank", t.cranks)):
@@ -108,7 +110,17 @@ def moving(weighed: dict[str, float], reducer: Reducer) -> str:
         groups[f"{kind}s turn"] = [[weighed[f"{b} turning"]] for b in bodies]
     groups["carrier shifts"] = [[weighed["carrier x"], weighed["carrier y"]]]
     groups |= {f"{one} turns": [[weighed[f"{one} turning"]]] for one in ("carrier", "ring", "sun", "load") if f"{one} turning" in weighed}
-    energy = {name: float(np.sum(np.square(parts))) for name, parts in groups.items()}
+    return groups
+
+
+def energies(groups: dict[str, list[list[float]]]) -> dict[str, float]:
+    """Share of each group in the kinetic energy."""
+    return {name: float(np.sum(np.square(parts))) for name, parts in groups.items()}
+
+
+def moving(groups: dict[str, list[list[float]]]) -> str:
+    """What a mode is called: the groups of bodies with most of the kinetic energy, and how those of a group move."""
+    energy = energies(groups)
     order = sorted(energy, key=lambda name: -energy[name])
     chosen = order[: 2 if energy[order[1]] > SECOND else 1]
     return ", ".join(f"{name}{together(groups[name])}" for name in chosen)

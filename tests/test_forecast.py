@@ -86,14 +86,14 @@ def test_command(capsys):
     assert "not used: 0.9277 arcmin at 1550 h" in shown and "life.expected_rate" in shown
 
 
-@pytest.mark.parametrize(("options", "says"), (
+@pytest.mark.parametrize(("options", "says"), [
     (["--limit", "lostmotion=1arcmin"], "did you mean lost_motion"),
     (["--limit", "lost_motion=1kg"], "kg"),
     (["--limit", "wear_depth=5um"], "no run of wear_depth; there is lost_motion"),
     (["--limit", "lost_motion=30arcsec"], "below the first reading"),
     (["--limit", "lost_motion=1arcmin", "--until", "10"], "at 1 number"),
     (["--limit", "lost_motion=1arcmin", "--condition", "x"], "say which with --condition"),
-))  # fmt: skip
+])  # fmt: skip
 def test_refusals(options, says, capsys):
     assert main(["forecast", str(TEST), *options]) == 2
     assert says in capsys.readouterr().err

@@ -24,7 +24,7 @@ BLOCK = re.compile(r"^(?P<before>[^\n]*)\n+```(?P<kind>\w+)\n(?P<text>.*?)^```$"
 NAME = re.compile(r"`([\w./-]+\.\w+)`:$")
 # Those that run in the default tests take some seconds of one core; the others build units, live or diagnose.
 SHORT = ("your_reducer",)
-LONG = ("fmi_tool", "two_files", "your_effect", "robot_week", "five_lines")
+LONG = ("fmi_tool", "two_files", "your_effect", "robot_week", "five_lines", "paper_figure")
 
 
 @dataclass
@@ -140,7 +140,7 @@ def documented_commands():
     for page in pages:
         text = page.read_text(encoding="utf-8")
         for block in re.findall(r"```(?:sh|console|)\n(.*?)```", text, re.DOTALL):
-            for line in block.splitlines():
+            for line in block.replace("\\\n", " ").splitlines():
                 line = line.removeprefix("$ ").split("   ")[0].strip()
                 # Of a command alone only the name is shown.
                 if line.startswith("rvwear ") and len(line.split()) > 3 and not LOOSE.search(line):

@@ -57,7 +57,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
         "places": [asdict(g) for g in result.diagnostician.localisation.findings],
-        "orders": named,
+        "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()
 

@@ -31,6 +31,7 @@ STATIC = Path(__file__).with_name("static")
 MOST_UPLOADED = 2_000_000_000
 # How often a change is looked for, and how long at most a page hears nothing [s].
 LOOK, SILENCE = 0.35, 15.0
+HIGHEST_PORT = 65535
 
 Handler = Callable[[Request], Awaitable[Response]]
 
@@ -83,11 +84,9 @@ class Workbench:
         return JSONResponse(await run_in_threadpool(choices))
 
     async def wish(self, request: Request) -> Response:
-        from workbench.intake import WISHES, wishes_of
+        from workbench.intake import wish
 
-        given = await content(request)
-        wishes_of(given)
-        self.folder.remember(WISHES, given)
+        await run_in_threadpool(wish, self.folder, await content(request))
         return await self.intake(request)
 
     async def save(self, request: Request) -> Response:
@@ -247,6 +246,8 @@ def app_of(bench: Workbench, token: str) -> Guard:
 
 def serve(folder: Folder, port: int, cores: int, ready: Callable[[str], None]) -> None:
     """Until Ctrl-C; ``ready`` is told the address."""
+    if not 0 <= port <= HIGHEST_PORT:
+        raise InputFault(f"--port {port}: ports go from 0 (any that is free) to {HIGHEST_PORT}")
     token = new_token()
     bench = Workbench(folder, cores)
     with socket.socket() as listening:

@@ -37,8 +37,6 @@ class Trial:
         self.lock = threading.Lock()
         # By folder, model and what they were; the last two, for one may be looked at beside the other.
         self.models: dict[tuple[str, str, str], PhysicalModel] = {}
-        # Runs with as many samples as are drawn, beside whole ones.
-        self.few: dict[tuple[int, str], tuple[Record, Record]] = {}
         self.asked = 0
 
     def opened(self, folder: Folder, model: str) -> PhysicalModel:
@@ -46,12 +44,19 @@ class Trial:
         key = (str(folder.root), model, folder.stamp(model))
         found = self.models.pop(key, None)
         if found is None:
-            found = PhysicalModel(load_model(folder.model({"model": model})), load_campaign(folder.root))
+            campaign = load_campaign(folder.root)
+            few = replace(campaign, records=tuple(thinned(record) for record in campaign.records))
+            found = PhysicalModel(load_model(folder.model({"model": model})), few)
             while len(self.models) >= KEPT:
-                gone = self.models.pop(next(iter(self.models)))
-                self.few = {k: v for k, v in self.few.items() if k[0] != id(gone)}
+                self.models.pop(next(iter(self.models)))
         self.models[key] = found
         return found
+
+    def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
+        """What is calibrated first, as the last comparison of this model found it; else where it starts."""
+        last = folder.recall("jobs/compare/result")
+        known = last.get("nuisances", {}) if last.get("model") == model else {}
+        return found.standing() | {name: float(known[name]) for name in known if name in {p.name for p in found.nuisances}}
 
     def controls(self, folder: Folder, model: str) -> dict[str, Any]:
         """Every effect with its parameters as sliders, and the runs that can be looked at."""
@@ -86,14 +91,15 @@ class Trial:
                 # The hand has moved on.
                 return {"late": True}, np.zeros((5, 0))
             found = self.opened(folder, model)
-            record, whole = self.thinned(found, run)
+            record = run_of(found, run)
             own = checked_values(found, values)
-            base = predicted(found, record, whole, {}, False)
-            tried = predicted(found, record, whole, own, roughly) if own else base
+            standing = self.standing(folder, model, found)
+            base = found.one(record, standing)
+            tried = found.one(record, standing | own, rough=roughly) if own else base
             other = base
             if beside and beside != model:
                 second = self.opened(folder, beside)
-                other = predicted(second, *self.thinned(second, run), {}, False)
+                other = second.one(run_of(second, run), self.standing(folder, beside, second))
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
@@ -108,6 +114,7 @@ class Trial:
         with self.lock:
             found = self.opened(folder, model)
             own = checked_values(found, values)
+            standing = self.standing(folder, model, found)
             cells: dict[str, list[tuple[float, float, float]]] = {}
             units: dict[str, str] = {}
             seen = set()
@@ -116,10 +123,9 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                few, whole = self.thinned(found, record.name)
-                base, tried = predicted(found, few, whole, {}, True), predicted(found, few, whole, own, True)
+                base, tried = found.one(record, standing, rough=True), found.one(record, standing | own, rough=True)
                 units[key[0]] = record.unit
-                cells.setdefault(key[0], []).append((rms(tried - base), rms(few.values - base), rms(few.values - tried)))
+                cells.setdefault(key[0], []).append((rms(tried - base), rms(record.values - base), rms(record.values - tried)))
         rows = []
         for signal, entries in cells.items():
             change, before, after = (math.sqrt(float(np.mean(np.square(column)))) for column in zip(*entries))
@@ -128,26 +134,27 @@ class Trial:
                          "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
         return rows
 
-    def thinned(self, model: PhysicalModel, run: str) -> tuple[Record, Record]:
-        """A run with as many samples as a screen shows; the same object each time, so that what was predicted is found again; and the whole run."""
-        key = id(model), run
-        if key not in self.few:
-            record = next((r for r in model.records if r.name == run), None)
-            if record is None:
-                raise InputFault(f"{run}: there is no such run")
-            step = max(1, math.ceil(len(record.values) / FEW))
-            # Under a name of its own: what is kept of whole runs does not fit it.
-            thin = {k: np.asarray(v)[::step] if np.size(v) == len(record.values) else v for k, v in record.axes.items()}
-            self.few[key] = (record if step == 1 else replace(record, name=f"{run}, every {step}", values=record.values[::step], axes=thin)), record
-        return self.few[key]
+
+def run_of(model: PhysicalModel, run: str) -> Record:
+    """InputFault where there is none of that name."""
+    found = next((r for r in model.records if r.name == run), None)
+    if found is None:
+        raise InputFault(f"{run}: there is no such run, or no prediction of it")
+    return found
 
 
-def predicted(model: PhysicalModel, record: Record, whole: Record, values: Mapping[str, float], rough: bool) -> Floats:
-    """Of a run or of every so manieth of its samples, where its roller cages stood added."""
-    own = {**model.standing(), **values}
-    found = model.one(record, own, rough=rough)
-    ripple = None if record is whole else model.cages.ripple(whole, own)
-    return found if ripple is None else found + ripple[:: math.ceil(len(ripple) / len(found))]
+def thinned(record: Record) -> Record:
+    """A run with as many samples as a screen shows: of an angle the first turn alone, for a line through few samples of many waves shows none of them."""
+    values = np.asarray(record.values)
+    kept = np.arange(len(values))
+    if "angle" in record.axes and len(values) > FEW:
+        angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
+        kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
+    kept = kept[:: max(1, math.ceil(len(kept) / FEW))]
+    if len(kept) == len(values):
+        return record
+    axes = {k: np.asarray(v)[kept] if np.size(v) == len(values) else v for k, v in record.axes.items()}
+    return replace(record, values=values[kept], axes=axes)
 
 
 def rms(values: Floats) -> float:

@@ -52,7 +52,7 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
         return f"{readable(scale * r.middle)} ({readable(scale * r.low)} to {readable(scale * r.high)})"
 
     unit = limit.unit
-    table = dense(f"{limit.quantity} up to {limit.value:g} {unit}, at {found.condition}")
+    table = dense(f"{limit.quantity} up to {limit.value:g} {unit}; read at {found.condition}")
     heads = ("inspected\nuntil h", "readings", "hours left\nto the limit", f"now\n{unit}", f"rate now\n{unit}/1000 h", "running-in\nratio", "running-in\nh")
     for head in heads:
         table.add_column(head, justify="right")

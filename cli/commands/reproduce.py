@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
 
 
@@ -11,16 +12,21 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     claims = sub.add_parser("reproduce", help="every claim of the sources held against the computation")
     claims.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
     claims.add_argument("--output", default="results/reproduce.html", help="the page")
+    claims.add_argument("--list", action="store_true", dest="listed", help="say what the claims are, compute nothing")
     add_json(claims)
+    add_exports(claims)
     claims.set_defaults(run=reproduce)
 
 
 def reproduce(options: argparse.Namespace) -> int:
     """``rvwear reproduce``: the sources' claims, judged."""
     from cli import screen
-    from reproduce import as_json, print_table, write_page
+    from reproduce import as_json, print_table, tables_of, write_page
     from reproduce import run as judge
 
+    if options.listed:
+        return show_list(options)
+    check_exports(options)
     claims = judge(options.claims or None, lambda text: print(text, file=sys.stderr, flush=True))
     page = write_page(claims, Path(options.output))
     if options.json:
@@ -28,4 +34,23 @@ def reproduce(options: argparse.Namespace) -> int:
     else:
         print_table(claims)
         print(f"page  {page}")
+    write_exports(options, lambda: tables_of(claims), lambda: [figure for claim in claims for figure in claim.figures])
     return 0 if all(claim.stands for claim in claims) else 1
+
+
+def show_list(options: argparse.Namespace) -> int:
+    """Id, title and words of each claim."""
+    from cli import screen
+    from reproduce import stated
+
+    found = stated(options.claims or None)
+    if options.json:
+        screen.json_text({"claims": {name: {"source": source, "title": title, "says": says} for name, (source, title, says) in found.items()}})
+        return 0
+    table = screen.dense("")
+    for head in ("id", "claim", "what the source says"):
+        table.add_column(head, overflow="fold")
+    for name, (_, title, says) in found.items():
+        table.add_row(name, title, says)
+    screen.console(screen.WIDTH).print(table)
+    return 0

@@ -16,6 +16,8 @@ from fmu_src.faults import InputFault, nearest
 # What only grows, one number an inspection.
 GROWING = ("lost_motion", "wear_depth", "mass_loss")
 HOUR = 3600.0
+# [rad/s] and [K].
+RPM, ZERO_CELSIUS = math.pi / 30.0, 273.15
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,8 @@ def limit_of(text: str) -> Limit:
     quantity, equals, value = text.partition("=")
     quantity = quantity.strip()
     if not equals or quantity not in GROWING:
-        raise InputFault(f"--limit {text}: write QUANTITY=NUMBER UNIT with one of {', '.join(GROWING)}{nearest(quantity, GROWING, 1)}, for instance lost_motion=1arcmin")
+        hint = nearest(quantity, GROWING, 1)
+        raise InputFault(f"--limit {text}: write QUANTITY=NUMBER UNIT with one of {', '.join(GROWING)}{hint}, for instance lost_motion=1arcmin")
     known = QUANTITIES[quantity]
     number = amount(value.strip(), known.unit, f"--limit {quantity}")
     return Limit(quantity, number / to_si(known.usual_unit, known.unit, "")[0], known.usual_unit)
@@ -65,17 +68,28 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     for r in records:
         own = stated or r.stated_noise or repeated
         if not own:
-            raise InputFault(f"{campaign.folder}: run {r.name}: nothing says how exact {limit.quantity} is; state noise in the run, repeat one, or give --noise")
+            text = f"{campaign.folder}: run {r.name}: nothing says how exact {limit.quantity} is"
+            raise InputFault(f"{text}; state noise in the run, repeat one, or give --noise")
         hours = np.broadcast_to(np.asarray(r.axes.get("hours", r.factors.get("hours", 0.0)), np.float64), len(r.values)) / HOUR
         found[r.held_out] += [Reading(float(t), float(v) / factor, own / factor) for t, v in zip(hours, r.values) if math.isfinite(v)]
-    return Inspections(*(sorted(found[held], key=lambda r: r.hours) for held in (False, True)), condition=chosen)
+    used, held_out = (sorted(found[held], key=lambda r: r.hours) for held in (False, True))
+    return Inspections(used, held_out, chosen)
 
 
 def without_hours(record: Record) -> str:
     """What was inspected, whenever: where a campaign has a condition for each number of hours its factors tell them apart."""
     factors = {name: value for name, value in record.factors.items() if name != "hours"}
     tags = ", ".join(f"{name} {value}" for name, value in sorted(record.tags.items()))
-    return ", ".join(f"{name} {value:.4g}" for name, value in sorted(factors.items())) + (f", {tags}" if tags else "")
+    return ", ".join(factor_text(name, value) for name, value in sorted(factors.items())) + (f", {tags}" if tags else "")
+
+
+def factor_text(name: str, value: float) -> str:
+    """A factor in the unit that people state it in."""
+    if name == "direction":
+        return "forward" if value > 0.0 else "backward"
+    units = {"load": (1.0, 0.0, "N m"), "speed": (RPM, 0.0, "rpm at the input"), "temperature": (1.0, ZERO_CELSIUS, "degC")}
+    per, zero, unit = units.get(name, (1.0, 0.0, ""))
+    return f"{name} {(value - zero) / per:.4g} {unit}".rstrip()
 
 
 def scatter(records: list[Record]) -> float:
