@@ -18,7 +18,7 @@ from fmu_src.faults import InputFault
 from fmu_src.source_hash import ROOT
 from workbench.folder import Folder
 
-KINDS = ("compare", "diagnose", "next", "extend", "build", "life", "ensemble")
+KINDS = ("compare", "diagnose", "next", "extend", "build", "export", "life", "ensemble")
 # Silent for so long, a job is gone [s].
 SILENT = 8.0
 RUNNING, DONE, FAILED, STOPPED, GONE = "running", "done", "failed", "stopped", "gone"

@@ -84,11 +84,9 @@ class Workbench:
         return JSONResponse(await run_in_threadpool(choices))
 
     async def wish(self, request: Request) -> Response:
-        from workbench.intake import WISHES, wishes_of
+        from workbench.intake import wish
 
-        given = await content(request)
-        wishes_of(given)
-        self.folder.remember(WISHES, given)
+        await run_in_threadpool(wish, self.folder, await content(request))
         return await self.intake(request)
 
     async def save(self, request: Request) -> Response:
