@@ -17,7 +17,7 @@ class Rows(Progress):
 
     def get_renderable(self) -> RenderableType:
         for task, row in list(self.rows.items()):
-            done = task.done if task.total else min(task.passed, task.about or 0.0)
+            done = task.done if task.total else min(task.passed, task.about or task.before or 0.0)
             self.update(row, completed=done, text=task.sentence())
         return super().get_renderable()
 
@@ -32,7 +32,7 @@ class Bars:
         if self.drawn is None:
             self.drawn = Rows()
             self.drawn.start()
-        self.drawn.rows[task] = self.drawn.add_task("", total=task.total or task.about, text=task.sentence())
+        self.drawn.rows[task] = self.drawn.add_task("", total=task.total or task.about or task.before, text=task.sentence())
 
     def end(self, task: Task) -> None:
         assert self.drawn is not None

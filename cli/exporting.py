@@ -13,8 +13,11 @@ if TYPE_CHECKING:
 WIDTH_HELP = "of pictures: single (90 mm, the default), middle (140), double (190), or 85mm, 3.5in ..."
 
 
-def add_exports(command: argparse.ArgumentParser) -> None:
+def add_exports(command: argparse.ArgumentParser, pictures: bool = True) -> None:
     command.add_argument("--export", action="append", default=[], metavar="FILE", help="write curves and figures as .csv, .parquet, .mat or .xlsx")
+    if not pictures:
+        command.set_defaults(picture=[], width=None)
+        return
     command.add_argument("--picture", action="append", default=[], metavar="FILE", help="draw as .svg, .pdf or .png at the width of a paper's column")
     command.add_argument("--width", metavar="WIDTH", help=WIDTH_HELP)
 

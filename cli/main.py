@@ -89,7 +89,7 @@ def main(arguments: list[str] | None = None) -> int:
         with termination_heard(), contextlib.ExitStack() as around, warnings.catch_warnings():
             say_old_names()
             if not options.quiet:
-                around.enter_context(told_to(new_screen()))
+                around.enter_context(told_to(new_screen(sys.argv[1:] if arguments is None else arguments)))
             elif not getattr(options, "json", False):
                 around.enter_context(contextlib.redirect_stdout(around.enter_context(open(os.devnull, "w", encoding="utf-8"))))
             code = int(options.run(options))

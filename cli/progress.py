@@ -2,20 +2,50 @@
 
 import sys
 import threading
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from fmu_src.progress import Listener, Task
+
+if TYPE_CHECKING:
+    from cli.durations import Durations
 
 # What is over sooner is not spoken of in a pipe, no line follows another sooner [s], and the longer it takes the rarer they get.
 SOON, PAUSE, GROWTH = 0.7, 3.0, 0.4
 
 
-def new_screen() -> Listener:
+def new_screen(words: list[str]) -> Listener:
+    """``words``: the command line, by which durations are remembered."""
     if not sys.stderr.isatty():
-        return Lines()
+        return Remembering(Lines(), words)
     # Drawn only where somebody looks.
     from cli.bars import Bars
 
-    return Bars()
+    return Remembering(Bars(), words)
+
+
+class Remembering:
+    """A listener that tells tasks how long they took before."""
+
+    def __init__(self, inner: Listener, words: list[str]):
+        self.inner, self.words = inner, words
+
+    @cached_property
+    def durations(self) -> "Durations":
+        from cli.durations import Durations
+
+        return Durations(self.words)
+
+    def begin(self, task: Task) -> None:
+        self.durations.begin(task)
+        self.inner.begin(task)
+
+    def end(self, task: Task) -> None:
+        self.inner.end(task)
+        self.durations.end(task)
+
+    def say(self, text: str) -> None:
+        self.inner.say(text)
 
 
 class Lines:

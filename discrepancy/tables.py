@@ -11,6 +11,7 @@ from discrepancy.compare import Comparison
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.key_figures import KeyFigure
+from discrepancy.model_file import ModelFile
 from discrepancy.scales import largest, of_axis, of_parameter, of_signal
 from discrepancy.verdict import Answer
 from exports.tables import Column, Table, rows_table
@@ -20,9 +21,22 @@ from fmu_src.arrays import Floats
 SCALED = ("error", "noise_floor")
 
 
-def tables_of(result: Comparison | Answer) -> list[Table]:
+def tables_of(result: Comparison | Answer | ModelFile) -> list[Table]:
     """Tables of a result; the first is what most would read, curves come last, one table a signal."""
+    if isinstance(result, ModelFile):
+        return [ladder_table(result)]
     return comparison_tables(result) if isinstance(result, Comparison) else answer_tables(result)
+
+
+def ladder_table(file: ModelFile) -> Table:
+    """The steps of a model: error over noise before and after, on fitted and on unused runs."""
+    errors = ("training_before", "training_after", "held_out_before", "held_out_after")
+    rows = [
+        {"step": number, "effects": " + ".join(step["effects"]), "verdict": step.get("verdict", ""), "kept": step.get("kept", True)}
+        | {key: none_as_nan(step.get(key)) for key in errors}
+        for number, step in enumerate(file.steps, 1)
+    ]  # fmt: skip
+    return rows_table("steps", rows, {})
 
 
 def comparison_tables(result: Comparison) -> list[Table]:

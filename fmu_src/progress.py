@@ -16,12 +16,14 @@ SOON = 3.0
 
 @dataclass(eq=False)
 class Task:
-    """``total`` steps if they can be counted; ``about`` seconds if it is known how long it takes."""
+    """``total`` steps if they can be counted; ``about`` seconds if it is known how long it takes; ``before`` if it is known from the last time."""
 
     what: str
     total: int | None = None
     about: float | None = None
     done: int = 0
+    # Seconds that it took the last time, if somebody remembers.
+    before: float | None = None
     begun: float = field(default_factory=time.monotonic)
 
     def advance(self, steps: int = 1) -> None:
@@ -37,7 +39,10 @@ class Task:
         """Seconds that it will still take, at the pace so far; None if nobody knows."""
         if self.total and self.done:
             return self.passed * (self.total - self.done) / self.done
-        return None if self.about is None else max(0.0, self.about - self.passed)
+        if self.about is not None:
+            return max(0.0, self.about - self.passed)
+        # What takes longer than the last time tells nothing of when it ends.
+        return self.before - self.passed if self.before is not None and self.before > self.passed else None
 
     def sentence(self) -> str:
         """``equilibria: 30 of 72, about 4 s left``."""

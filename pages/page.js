@@ -10,6 +10,11 @@
   const touch = matchMedia("(hover: none)").matches;
   const config = {
     responsive: true, displaylogo: false, doubleClick: "reset", displayModeBar: touch ? false : "hover",
+    // A picture for a paper; the command line writes PDF and the width of its column (--picture).
+    modeBarButtonsToAdd: [{
+      name: "Download as SVG", icon: Plotly.Icons.disk,
+      click: (plot) => Plotly.downloadImage(plot, { format: "svg", filename: plot.id.replace("plot-", "") }),
+    }],
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d", "pan2d"],
   };
   const byName = Object.fromEntries(content.figures.map((figure) => [figure.name, figure]));

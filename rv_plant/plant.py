@@ -117,7 +117,7 @@ def publish(r, output_speed):
     r.transmission_error = turning - twist
     r.lag = -crank_turning / lobes - turning + twist
     # Virtual work of the cranks' turning, as the teeth's errors have it.
-    r.drive_torque = moment / r.first_stage_ratio - of_errors if r.first_stage_ratio > 0.0 else -moment
+    r.drive_torque = (moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment) - of_errors
     r.drive_torque += publish_losses(r, r.input_speed)
     r.power_loss = r.friction_power
     r.reaction_torque = r.load_torque - r.drive_torque

@@ -23,20 +23,22 @@ def variables() -> list[Variable]:
     """Parameters, input, outputs and states of the filter."""
 
     def parameter(name: str, unit: str, text: str, start: float, nominal: float, display: str = "") -> Variable:
-        return Variable(name, "parameter", unit, text, start, minimum=0.0, nominal=nominal, tunable=True, source="rvwear forecast; assumed where it stands as it is",
-                        path=f"life.{name}", display=display)
+        return Variable(name, "parameter", unit, text, start, minimum=0.0, nominal=nominal, tunable=True,
+                        source="rvwear forecast; assumed where it stands as it is", path=f"life.{name}", display=display)
 
     def state(name: str, unit: str, text: str) -> Variable:
         return Variable(name, "state", unit, text, 0.0)
 
     return [
-        Variable("measured_lost_motion", "input", "rad", "lost motion at the last inspection, new where it changes (0: none yet)", 0.0, minimum=0.0, nominal=1e-4,
-                 path="life.measured_lost_motion", display="arcmin"),
-        parameter("expected_rate", "rad/s", "growth of lost motion that is expected (0: no filter, estimates follow the unit's own wear)", 0.0, 1e-11),
+        Variable("measured_lost_motion", "input", "rad", "lost motion at the last inspection, new where it changes (0: none yet)", 0.0,
+                 minimum=0.0, nominal=1e-4, path="life.measured_lost_motion", display="arcmin"),
+        parameter("expected_rate", "rad/s", "growth of lost motion that is expected (0: no filter, estimates follow the unit's own wear)", 0.0,
+                  1e-11, "arcsec/h"),
         parameter("rate_deviation", "1", "standard deviation of its logarithm", 1.0, 1.0),
         parameter("rate_drift", "1/s", "growth of the variance of its logarithm", 2e-8, 1e-8),
         parameter("reading_noise", "rad", "standard deviation of a reading", 2e-6, 1e-6, "arcsec"),
-        Variable("estimated_lost_motion", "output", "rad", "present lost motion by inspections", nominal=1e-4, path="life.estimated_lost_motion", display="arcmin"),
+        Variable("estimated_lost_motion", "output", "rad", "present lost motion by inspections", nominal=1e-4,
+                 path="life.estimated_lost_motion", display="arcmin"),
         Variable("estimated_remaining", "output", "s", "operating time until life.lost_motion_limit by inspections", nominal=1e6,
                  path="life.estimated_remaining"),
         state("estimated_rate", "rad/s", "estimated growth of lost motion"),

@@ -1,10 +1,12 @@
 """One crank turn and the standard stiffness test as datasets, in the units that people read."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
+from exports.tables import Table, rows_table
 from fmu_src.display import display_unit
 from fmu_src.units import conversion
 from orchestrator.component import InProcess
@@ -13,6 +15,7 @@ from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
 from studies.figure_units import figure_unit
 from studies.hysteresis import Hysteresis
+from studies.modes import Mode
 from studies.pair import Pair, crank_turn_time
 from studies.solve import SERIES, Turn, figures_of, record_turn, require_positions
 
@@ -57,6 +60,17 @@ def crank_turn(reducer: Reducer, settings: list[Setting], positions: int = 72) -
     plant.set("load_torque", 0.5 * torque)
     half = record_turn(pair, positions)
     return CrankTurn(reducer, full, figures_of(reducer, plant, full, half, torque))
+
+
+def mode_table(found: Mapping[tuple[bool, bool], Sequence[Mode]]) -> Table:
+    """Modes by (input held, under load): frequency, damping, what moves, share of each body in the kinetic energy."""
+    rows = [
+        {"input": "held" if held else "free", "loaded": loaded, "frequency_Hz": mode.frequency_Hz, "damping_ratio": mode.damping_ratio, "moves": mode.moves}
+        | {f"energy of {body}": share for body, share in mode.energy_share.items()}
+        for (held, loaded), modes in found.items() for mode in modes
+    ]  # fmt: skip
+    keys = dict.fromkeys(key for row in rows for key in row)
+    return rows_table("modes", [{key: row.get(key, 0.0) for key in keys} for row in rows], {})
 
 
 def loop_figures(loop: Hysteresis) -> dict[str, float]:

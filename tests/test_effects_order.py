@@ -121,8 +121,16 @@ def compare_orders() -> None:
     for name, value in results(reducer).items():
         scale = np.abs(first[name]).max()
         # What is left of the forces in equilibrium is rounding alone.
-        assert name.endswith(" residual") or np.abs(value - first[name]).max() <= ROUNDING * scale, name
+        assert name.endswith(" residual") or np.abs(value - first[name]).max() <= ROUNDING * scale + of_angles(name, first), name
     every_stage_starts_anew(reducer)
+
+
+def of_angles(name, first) -> float:
+    """Rounding of a path with the input held: a little way between two angles that are known to some units of their last place."""
+    if not (name.startswith("held") and name.endswith("_path")):
+        return 0.0
+    force = np.abs(first[name.removesuffix("_path")]).max() if name.removesuffix("_path") in first else 1.0
+    return 8.0 * np.finfo(float).eps * np.abs(first["held crank_angle"]).max() * force
 
 
 def every_stage_starts_anew(reducer) -> None:

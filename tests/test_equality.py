@@ -9,7 +9,7 @@ from orchestrator.component import InProcess
 from orchestrator.opening import open_fmu
 
 # Those of the units that the tests build anyway.
-CHOSEN = [s for s in scenarios(8) if s.reducer == "RV20E-121"]
+CHOSEN = [s for s in scenarios(8) if s.reducer == "RV20E-121-rigid"]
 
 
 @pytest.mark.parametrize("scenario", CHOSEN, ids=lambda s: s.name)

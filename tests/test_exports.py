@@ -1,5 +1,6 @@
 """Results for other programs and for papers: what is written is what was computed, with units, and other programs read it."""
 
+import json
 import re
 
 import numpy as np
@@ -19,6 +20,7 @@ from pages import look
 from pages.charts import Curve, chart, polar
 from pages.look import Figure
 from pages.paper import drawn, width_of, write_pictures
+from studies.ensemble.tables import tables_of as ensemble_tables
 from tests.test_discrepancy_page import compared, model_of
 
 DATASET = xr.Dataset(
@@ -175,3 +177,23 @@ def test_nothing_to_draw_is_said(tmp_path):
 def test_more_rows_than_excel_holds(tmp_path):
     with pytest.raises(InputFault, match="more than Excel holds; export .parquet or .csv"):
         write_tables([Table("a", (Column("x", "", np.zeros(1_048_576)),))], tmp_path / "a.xlsx")
+
+
+def test_modes_ladders_and_ensembles_are_tables(tmp_path, capsys):
+    model = tmp_path / "m.toml"
+    model.write_text(
+        '[model]\nname = "m"\nreducer = "RV20E-121"\n[[steps]]\neffects = ["thermal_expansion"]\nverdict = "helped"\n'
+        'held_out_before = 5.8\nheld_out_after = 1.9\n', encoding="utf-8")  # fmt: skip
+    assert main(["ladder", str(model), "--export", str(tmp_path / "steps.csv"), "--quiet"]) == 0
+    steps = pd.read_csv(tmp_path / "steps.csv")
+    assert steps[["effects", "held_out_after"]].values.tolist() == [["thermal_expansion", 1.9]] and steps["training_after"].isna().all()
+    assert main(["modes", "--export", str(tmp_path / "modes.csv"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["modes"]
+    assert pd.read_csv(tmp_path / "modes.csv")["frequency_Hz"].tolist() == pytest.approx([mode["frequency_Hz"] for mode in told])
+    found = {
+        "distributions": {"pin_um": {"mean": {"value": 1.0, "low": 0.5, "high": 1.5}}}, "life_hours": {"50 %": {"value": None, "low": 9e3, "high": None}},
+        "sensitivity": {"pin_um": {"bearing.clearance": {"alone": 0.2, "total": 0.3}}},
+    }  # fmt: skip
+    distributions, shares = (table.frame() for table in ensemble_tables(found))
+    assert distributions.iloc[0].tolist() == ["pin_um", "mean", "um", 1.0, 0.5, 1.5] and np.isnan(distributions.iloc[1]["value"])
+    assert shares.values.tolist() == [["pin_um", "bearing.clearance", 0.2, 0.3]]

@@ -8,6 +8,7 @@ import pytest
 
 from cli import progress as shown
 from cli.bars import Bars
+from cli.durations import Durations
 from fmu_src.progress import Task, say, task, told_to
 
 
@@ -44,7 +45,7 @@ def test_on_a_terminal_there_are_bars_and_they_go(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setenv("TERM", "xterm-256color")
-    bars = shown.new_screen()
+    bars = shown.new_screen(["solve"]).inner
     assert isinstance(bars, Bars)
     with told_to(bars), task("equilibria", total=4) as turning:
         turning.advance(2)
@@ -59,3 +60,29 @@ def test_without_a_listener_nothing_happens(capsys):
         silent.advance()
         say("unheard")
     assert capsys.readouterr() == ("", "")
+
+
+def test_what_nobody_can_count_is_told_from_the_last_time(tmp_path, monkeypatch):
+    """By the command line, else by what is done; short tasks and those that know it themselves are left alone."""
+    monkeypatch.setattr("cli.durations.cache_folder", lambda name: tmp_path)
+
+    def run(words, what, passed, **more):
+        task = Task(what, **more)
+        durations = Durations(words)
+        durations.begin(task)
+        before = task.before
+        task.begun -= passed
+        durations.end(task)
+        return before
+
+    assert run(["compare", "a"], "comparing", 20.0) is None
+    assert run(["compare", "b"], "comparing", 40.0) == 20.0
+    assert run(["compare", "a"], "comparing", 1.0) == 20.0 and run(["compare", "c"], "comparing", 1.0) == 40.0
+    assert run(["compare", "a"], "comparing", 9.0, total=3) is None and run(["diagnose", "a"], "comparing", 1.0) is None
+    task = Task("comparing", before=20.0)
+    task.begun -= 5.0
+    assert task.sentence() == "comparing, about 15 s left"
+    task.begun -= 30.0
+    assert task.sentence() == "comparing, for 35 s now"
+    (tmp_path / "tasks").write_bytes(b"damaged")
+    assert run(["compare", "a"], "comparing", 1.0) is None

@@ -94,7 +94,8 @@ def test_it_equals_the_pair(rv20e, values):
 def test_looks_at_lost_motion_change_nothing_else(rv20e):
     often, never = (run_with_wear(rv20e, 100, judgement_interval=interval) for interval in (0.0, 1e9))
     judged = {"judgement_interval", "lost_motion", "remaining_life", "limited_by", "turned", "judged_time",
-              "judged_flank_volume", "judged_inner_volume", "judged_outer_volume", "z_forward", "z_backward"}  # fmt: skip
+              "judged_flank_volume", "judged_inner_volume", "judged_outer_volume", "z_forward", "z_backward", "own_rate",
+                  "estimated_lost_motion", "estimated_remaining", "estimated_time"}  # fmt: skip
     for v in often.table.variables:
         if v.role != "scratch" and v.name not in judged:
             assert (often.records[v.name] == never.records[v.name]).all(), v.name
@@ -233,7 +234,7 @@ def test_fmus_are_valid_and_equal_the_kernels(rv20e, one_unit_fmus, flavour):
 
 
 def test_few_connections_are_enough(rv20e):
-    assert sum(v.size for v in rv20e.joint.of_role("input")) == 4
+    assert sum(v.size for v in rv20e.joint.of_role("input")) == 5
     assert sum(v.size for v in rv20e.joint.of_role("output")) < 80
 
 

@@ -140,7 +140,7 @@ def documented_commands():
     for page in pages:
         text = page.read_text(encoding="utf-8")
         for block in re.findall(r"```(?:sh|console|)\n(.*?)```", text, re.DOTALL):
-            for line in block.splitlines():
+            for line in block.replace("\\\n", " ").splitlines():
                 line = line.removeprefix("$ ").split("   ")[0].strip()
                 # Of a command alone only the name is shown.
                 if line.startswith("rvwear ") and len(line.split()) > 3 and not LOOSE.search(line):

@@ -128,10 +128,16 @@ def test_installed_is_the_wheel_with_the_same_sources(ran, installed):
 @pytest.mark.parametrize("command", [
     "solve --reducer BX-40E", "hysteresis", "modes", "run --turns 0.2", "life --hours 60 --positions 8", "effects", "completion bash",
     "effects needle_clearance --html effect.html", "dynamics-wear --hours 1 --cycles 1 --speeds 1", "reproduce T01",
-    "campaign template bench",
+    "campaign template bench", "doctor", "schema reducer", "reducer list", "hysteresis --steps 4 --angles 1 --export loop.mat",
 ])  # fmt: skip
 def test_commands(ran, command):
     assert ran("rvwear", *command.split())
+
+
+@pytest.mark.campaign
+def test_the_front_door_opens(ran):
+    script = "import rvwear; print(rvwear.__version__, *rvwear.hysteresis(steps=4, angles=1)['torque'].dims); print(*rvwear.reducers())"
+    assert ran("python", "-c", script).startswith(f"{project().version} step\nBX-40E")
 
 
 @pytest.mark.campaign

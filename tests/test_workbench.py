@@ -169,6 +169,18 @@ def test_corrections_of_conditions_that_are_gone_are_said_and_left_out(tmp_path)
     assert found["proposal"]["conditions"].keys() == {"20degC"} and "30degC" in found["gone"][0]
 
 
+def test_a_correction_that_nothing_can_be_made_of_changes_nothing(tmp_path):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    folder.new_file("Schleife_30.csv", CSV.encode())
+    wish(folder, {"reducer": "RV20E-121", "names": ["loop_{temperature}degC_{replicate}", "Schleife_{temperature}"]})
+    with pytest.raises(InputFault, match="^Schleife_30.csv does not fit names"):
+        wish(folder, {"reducer": "RV20E-121", "names": ["loop_{temperature}degC_{replicate}"]})
+    assert view(folder)["proposal"]["conditions"].keys() == {"20degC", "30degC"}
+
+
 def test_what_is_wrong_is_said_in_words(served):
     _, address = served
     for path, given, words in (
@@ -221,6 +233,22 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert (bounded["low"], round(bounded["high"], 9), bounded["unit"], bounded["bounds"]) == (0.0, 10.0, "µm", [0.0, 1000.0])
     carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
+
+
+def test_orders_are_shown_by_their_amplitude():
+    import numpy as np
+
+    from workbench.look import amplitudes_of
+
+    assert amplitudes_of(np.array([78.0, 1.0, 78.0, 1.0]), np.array([3.0, 0.0, 4.0, -2.0])).tolist() == [2.0, 5.0]
+
+
+def test_only_what_there_is_is_exported(tmp_path):
+    from workbench.steps import STEPS, export_step
+
+    assert set(STEPS) == set(jobs.KINDS)
+    with pytest.raises(InputFault, match="csv, xlsx"):
+        export_step(opened(tmp_path), {"what": "compare", "ending": "exe"}, 1, tmp_path)
 
 
 def test_of_many_samples_one_turn_is_tried():

@@ -1,6 +1,7 @@
 """In: what the dropped files are taken for and why, corrected by what was clicked, saved as the command line's campaign.toml."""
 
 import hashlib
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -92,6 +93,34 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[s
     return propose(files, fitting, name), [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
 
 
+def wish(folder: Folder, given: dict[str, Any]) -> None:
+    """Remember what was corrected; InputFault where nothing could be made of the files any more, and all stays as it was.
+
+    Where nothing can be made of them as it is, every step counts.
+    """
+    wishes_of(given)
+    try:
+        proposed(folder, given)
+    except InputFault as fault:
+        if folder.measurements() and not fault_of(folder):
+            raise InputFault(in_words(folder, fault)) from None
+    folder.remember(WISHES, given)
+
+
+def fault_of(folder: Folder) -> str:
+    """Why nothing can be made of the files as they stand; empty if something can."""
+    try:
+        proposed(folder, folder.recall(WISHES))
+    except InputFault as fault:
+        return in_words(folder, fault)
+    return ""
+
+
+def in_words(folder: Folder, fault: InputFault) -> str:
+    """A fault of the command without its options and without the folder's own path."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", " "), str(fault)).replace(f"{folder.root}/", "")
+
+
 def view(folder: Folder) -> dict[str, Any]:
     """Everything that the page shows of its files."""
     given = folder.recall(WISHES)
@@ -107,13 +136,14 @@ def view(folder: Folder) -> dict[str, Any]:
     try:
         proposal, found["gone"] = proposed(folder, given)
     except InputFault as fault:
-        found["fault"] = str(fault).replace(f"{folder.root}/", "")
+        found["fault"] = in_words(folder, fault)
         return found
     found["proposal"] = proposal.as_json()
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
+    found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
     found["command"] = command(folder, given)
     return found
 

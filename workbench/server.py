@@ -84,11 +84,9 @@ class Workbench:
         return JSONResponse(await run_in_threadpool(choices))
 
     async def wish(self, request: Request) -> Response:
-        from workbench.intake import WISHES, wishes_of
+        from workbench.intake import wish
 
-        given = await content(request)
-        wishes_of(given)
-        self.folder.remember(WISHES, given)
+        await run_in_threadpool(wish, self.folder, await content(request))
         return await self.intake(request)
 
     async def save(self, request: Request) -> Response:
@@ -121,9 +119,10 @@ class Workbench:
         view = folder.recall("view")
         if not view.get("model"):
             view["model"] = folder.measured()
+        stamps: dict[str, str] = {}
         return {
             "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "view": view,
-            "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
+            "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind, stamps) for kind in jobs.KINDS},
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:

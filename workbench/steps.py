@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
     from discrepancy.verdict import Answer
 
+# Endings of tables for other programs, and of pictures for a paper.
+TABLES, PICTURES = ("csv", "xlsx", "parquet", "mat"), ("svg", "pdf", "png")
 # (folder, what was asked, cores, place of the results) -> whether it was stopped.
 Step = Callable[[Folder, dict[str, Any], int, Path], bool]
 
@@ -150,6 +152,34 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     return False
 
 
+def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
+    """Curves and figures of a comparison or a diagnosis for other programs, or its pictures for a paper, in ``results``."""
+    from discrepancy.compare import compare
+    from discrepancy.page.write import page_of
+    from discrepancy.remembered import diagnosed
+    from discrepancy.tables import tables_of
+    from exports.write import require_writable, write_tables
+    from pages.paper import require_drawable, width_of, write_pictures
+
+    what, ending = str(given.get("what")), str(given.get("ending"))
+    if what not in ("compare", "diagnose") or ending not in TABLES + PICTURES:
+        raise InputFault(f"{what}, {ending}: there is no such export; choose from {', '.join(TABLES + PICTURES)}")
+    path = folder.root / "results" / f"{what}.{ending}"
+    path.parent.mkdir(exist_ok=True)
+    (require_writable if ending in TABLES else require_drawable)(path)
+    with task("computing what is exported"):
+        made = (compare if what == "compare" else diagnosed)(*inputs(folder, given), jobs=jobs)
+    with task(f"writing {path.name}"):
+        if ending in TABLES:
+            written = write_tables(tables_of(made), path)
+        else:
+            written = write_pictures([figure for section in page_of(made).sections for figure in section.figures], path, width_of("single"))
+    option = "--export" if ending in TABLES else "--picture"
+    files = [{"name": file.relative_to(folder.root).as_posix(), "bytes": file.stat().st_size} for file in written]
+    write_json(place / "result.json", {"files": files, "what": what, "command": f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"})
+    return False
+
+
 def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from discrepancy.extend import build_units
     from discrepancy.model_file import load_model
@@ -170,5 +200,6 @@ def command(folder: Folder, given: dict[str, Any], name: str) -> str:
 
 
 STEPS: dict[str, Step] = {
-    "compare": compare_step, "diagnose": diagnose_step, "next": next_step, "extend": extend_step, "build": build_step, "life": life, "ensemble": ensemble,
+    "compare": compare_step, "diagnose": diagnose_step, "next": next_step, "extend": extend_step, "build": build_step, "export": export_step,
+    "life": life, "ensemble": ensemble,
 }  # fmt: skip

@@ -45,17 +45,19 @@ def scenarios(count: int = 50) -> list[Scenario]:
     """The named ones first, then random sets of the three topologies in turn."""
     fast: dict[str, Value] = {"acceleration": 1e6}
     found = [
-        Scenario("plant", "RV20E-121", "rv_plant", 1.3e-3),
-        Scenario("plant, every effect", "RV20E-121", "rv_plant", 1.3e-3, everything(PLANT)),
-        Scenario("plant in motion", "RV20E-121", "rv_plant", 1e-4, {"fidelity": 1}),
-        Scenario("plant in motion, constrained joints", "BX-40E", "rv_plant", 1e-4, {"fidelity": 1, "joints": 1}),
-        Scenario("plant driven by torque", "RV20E-121", "rv_plant", 1e-4, {"fidelity": 1, "drive": 1, "input_torque": 1.5}),
-        Scenario("wear", "RV20E-121", "wear_fmu", 1e-3, fast),
-        Scenario("wear, every effect", "RV20E-121", "wear_fmu", 1e-3, fast | everything(WEAR)),
-        Scenario("wear of standing pins", "RV20E-121", "wear_fmu", 1e-3, fast | {"pins": 1}),
+        Scenario("plant", "RV20E-121-rigid", "rv_plant", 1.3e-3),
+        Scenario("plant, every effect", "RV20E-121-rigid", "rv_plant", 1.3e-3, everything(PLANT)),
+        Scenario("plant of the reducer with its supports", "RV20E-121", "rv_plant", 1.3e-3),
+        Scenario("plant in motion", "RV20E-121-rigid", "rv_plant", 1e-4, {"fidelity": 1}),
+        Scenario("plant in motion, constrained joints", "BX-40E-rigid", "rv_plant", 1e-4, {"fidelity": 1, "joints": 1}),
+        Scenario("plant driven by torque", "RV20E-121-rigid", "rv_plant", 1e-4, {"fidelity": 1, "drive": 1, "input_torque": 1.5}),
+        Scenario("wear", "RV20E-121-rigid", "wear_fmu", 1e-3, fast),
+        Scenario("wear, every effect", "RV20E-121-rigid", "wear_fmu", 1e-3, fast | everything(WEAR)),
+        Scenario("wear of standing pins", "RV20E-121-rigid", "wear_fmu", 1e-3, fast | {"pins": 1}),
         *(Scenario("reducer", name, "rv_reducer", 1e-3, fast) for name in REDUCERS),
-        Scenario("reducer in motion", "RV20E-121", "rv_reducer", 1e-4, fast | {"fidelity": 1}),
-        Scenario("reducer, every effect", "RV20E-121", "rv_reducer", 1e-3, fast | everything(PLANT, WEAR)),
+        Scenario("reducer with its supports, in motion", "BX-40E", "rv_reducer", 1e-4, fast | {"fidelity": 1}),
+        Scenario("reducer in motion", "RV20E-121-rigid", "rv_reducer", 1e-4, fast | {"fidelity": 1}),
+        Scenario("reducer, every effect", "RV20E-121-rigid", "rv_reducer", 1e-3, fast | everything(PLANT, WEAR)),
     ]
     for scenario in found:
         # What a topology lacks is not to be set.

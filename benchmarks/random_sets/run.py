@@ -24,7 +24,7 @@ from rv_plant.faults import NO_EQUILIBRIUM, NO_MOTION, NO_START
 from rv_reducer.reducer import OF_WEAR
 from wear_fmu.accumulator import WORN_THROUGH
 
-REDUCERS = ("RV20E-121", "BX-40E", "cycloidal-actuator")
+REDUCERS = ("RV20E-121-rigid", "BX-40E-rigid", "cycloidal-actuator")
 # Of a crank turn and of the worn part behind it.
 STEPS, WORN_STEPS = 72, 12
 WORN = 3e-6  # depth [m] that the worn part is accelerated to

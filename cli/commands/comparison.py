@@ -55,6 +55,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     ladder = sub.add_parser("ladder", help="how the error fell, step by step")
     add_model(ladder)
     add_json(ladder, "print the steps as JSON, nothing else")
+    add_exports(ladder)
     ladder.add_argument("--html", metavar="FILE", help="write a page with the ladder as a picture")
     ladder.set_defaults(run=run_ladder)
 
@@ -90,7 +91,7 @@ def write_html(options: argparse.Namespace, result: object) -> None:
         write_page(result, Path(options.html))
 
 
-def export(options: argparse.Namespace, result: "Comparison | Answer") -> None:
+def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile") -> None:
     """As tables and pictures, if they are asked for."""
     if not options.export and not options.picture:
         return
@@ -269,12 +270,14 @@ def run_ladder(options: argparse.Namespace) -> int:
     from cli.show.comparison import show_ladder
     from discrepancy.model_file import load_model
 
+    check_exports(options)
     file = load_model(options.model)
     write_html(options, file)
     if options.json:
         json_text({"model": file.name, "steps": list(file.steps)})
     else:
         show_ladder(file)
+    export(options, file)
     return 0
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.ending import exit_code
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
@@ -30,6 +31,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     command.add_argument("--output", help="result (default results/NAME_ensemble.json); finished lives are kept beside it")
     command.add_argument("--restart", action="store_true", help="discard the lives that are there")
     add_json(command, "result as JSON on stdout")
+    add_exports(command, pictures=False)
     command.set_defaults(run=ensemble)
 
 
@@ -51,6 +53,7 @@ def compute(options: argparse.Namespace) -> int:
         raise InputFault("--backend dask and --scheduler ADDRESS go together")
     if options.jobs == 0:
         raise InputFault("--jobs 0: give a number of processes, or -1 for one per core")
+    check_exports(options)
     drawn = load_ensemble(options.file, options.samples)
     path = Path(options.output or f"results/{Path(options.file).stem}_ensemble.json")
     if path.suffix != ".json":
@@ -95,4 +98,8 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
     else:
         show(found)
         print(f"result  {path}")
+    if options.export:
+        from studies.ensemble.tables import tables_of
+
+        write_exports(options, lambda: tables_of(found), lambda: ())
     return interrupted

@@ -32,6 +32,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     shapes = sub.add_parser("modes", help="natural frequencies and mode shapes, under load or without, input held or free")
     add_reducer_options(shapes)
     add_json(shapes)
+    add_exports(shapes, pictures=False)
     shapes.add_argument("--free", action="store_true", help="the input turns freely with its inertia (sun.inertia); otherwise it is held")
     shapes.add_argument("--all", action="store_true", dest="every", help="held and free, under load and without: four tables")
     shapes.set_defaults(run=modes)
@@ -96,6 +97,7 @@ def modes(options: argparse.Namespace) -> int:
     from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 
+    check_exports(options)
     reducer = load_reducer(options.reducer)
     settings = settings_of(options, reducer)
     cases = [(held, loaded) for held in (True, False) for loaded in (True, False)] if options.every else [(not options.free, True)]
@@ -108,4 +110,8 @@ def modes(options: argparse.Namespace) -> int:
     else:
         for (held, loaded), some in found.items():
             show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)
+    if options.export:
+        from studies.turn import mode_table
+
+        write_exports(options, lambda: [mode_table(found)], lambda: ())
     return 0

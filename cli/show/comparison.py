@@ -140,7 +140,8 @@ def show_ladder(file: ModelFile) -> None:
             "-" if step.get(f"{runs}_before") is None else f"{step[f'{runs}_before']:.2f} -> {step[f'{runs}_after']:.2f}"
             for runs in ("training", "held_out")
         )
-        table.add_row(" + ".join(step["effects"]), step["campaign"], fitted, unused, step["verdict"] + ("" if step.get("kept", True) else ", not kept"))
+        verdict = step.get("verdict", "") + ("" if step.get("kept", True) else ", not kept")
+        table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), fitted, unused, verdict)
     out.print(table)
 
 

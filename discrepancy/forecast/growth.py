@@ -66,7 +66,8 @@ class Growth:
         first = np.minimum(place.astype(np.intp), nodes.shape[1] - 2)
         share = place - first
         drift = nodes[:, first] * (1.0 - share) + nodes[:, first + 1] * share + TREND * np.log1p(self.hours / FIRST)
-        return self.numbers(x)[1][:, None] * np.exp(np.clip(drift, -20.0, 20.0))
+        found: Floats = self.numbers(x)[1][:, None] * np.exp(np.clip(drift, -20.0, 20.0))
+        return found
 
     def levels(self, x: Floats) -> Floats:
         """L (n, hours)."""
@@ -74,7 +75,8 @@ class Growth:
         t = self.hours
         running = self.rates(x) * (1.0 + excess[:, None] * np.exp(-t / decay[:, None]))
         grown = np.cumsum(0.5 * (running[:, 1:] + running[:, :-1]) * np.diff(t), axis=1)
-        return level[:, None] + np.concatenate([np.zeros((len(x), 1)), grown], axis=1)
+        found: Floats = level[:, None] + np.concatenate([np.zeros((len(x), 1)), grown], axis=1)
+        return found
 
     def at(self, curves: Floats, hours: Floats) -> Floats:
         """Curves (n, hours) at other hours (k,): (n, k)."""

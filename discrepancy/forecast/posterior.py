@@ -22,18 +22,21 @@ def samples(growth: Growth, hours: Floats, values: Floats, noise: Floats, seed: 
     """(CHAINS * KEPT, dim) of ``x`` given readings ``values`` (k,) at ``hours`` (k,) with standard deviations ``noise`` (k,)."""
 
     def misfits(x: Floats) -> Floats:
-        return (growth.at(growth.levels(x), hours) - values) / noise
+        found: Floats = (growth.at(growth.levels(x), hours) - values) / noise
+        return found
 
     def log_density(x: Floats) -> Floats:
-        found: Floats = -0.5 * np.sum(misfits(x) ** 2, axis=1) - 0.5 * np.sum(x**2, axis=1)
-        return np.where(np.isfinite(found), found, -np.inf)
+        sums: Floats = -0.5 * np.sum(misfits(x) ** 2, axis=1) - 0.5 * np.sum(x**2, axis=1)
+        found: Floats = np.where(np.isfinite(sums), sums, -np.inf)
+        return found
 
     centre, root = laplace(misfits, log_density, growth.dimensions)
     rng = np.random.default_rng(seed)
 
     def log_ratio(y: Floats) -> Floats:
         """Of the density to that of the normal law, at y = root^-1 (x - centre)."""
-        return log_density(centre + y @ root.T) + 0.5 * np.sum(y**2, axis=1)
+        found: Floats = log_density(centre + y @ root.T) + 0.5 * np.sum(y**2, axis=1)
+        return found
 
     y = rng.standard_normal((CHAINS, growth.dimensions))
     at = log_ratio(y)

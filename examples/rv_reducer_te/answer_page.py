@@ -16,8 +16,8 @@ from pages.look import Figure
 PUBLISHED = (("best learned model, published", "", 3.9, 8.6), ("best closed form, published", "several hundred", 6.5, 7.1))
 EXPLAINED_BY = {
     0.0: "sensor_offset, support_compliance, friction_windup; play of the completed reducer", 1.0: "encoder_eccentricity",
-    3.0: "encoder_distortion", 39.0: "unequal_discs, tilting_moment", 40.0: "crank_lobe_errors", 78.0: "pin_seats", 81.0: "", 156.0: "torque_ripple, at its resonance",
-    162.0: "", 240.0: "carrier_stiffness",
+    3.0: "encoder_distortion", 39.0: "unequal_discs, tilting_moment", 40.0: "crank_lobe_errors", 78.0: "pin_seats", 81.0: "",
+    156.0: "torque_ripple, at its resonance", 162.0: "", 240.0: "carrier_stiffness",
 }  # fmt: skip
 # An order is explained where at most this share of its amplitude is left (in the middle of the conditions), in part up to the second one.
 EXPLAINED, PARTLY = 0.3, 0.7
@@ -28,17 +28,18 @@ def page_of(result: Mapping[str, Any], records: Sequence[Record], curves: Mappin
     ours = result["errors"]["named physics"]
     numbers = result["fitted_numbers"]["named physics"]
     cards = [
-        *(Card(f"{word}, held out", f"{ours['whole'][word]:.1f}", f"waves alone {ours['waves'][word]:.1f}, means alone {ours['means'][word]:.1f}", unit="arcsec")
-          for word in ours["whole"]),
+        *(Card(f"{w}, held out", f"{ours['whole'][w]:.1f}", f"waves alone {ours['waves'][w]:.1f}, means alone {ours['means'][w]:.1f}", unit="arcsec")
+          for w in ours["whole"]),
         Card("fitted numbers", numbers, "all named below"),
     ]  # fmt: skip
     sections = [
         Section("errors", "Error on conditions that were used for nothing", lead_of_errors(result), tables=[error_table(result)]),
         Section("ladder", "What each effect earned", "Each rung is fitted anew with all before it; errors of whole curve and of its waves alone.",
                 [ladder_figure(result)], [ladder_table(result)]),
-        Section("orders", "Each order", "Left is what the named effects do not predict. Where a few conditions stand in a resonance the root mean square is theirs.", tables=[order_table(result)]),
-        Section("numbers", "Every fitted number", "Intervals by the scatter of what is left (95 %, sandwich), as if conditions were independent: zeros that jump "
-                "between sessions make those of the means too narrow.", tables=[number_table(result)]),
+        Section("orders", "Each order", "Left is what the named effects do not predict. Where a few conditions stand in a resonance the root mean"
+                " square is theirs.", tables=[order_table(result)]),
+        Section("numbers", "Every fitted number", "Intervals by the scatter of what is left (95 %, sandwich), as if conditions were independent:"
+                " zeros that jump between sessions make those of the means too narrow.", tables=[number_table(result)]),
         Section("means", "What no effect carries", MEANS, [mean_figure(records, curves)]),
         Section("curves", "Held-out curves", "Measured (sum of the ten orders) and predicted, over a turn of the output.", curve_figures(records, curves)),
     ]  # fmt: skip
@@ -47,15 +48,19 @@ def page_of(result: Mapping[str, Any], records: Sequence[Record], curves: Mappin
 
 
 MEANS = (
-    "Most of the error is the mean, which no function of torque, speed, temperature and sense carries: neighbouring runs of one speed and temperature stand on "
-    "straight lines that jump by 10 to 30 arcsec from one group of torques to the next, while their waves go on smoothly. That is a zero of the encoders that was set "
-    "anew, no part of the reducer. Repeating three conditions on another day would tell: their waves agree, their means do not. A loop with the input held, from one sense "
-    "of torque to the other in one go, measures compliance, lost motion and friction without any zero."
+    "Most of the error is the mean, which no smooth function of torque, speed, temperature and sense carries: neighbouring runs of one speed and"
+    " temperature stand on straight lines that jump by 10 to 30 arcsec from one group of torques to the next, while their waves go on smoothly. That"
+    " looks like a zero of the encoders that was set anew, or slipped, and like no part of the reducer. Repeating three conditions on another day would"
+    " tell: if so, their waves agree and their means do not. A loop with the input held, from one sense of torque to the other in one go, measures"
+    " compliance, lost motion and friction without any zero. Orders 156, 162 and 240 swell between 50 and 58 Hz by more than a resonance makes of what"
+    " they are at low speed, and turn round at frequencies that differ between them: something else drives them there. Run-ups through that range with"
+    " torque measured on both shafts would tell what; order 81 depends on the sense alone and goes with the input: its encoder turned on its shaft would tell."
 )
 
 
 def finding(result: Mapping[str, Any]) -> str:
-    ours, best = result["errors"]["named physics"]["whole"], {word: min(e["whole"][word] for e in result["errors"].values()) for word in ("forward", "backward")}
+    ours = result["errors"]["named physics"]["whole"]
+    best = {word: min(e["whole"][word] for e in result["errors"].values()) for word in ours}
     parts = []
     for word, mark in (("forward", 6.5), ("backward", 7.1)):
         if word in ours:
@@ -66,8 +71,9 @@ def finding(result: Mapping[str, Any]) -> str:
 
 def lead_of_errors(result: Mapping[str, Any]) -> str:
     return (
-        "Whole combinations of torque, speed, temperature and sense of rotation were held out. Mean absolute error [arcsec] of the curve that the ten orders make, over a turn and over "
-        f"conditions; the ten orders leave 1.1 arcsec of the raw curve. Beside it {len(result['splits']['named physics'])} other splits, mean and standard deviation. "
+        "Whole combinations of torque, speed, temperature and sense of rotation were held out. Mean absolute error [arcsec] of the curve that the ten"
+        " orders make, over a turn and over conditions; the ten orders leave 1.1 arcsec of the raw curve. Beside it"
+        f" {len(result['splits']['named physics'])} other splits, mean and standard deviation. "
         "Published marks come from a split of 969 conditions, where nearly every held-out one has neighbours of its own session."
     )
 
@@ -93,8 +99,8 @@ def ladder_figure(result: Mapping[str, Any]) -> Figure:
         Curve(f"{kind}, {word}", count, np.array([rung["held_out"][key][word] for rung in result["ladder"]]), mode="lines+markers", dash=dash)
         for key, kind, dash in (("whole", "whole curve", "solid"), ("waves", "waves alone", "dot")) for word in result["ladder"][0]["held_out"]["whole"]
     ]  # fmt: skip
-    return chart("ladder", "Error on held-out conditions over fitted numbers", "Rungs from left to right as in the table.", curves, "fitted numbers", "arcsec", 12,
-                 y_axis={"type": "log"})
+    caption = "Rungs from left to right as in the table."
+    return chart("ladder", "Error on held-out conditions over fitted numbers", caption, curves, "fitted numbers", "arcsec", 12, y_axis={"type": "log"})
 
 
 def ladder_table(result: Mapping[str, Any]) -> Table:
@@ -105,7 +111,8 @@ def ladder_table(result: Mapping[str, Any]) -> Table:
             for kind in ("whole", "waves"):
                 row.append(", ".join(f"{rung[part][kind][word]:.2f}" for word in rung[part][kind]))
         rows.append(row)
-    return Table("Mean absolute error, forward, backward [arcsec]", ["effect", "what it explains", "numbers", "fitted: whole", "fitted: waves", "held out: whole", "held out: waves"], rows, (2, 3, 4, 5, 6))
+    head = ["effect", "what it explains", "numbers", "fitted: whole", "fitted: waves", "held out: whole", "held out: waves"]
+    return Table("Mean absolute error, forward, backward [arcsec]", head, rows, (2, 3, 4, 5, 6))
 
 
 def order_table(result: Mapping[str, Any]) -> Table:
@@ -137,7 +144,8 @@ def mean_figure(records: Sequence[Record], curves: Mapping[int, tuple[Floats, Fl
         for speed in sorted({round(r.factors["speed"] * 30.0 / np.pi) for r in here}):
             runs = [r for r in here if round(r.factors["speed"] * 30.0 / np.pi) == speed]
             if len(runs) > 3:
-                lines.append(Curve(f"{word} {speed} rpm", np.array([r.factors["load"] for r in runs]), np.array([r.values[0] for r in runs]) / ARCSEC, mode="lines+markers"))
+                torque, mean = np.array([(r.factors["load"], r.values[0] / ARCSEC) for r in runs]).T
+                lines.append(Curve(f"{word} {speed} rpm", torque, mean, mode="lines+markers"))
     return chart("means", "Measured means over the torque", "Speeds with more than three runs of a sense.", lines, "torque [N m]", "arcsec", 12, 360)
 
 

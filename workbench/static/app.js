@@ -12,6 +12,7 @@ const WORK = {
   next: "Looking for the next experiment",
   extend: "Adding the effect",
   build: "Building FMUs",
+  export: "Exporting",
   life: "Living",
   ensemble: "Living many times",
 };

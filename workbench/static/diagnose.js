@@ -2,6 +2,7 @@
 
 import { addPart, ladder, nextPart } from "./better.js";
 import { clear, command, duration, h, note, table, words } from "./dom.js";
+import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
 
@@ -38,6 +39,7 @@ export function show(root, context) {
           answer ? (answer.verdict === "stopped" ? "Go on" : "Diagnose again") : "Diagnose",
         ),
         answer ? h("a", { class: "button", href: "results/diagnose/report?download", download: "" }, "Save as one file") : null,
+        answer ? exportMenu(context, "diagnose", () => answer.model) : null,
         job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since") : null,
         answer && context.model() && answer.model !== context.model() ? h("span", { class: "fair" }, `the answer is of ${answer.model}`) : null,
       ),
@@ -90,6 +92,7 @@ export function show(root, context) {
     }
     clear(
       body,
+      exported(context, "diagnose"),
       h(
         "div",
         { class: `panel verdict ${answer.tone}`, id: "verdict" },
@@ -184,7 +187,7 @@ export function show(root, context) {
   load();
   const mark = (state) =>
     JSON.stringify(
-      ["diagnose", "next", "extend", "build"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old]),
+      ["diagnose", "next", "extend", "build", "export"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old]),
     ) +
     context.model() +
     state.models +

@@ -68,8 +68,9 @@ export function show(root, context) {
     if (found) {
       clear(faults);
       data = found;
-      draw();
     }
+    // What was refused is shown as it was.
+    draw();
   }
   const bag = {
     get data() {
@@ -104,7 +105,18 @@ export function show(root, context) {
     clear(
       body,
       head(),
-      data.fault ? note(data.fault, "bad") : null,
+      data.fault
+        ? [
+            note(data.fault, "bad"),
+            Object.keys(data.wishes).length > 1
+              ? h(
+                  "button",
+                  { type: "button", id: "anew", onclick: () => wish((w) => Object.keys(w).forEach((key) => key !== "reducer" && delete w[key])) },
+                  "Begin again with the guesses",
+                )
+              : null,
+          ]
+        : null,
       data.gone.map((text) => note(text)),
       data.proposal ? [questions(bag), runs(bag), conditions(bag), saved(), found(), textOf()] : files(),
     );
@@ -161,7 +173,7 @@ export function show(root, context) {
       h(
         "p",
         { class: "lead", style: { margin: "4px auto 14px" } },
-        "CSV as it is found (semicolons, decimal commas, any encoding, lines above the table), Parquet, MAT, MDF or TDMS; files or a folder, several at once. They are copied into this folder and go nowhere else.",
+        "CSV as it is found (semicolons, decimal commas, any encoding, lines above the table), Excel, Parquet, MAT, MDF or TDMS; files or a folder, several at once. They are copied into this folder and go nowhere else.",
       ),
       chooseFiles(),
     );
@@ -225,7 +237,13 @@ export function show(root, context) {
         { type: "button", class: "main", id: "save", disabled: !data.proposal.reducer, onclick: save },
         data.saved ? "Save anew and compare" : needs ? "Save" : "Save and compare",
       ),
-      data.saved ? h("span", { class: "quiet" }, data.own ? "campaign.toml is saved" : "campaign.toml was written elsewhere and is not overwritten") : null,
+      data.saved
+        ? h(
+            "span",
+            { class: "quiet" },
+            data.own ? (data.same ? "campaign.toml is saved" : "changed since it was saved") : "campaign.toml was written elsewhere and is not overwritten",
+          )
+        : null,
       data.saved
         ? h(
             "button",

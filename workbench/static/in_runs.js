@@ -70,7 +70,10 @@ function group(bag, members) {
     title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
     onchange: () =>
       wish((w) => {
-        w.names = [...(w.names ?? []).filter((n) => n !== first.names), ...(pattern.value.trim() ? [pattern.value.trim()] : [])];
+        // Where one pattern is given each file needs one: those of the other groups stay as they were guessed.
+        const others = data.proposal.runs.map((run) => run.names).filter((n) => n !== first.names);
+        const given = pattern.value.trim();
+        w.names = given ? [...new Set([given, ...others])] : [];
       }),
   });
   return h(

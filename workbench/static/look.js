@@ -2,6 +2,7 @@
 
 import { clear, command, h, note, number } from "./dom.js";
 import { fails, keyFigures, notes, singles, spec } from "./look_parts.js";
+import { exported, exportMenu } from "./export.js";
 import { get, numbers } from "./net.js";
 import { orders } from "./orders.js";
 import { Link, Plot } from "./plot.js";
@@ -53,6 +54,7 @@ export function show(root, context) {
         result ? "Compare again" : "Compare",
       ),
       result ? h("a", { class: "button", href: "results/compare/report?download", download: "" }, "Save as one file") : null,
+      result ? exportMenu(context, "compare", () => result.model) : null,
       job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since: compare again") : null,
       result && context.model() && result.model !== context.model() ? h("span", { class: "fair" }, `what is shown is of ${result.model}`) : null,
     );
@@ -89,6 +91,7 @@ export function show(root, context) {
       body,
       bar(),
       fault,
+      exported(context, "compare"),
       h("h1", {}, result.title),
       h("p", { class: "lead" }, result.finding),
       figures(),
@@ -246,7 +249,7 @@ export function show(root, context) {
         h(
           "span",
           { class: "quiet" },
-          `the band is two standard deviations of the noise, ${number(2 * members[0].noise, 3)} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
+          `${members[0].stems ? `noise of an order ${number(members[0].noise, 3)}` : `the band is two standard deviations of the noise, ${number(2 * members[0].noise, 3)}`} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
         ),
       ),
       signal.spectra?.length ? orders(signal, condition === "*" ? signal.spectra[0].condition : condition, result, plots) : null,
@@ -256,9 +259,13 @@ export function show(root, context) {
   draw();
   load();
   let seen = context.state?.jobs.compare?.begun + String(context.state?.jobs.compare?.state),
+    exports = "",
     model = context.model();
   return {
     update(state) {
+      const written = `${state.jobs.export?.begun}${state.jobs.export?.state}`;
+      if (written !== exports && exports && result) draw();
+      exports = written;
       const job = state.jobs.compare,
         now = job?.begun + String(job?.state) + job?.result + (job?.state === "running" ? job.tasks.length > 1 && job.tasks.at(-1)?.what : "");
       if (now !== seen || model !== context.model()) {

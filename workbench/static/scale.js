@@ -5,7 +5,7 @@ export function ticks(low, high, wanted) {
   if (!(span > 0) || !Number.isFinite(span)) return [];
   const raw = span / Math.max(1, wanted),
     power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 2.5, 5, 10].map((k) => k * power).find((s) => s >= raw * 0.999);
+  const step = [1, 2, 2.5, 5, 10].map((k) => k * power).find((s) => s >= raw * 0.75);
   const found = [];
   for (let v = Math.ceil(low / step - 1e-9) * step; v <= high + 1e-9 * span; v += step) found.push(Math.abs(v) < 1e-9 * step ? 0 : v);
   return found;
