@@ -24,6 +24,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.observe import lost_motion_at
 from discrepancy.prediction.units import Condition
 from fmu_src.arrays import Floats
+from rv_reducer import estimate
 
 HOUR, ARCSEC = 3600.0, math.pi / 648000.0
 # Hours of constant wear at which the reducer is looked at [h]; beyond the last it goes on along a straight line.
@@ -121,8 +122,28 @@ def through_points(readings: Sequence[Reading], limit: float, powers: Floats) ->
     return range_of(np.concatenate(left))
 
 
+def by_filter(life: Life) -> Range:
+    """RvReducer's filter, told by the forecast after the second inspection and given the others one by one."""
+    told = forecast(life.readings[:2], life.limit)
+    cells = [v.name for v in estimate.variables()] + ["lost_motion", "lost_motion_limit", "operating_time", "own_rate"]
+    r = np.zeros(1, [(name, float) for name in cells]).view(np.recarray)
+    first, second = life.readings[:2]
+    r["lost_motion"] = r["measured_lost_motion"] = second.value * ARCSEC
+    r["lost_motion_limit"], r["operating_time"], r["reading_noise"] = life.limit * ARCSEC, second.hours * HOUR, first.noise * ARCSEC
+    r["expected_rate"], r["rate_deviation"], r["rate_drift"] = told.rate.middle * ARCSEC / HOUR, told.rate_deviation, told.drift / HOUR
+    estimate.start_estimate(r[0])
+    for reading in life.readings[2:]:
+        r["operating_time"], r["measured_lost_motion"] = reading.hours * HOUR, reading.value * ARCSEC
+        estimate.estimate(r[0])
+    rate, left = float(r["estimated_rate"][0]), float(r["estimated_remaining"][0]) / HOUR
+    to_go = max((life.limit * ARCSEC - float(r["estimated_lost_motion"][0])), 1e-9)
+    spread = math.exp(1.645 * math.hypot(math.sqrt(float(r["rate_variance"][0])) / rate, math.sqrt(float(r["level_variance"][0])) / to_go))
+    return Range(left, left / spread, left * spread)
+
+
 MODELS: dict[str, Callable[[Life], Range]] = {
     "forecast": lambda life: forecast(life.readings, life.limit).remaining,
+    "filter in the unit": by_filter,
     "straight line": lambda life: through_points(life.readings, life.limit, np.array([1.0])),
     "power law": lambda life: through_points(life.readings, life.limit, np.linspace(0.2, 3.0, 57)),
 }
@@ -162,7 +183,7 @@ def main() -> None:
     options.output.parent.mkdir(parents=True, exist_ok=True)
     options.output.write_text(json.dumps(found, indent=1))
     for name, figures in found.items():
-        print(f"{name:15}" + ", ".join(f"{key} {value:.3g}" for key, value in figures.items()))
+        print(f"{name:20}" + ", ".join(f"{key} {value:.3g}" for key, value in figures.items()))
 
 
 if __name__ == "__main__":
