@@ -7,11 +7,11 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-from fmu_src.display import display_unit, displays
+from fmu_src.display import Display, display_unit, displays
 from fmu_src.project import Project
 from fmu_src.table import Table
 from fmu_src.unit import LOG_CATEGORIES, Specification
-from fmu_src.units import fmi_base_unit
+from fmu_src.units import conversion, fmi_base_unit
 from fmu_src.variables import SETTABLE, Variable
 
 # Relative accuracy of forces and depths at the default step.  The units hold their own error bounds (``numerics``), whatever step
@@ -72,10 +72,17 @@ def add_units(root: Element, variables: list[Variable], inverses: bool = False) 
         attributes = {k: repr(v) if k in ("factor", "offset") else f"{v:g}" for k, v in fmi_base_unit(unit).items()}
         element = SubElement(definitions, "Unit", name=unit)
         SubElement(element, "BaseUnit", attributes)
-        for shown in displays(unit):
+        for shown in [*displays(unit), *own_displays(unit, variables)]:
             if inverses or not shown.inverse:
                 how = {"offset": repr(shown.offset)} if shown.offset else {"inverse": "true"} if shown.inverse else {}
                 SubElement(element, "DisplayUnit", {"name": shown.name, "factor": repr(shown.factor), **how})
+
+
+def own_displays(unit: str, variables: list[Variable]) -> list[Display]:
+    """What single variables of the unit are shown in beside that which all of it may be: importers refuse one that is not defined."""
+    known = {unit, *(shown.name for shown in displays(unit))}
+    names = sorted({v.display for v in variables if v.unit == unit and v.display} - known)
+    return [Display(name, *conversion(unit, name)) for name in names]
 
 
 def add_types(root: Element, variables: list[Variable]) -> None:

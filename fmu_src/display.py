@@ -14,7 +14,7 @@ from fmu_src.variables import Variable
 USUAL = {
     "m": (("mm", 1e-4), ("um", 0.0)),
     "rad": (("turn", 1e6), ("deg", 1e-2), ("arcmin", 2e-4), ("arcsec", 0.0)),
-    "rad/s": (("rpm", 0.0),),
+    "rad/s": (("rpm", 1e-9), ("arcsec/h", 0.0)),
     "rad/s^2": (("rpm/s", 0.0),),
     "s": (("h", 3600.0), ("s", 0.1), ("us", 0.0)),
     "K": (("degC", 0.0),),

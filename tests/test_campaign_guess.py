@@ -13,7 +13,7 @@ from asammdf import MDF, Signal
 from nptdms import ChannelObject, TdmsWriter
 
 from cli.main import main
-from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.file_names import by_pattern, proposed, suggested
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
@@ -348,9 +348,17 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
     (tmp_path / "te_167Nm_15rpm_1.csv").rename(tmp_path / "run_1.csv")
     assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 0
     shown = capsys.readouterr().out
-    assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition '...'" in shown
+    assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition 'output_speed=15 rpm' --condition 'load_torque=167 N.m'" in shown
     assert any("states no load, which run_1 need" in text and "the model's own is taken" in text for text in incomplete(load_campaign(tmp_path)))
     said = ["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--condition", "load_torque=100 N.m", "--condition", "output_speed=15 rpm"]
     assert main(said) == 2 and "give --overwrite to have it written anew" in capsys.readouterr().err
     assert main([*said, "--overwrite"]) == 0
     assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("patterns, found", [
+    (["g7_T50_{replicate}", "g7_T100_{replicate}"], "g7_T{load}_{replicate}"), (["g7_T50", "g8_T100"], None), (["g7_T50"], None),
+    (["a_b", "a_c"], None), (["T50kalt", "T100kalt"], "T{load}kalt"), (["T50_x", "M50_x"], None),
+])  # fmt: skip
+def test_names_that_differ_by_a_number_behind_letters_are_asked_about(patterns, found):
+    assert suggested(patterns, "load") == found

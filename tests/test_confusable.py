@@ -80,6 +80,12 @@ def test_an_effect_whose_shape_nothing_tells_is_a_simpler_one_in_disguise():
     assert names([rival("slip", 99.0, shape=5.0, known=1.0), rival("spring", 100.0)]) == ["spring", "slip"]
 
 
+def test_effects_with_unknown_shapes_that_fit_equally_well_are_told_together():
+    """Two depths: neither when grease aged nor by which power wear grew is known, and nothing simpler comes near."""
+    aged, grown, gain = rival("aged", 99.0, shape=5.0, known=30.0), rival("grown", 99.2, shape=5.0, known=30.0), rival("gain", 125.0)
+    assert names([aged, grown, gain]) == ["aged", "grown"]
+
+
 def judged(before, after, p=0.5):
     return HeldOut(before, after, p, {}, "held-out runs")
 

@@ -21,10 +21,10 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, UNKNOWN
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
-from discrepancy.page.panels import band, ways
 from discrepancy.page.spectra import amplitudes
 from discrepancy.problem import Candidate, Parameter, Record
 from discrepancy.verdict import Answer, merged
+from pages.words import counted
 
 ARCSEC = np.pi / 180.0 / 3600.0
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)
@@ -193,6 +193,17 @@ def test_comparison_without_findings_held_out_runs_or_nuisances(tmp_path):
     assert "Nothing was declared for calibration" in page and "(held out)" not in page
 
 
+def test_comparison_begins_with_what_one_asks_first(comparison, tmp_path):
+    """Numbers, then curves with the orders of both over each other, then maps; the answer before the doubts."""
+    page = written(comparison, tmp_path)
+    places = [page.index(f'<section id="{name}">') for name in ("runs", "errors", "localisation", "nuisances")]
+    assert places == sorted(places) and all(f'<section id="{name}">' not in page[places[0]:] for name in ("figures",))
+    orders = figure(page, "orders_transmission_error")
+    assert [t["name"] for t in orders["data"]] == ["measured", "predicted"]
+    assert '<ul class="warnings">' not in page or page.index('<div class="cards">') < page.index('<ul class="warnings">')
+    assert counted(1, "condition") == "1 condition" and counted(2, "run") == "2 runs"
+
+
 def test_diagnosis_of_one_effect(answer, tmp_path):
     page = written(answer, tmp_path)
     best = answer.effects[0]
@@ -327,27 +338,3 @@ def test_speeds_stand_where_the_campaign_states_them(tmp_path):
     over = next(c for c in figure(page, "run_number_input_torque")["choices"] if "speed" in str(c["layout"]))
     title = over["layout"]["xaxis"]["title"]
     assert "output speed [rpm]" in str(title) and over["traces"][0]["x"][0] == pytest.approx(19.1, abs=0.01)
-
-
-def area_of(trace):
-    """Area of all polygons of a band by the shoelace formula; those of opposite sense take from each other, as they do where they are drawn."""
-    xs, ys = ([[]], [[]])
-    for x, y in zip(trace["x"], trace["y"]):
-        if x is None:
-            xs.append([])
-            ys.append([])
-        else:
-            xs[-1].append(x)
-            ys[-1].append(y)
-    return abs(sum(0.5 * (np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) for x, y in zip(xs, ys)))
-
-
-def test_band_of_a_loop_covers_both_ways():
-    up = np.linspace(-1.0, 1.0, 50)
-    x = np.concatenate([up, up[::-1][1:]]) + 0.004 * np.sin(np.arange(99) * 2.4)
-    y = np.where(np.arange(99) < 50, 1.0, -1.0)
-    assert [(w.start, w.stop) for w in ways(up)] == [(0, 50)] and len(ways(x)) == 2
-    # One way after the other, with a gap between: each band is twice as high as the noise on either side.
-    assert area_of(band(x, y - 0.1, y + 0.1, "")) == pytest.approx(2 * 2.0 * 0.2, rel=0.1)
-    assert ways(np.array([0.0, 1.0, 0.0, -1.0, 0.0])) == [slice(0, 2), slice(1, 4), slice(3, 5)]
-    assert ways(np.zeros(0)) == [] and band(np.zeros(0), np.zeros(0), np.zeros(0), "")["x"] == []

@@ -14,11 +14,13 @@ from cli import reference
 from cli.schema_words import WORDS
 from cli.schemas import KINDS, schema_of
 from discrepancy.campaign.file_format import CampaignFile
-from discrepancy.model_file import Content, load_model
+from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.model_file import Content, every_effect, load_model
 from fmu_src.source_hash import ROOT
 from orchestrator.scenario import ScenarioFile
 from reducers.documentation import page
 from reducers.library import LIBRARY
+from reducers.reducer import every_table
 from studies.duty import DutyFile
 from studies.ensemble.ensemble_file import load_ensemble
 
@@ -154,3 +156,15 @@ def test_the_site_is_built_without_a_warning_and_reads_offline(tmp_path):
     assert "hysteresi" in index and "<math" in (tmp_path / "site" / "physics.html").read_text(encoding="utf-8")
     assert "rvwear.solve" in (tmp_path / "site" / "reference" / "python.html").read_text(encoding="utf-8")
     assert Path(tmp_path / "site" / "_static").is_dir()
+
+
+def test_names_of_the_glossary_are_those_of_the_program():
+    """Rows are whole, and what stands as code is a quantity, an effect or a variable."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (DOCS / "glossary.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    assert len({len(row) for row in rows}) == 1 and len(rows) > 45
+    variables = {v.path for table in every_table() for v in table.variables}
+    known = {*QUANTITIES, *every_effect(), *variables, "replicate", "code"}
+    named = {name for row in rows[1:] for cell in row for name in re.findall(r"`([\w.]+)`", cell) if not name.endswith(".fmu") and ".toml" not in name}
+    assert named <= known, named - known
+    for term in ("transmission error", "Drehwinkelabweichung", "传动误差", "角度伝達誤差"):
+        assert any(term in cell for row in rows for cell in row), term

@@ -10,10 +10,11 @@ import pytest
 from fmpy import read_model_description
 from lxml import etree
 
+from fmu_src.description import add_units
 from fmu_src.display import display_unit, displays
 from fmu_src.unit import make_unit
 from fmu_src.units import conversion
-from fmu_src.variables import SETTABLE
+from fmu_src.variables import SETTABLE, Variable
 from orchestrator.component import InProcess
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
@@ -54,6 +55,14 @@ def test_descriptions_carry_them(path):
     warm = defined["K"]["degC"]
     assert float(warm.factor) * 293.15 + float(warm.offset) == pytest.approx(20.0)
     assert description.defaultExperiment.tolerance == "0.001"
+
+
+def test_a_unit_of_one_variable_alone_is_defined():
+    """Importers refuse a description whose display units are not."""
+    root = ElementTree.Element("fmiModelDescription")
+    add_units(root, [Variable("rate", "parameter", "rad/s", "growth of lost motion", 0.0, display="arcsec/h"), Variable("speed", "parameter", "rad/s", "speed", 0.0)])
+    factors = {d.get("name"): float(d.get("factor")) for d in root.iter("DisplayUnit")}
+    assert factors == pytest.approx({"rpm": 30.0 / np.pi, "arcsec/h": 3600.0 * np.degrees(3600.0)})
 
 
 def test_stiffness_is_offered_for_compliance_where_fmi_can(native_fmus):

@@ -235,6 +235,14 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
 
 
+def test_orders_are_shown_by_their_amplitude():
+    import numpy as np
+
+    from workbench.look import amplitudes_of
+
+    assert amplitudes_of(np.array([78.0, 1.0, 78.0, 1.0]), np.array([3.0, 0.0, 4.0, -2.0])).tolist() == [2.0, 5.0]
+
+
 def test_only_what_there_is_is_exported(tmp_path):
     from workbench.steps import STEPS, export_step
 

@@ -143,6 +143,7 @@ def view(folder: Folder) -> dict[str, Any]:
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
+    found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
     found["command"] = command(folder, given)
     return found
 

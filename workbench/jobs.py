@@ -7,6 +7,7 @@ a server that was killed finds on its return what went on, and nobody ends a pro
 
 import contextlib
 import json
+import os
 import subprocess
 import sys
 import threading
@@ -43,8 +44,10 @@ def start(folder: Folder, kind: str, given: dict[str, Any], jobs: int) -> None:
     folder.remember(f"jobs/{kind}/job", asked)
     with (place / "log.txt").open("wb") as log:
         # A session of its own: Ctrl-C at the server is the server's.
-        process = subprocess.Popen([sys.executable, "-m", "workbench.work", str(folder.root), kind], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                   cwd=ROOT, start_new_session=True)  # fmt: skip
+        known = {"PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])}
+        # -P: nothing is imported from wherever the server was started.
+        words = [sys.executable, "-P", "-m", "workbench.work", str(folder.root), kind]
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=os.environ | known, start_new_session=True)
     # Its end is heard, so that nothing is left of it in the system's table.
     threading.Thread(target=process.wait, daemon=True).start()
 
@@ -60,16 +63,22 @@ def stop_all(folder: Folder) -> None:
         stop(folder, kind)
 
 
-def status(folder: Folder, kind: str) -> dict[str, Any]:
-    """``state``, what is being done, since when; of a job that ended what was said."""
+def status(folder: Folder, kind: str, stamps: dict[str, str] | None = None) -> dict[str, Any]:
+    """``state``, what is being done, since when; of a job that ended what was said.
+
+    ``stamps`` of the folder by model, which are filled: for those who ask for all jobs at once, files are looked at once.
+    """
     place = place_of(folder, kind)
     asked = folder.recall(f"jobs/{kind}/job")
     if not asked:
         return {"state": ""}
     beat = folder.recall(f"jobs/{kind}/beat")
     model = str(asked.get("given", {}).get("model") or "")
+    stamps = {} if stamps is None else stamps
+    if model not in stamps:
+        stamps[model] = folder.stamp(model)
     told = {"begun": asked.get("begun"), "given": asked.get("given", {}), "tasks": beat.get("tasks", []), "said": beat.get("said", []),
-            "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != folder.stamp(model)}  # fmt: skip
+            "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != stamps[model]}  # fmt: skip
     state = beat.get("state", RUNNING)
     if state == RUNNING and time.time() - max(float(beat.get("at", 0.0)), float(asked["begun"])) > SILENT:
         state = GONE

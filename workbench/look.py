@@ -11,6 +11,7 @@ from discrepancy.compare import Comparison
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, comparison, spectra
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
+from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
@@ -121,6 +122,8 @@ def over_an_axis(run: Run) -> bool:
 
 def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:
     record = run.record
+    if record.quantity == ORDERS:
+        return stems(run, factor, columns, ratios)
     name = axis_of(run)
     x = amounts.axis_values(name, np.asarray(record.axes[name])[run.kept], run.speed)
     noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.kept.shape)[run.kept] if np.ndim(run.noise) else np.full(run.measured.size, float(run.noise))
@@ -129,6 +132,24 @@ def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -
         "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
         "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
     }  # fmt: skip
+
+
+def stems(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:
+    """A table of orders, of which each is two numbers, a cos p and a sin p: amplitudes, and the size of what is left in units of the noise of either."""
+    every = np.asarray(run.record.axes["order"], float)[run.kept]
+    orders = np.unique(every)
+    noise = float(np.sqrt(np.mean(np.square(run.noise))))
+
+    return label(run, ratios) | {
+        "samples": int(orders.size), "dots": False, "stems": True, "noise": factor * noise, "x": columns.add(orders),
+        "measured": columns.add(factor * amplitudes_of(every, run.measured)), "predicted": columns.add(factor * amplitudes_of(every, run.predicted)),
+        "residual": columns.add(amplitudes_of(every, run.measured - run.predicted) / max(noise, 1e-300)),
+    }  # fmt: skip
+
+
+def amplitudes_of(every: Floats, values: Floats) -> Floats:
+    """Of each order, lowest first, the size of its two numbers; ``every`` (n,) says whose they are."""
+    return np.array([float(np.linalg.norm(values[every == order])) for order in np.unique(every)])
 
 
 def label(run: Run, ratios: dict[str, float]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import numpy as np
 from discrepancy.compare import Comparison
 from discrepancy.page.amounts import effect_title
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, ERROR, Candidate
+from discrepancy.problem import BASE, ERROR, ORDERS, Candidate
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 
@@ -19,13 +19,13 @@ SAMPLES = 600
 
 
 def makers(result: Comparison) -> dict[str, list[dict[str, Any]]]:
-    """By order of the output's turn; {} where no transmission error was measured over the angle."""
+    """By order of the output's turn; {} where no transmission error was measured, over the angle or by order."""
     model = result.model
-    record = next((r for r in model.records if r.quantity == ERROR and "angle" in r.axes), None)
+    record = next((r for r in model.records if (r.quantity == ERROR and "angle" in r.axes) or r.quantity == ORDERS), None)
     if record is None:
         return {}
     turn = np.linspace(0.0, 2.0 * np.pi, SAMPLES, endpoint=False)
-    even = replace(record, name="one turn", values=np.zeros(SAMPLES), axes={"angle": turn})
+    even = replace(record, name="one turn", quantity=ERROR, values=np.zeros(SAMPLES), axes={"angle": turn})
     base = model.one(even, model.standing(), rough=True)
     found: dict[str, list[dict[str, Any]]] = {}
     for candidate in model.candidates:

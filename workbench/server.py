@@ -119,9 +119,10 @@ class Workbench:
         view = folder.recall("view")
         if not view.get("model"):
             view["model"] = folder.measured()
+        stamps: dict[str, str] = {}
         return {
             "folder": str(folder.root), "name": folder.root.name, "saved": folder.campaign.is_file(), "models": folder.models(), "view": view,
-            "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind) for kind in jobs.KINDS},
+            "library": available(), "files": len(folder.measurements()), "jobs": {kind: jobs.status(folder, kind, stamps) for kind in jobs.KINDS},
         }  # fmt: skip
 
     async def state(self, _: Request) -> Response:

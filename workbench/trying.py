@@ -15,12 +15,13 @@ from discrepancy.page import amounts
 from discrepancy.page.runs import axis_name
 from discrepancy.prediction.candidates import parameter_of
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Candidate, Parameter, Record
+from discrepancy.problem import BASE, ORDERS, Candidate, Parameter, Record
 from discrepancy.scales import of_axis, of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
+from workbench.look import amplitudes_of
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
 REACH = 5.0
@@ -104,10 +105,16 @@ class Trial:
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
             x = amounts.axis_values(name, np.asarray(record.axes[name]), speed) if name else np.arange(len(record.values), dtype=float)
+            curves = [np.asarray(record.values, np.float64), base, tried, other]
+            if record.quantity == ORDERS:
+                every = np.asarray(record.axes["order"], np.float64)
+                x, curves = np.unique(every), [amplitudes_of(every, values) for values in curves]
             axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
-            words = {"unit": unit, "axis": axis, "loop": name == "torque", "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
-                     "title": amounts.signal_title(stream_of(record)), "condition": record.condition}  # fmt: skip
-            return words, np.array([x, factor * record.values, factor * base, factor * tried, factor * other])
+            words = {
+                "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
+                "condition": record.condition, "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
+            }  # fmt: skip
+            return words, np.array([x, *(factor * curve for curve in curves)])
 
     def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
         """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition."""

@@ -133,7 +133,6 @@ def orders_of(scenario: Scenario) -> Iterator[str]:
 def flavours(folder: Path) -> Iterator[tuple[str, Run | str]]:
     """(name, how it runs, or why it cannot here)."""
     made = Flavours(folder)
-    yield "plain Python", made.plain_python
     yield "editable FMU, FMI 2.0", made.as_fmu("editable")
     yield "native FMU, FMI 2.0", made.as_fmu("2")
     yield "native FMU, FMI 3.0", made.as_fmu("3")
@@ -147,3 +146,5 @@ def flavours(folder: Path) -> Iterator[tuple[str, Run | str]]:
             yield name, made.emulated(platform, command, folder_of)
         except Missing as reason:
             yield name, str(reason)
+    # The slowest last.
+    yield "plain Python", made.plain_python

@@ -13,6 +13,7 @@ from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
+    from discrepancy.campaign.guess.propose import Proposal
     from discrepancy.campaign.guess.wishes import Wishes
 
 
@@ -71,20 +72,27 @@ def run_from(options: argparse.Namespace) -> int:
         print(f"\n{text}")
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")
     elif proposal.needs:
-        print(f"{folder / 'campaign.toml'} is written, but lacks what is needed; say it in the file, or once more on the command line:\n  {again(options)}")
+        said = "is written, but lacks what is needed; say it in the file, or once more on the command line"
+        print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal)}")
     else:
         print(f"{folder / 'campaign.toml'} is written; next:\n  {command}")
     return 0
 
 
-def again(options: argparse.Namespace) -> str:
-    """The command as it was given, to be completed by what is needed."""
+def again(options: argparse.Namespace, proposal: "Proposal") -> str:
+    """The command as it was given, to be completed by what is needed; names that could say a torque are asked to."""
+    from discrepancy.campaign.guess.file_names import suggested
+
     words = ["rvwear", "campaign", "from", *options.files]
     for option in ("output", "reducer"):
         words += [f"--{option}", given] if (given := getattr(options, option)) else []
     for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
-    return shlex.join([*words, "--overwrite"]) + " --condition '...'"
+    pattern = suggested([run.guessed.name.pattern for run in proposal.runs], "load") if any("load_torque" in need.text for need in proposal.needs) else None
+    words += ["--names", pattern] if pattern and not options.names else []
+    rest = [need for need in proposal.needs if not (pattern and "load_torque" in need.text)]
+    asked = [need.remedy.partition(",")[0].partition(";")[0] if "--condition" in need.remedy else need.remedy for need in rest]
+    return " ".join([shlex.join([*words, "--overwrite"]), *asked])
 
 
 def asked(options: argparse.Namespace) -> str | None:

@@ -237,7 +237,13 @@ export function show(root, context) {
         { type: "button", class: "main", id: "save", disabled: !data.proposal.reducer, onclick: save },
         data.saved ? "Save anew and compare" : needs ? "Save" : "Save and compare",
       ),
-      data.saved ? h("span", { class: "quiet" }, data.own ? "campaign.toml is saved" : "campaign.toml was written elsewhere and is not overwritten") : null,
+      data.saved
+        ? h(
+            "span",
+            { class: "quiet" },
+            data.own ? (data.same ? "campaign.toml is saved" : "changed since it was saved") : "campaign.toml was written elsewhere and is not overwritten",
+          )
+        : null,
       data.saved
         ? h(
             "button",

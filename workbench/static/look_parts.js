@@ -83,6 +83,8 @@ export function spec({ part, shift, several }, signal, members) {
   const upper = [],
     lower = [],
     bands = [];
+  // Orders stand apart: a line through them would be none.
+  const look = members[0].stems ? { stems: true, sorted: true, width: 2.4 } : {};
   members.forEach((run, k) => {
     const raw = part(run.x),
       x = shift ? raw.map((v) => v + shift) : raw,
@@ -90,11 +92,21 @@ export function spec({ part, shift, several }, signal, members) {
       opacity = several ? 0.55 : Math.max(0.35, 0.95 - 0.2 * k),
       predicted = part(run.predicted),
       name = several ? ` · ${run.condition}` : "";
-    if (k === 0) {
+    if (k === 0 && !run.stems) {
       const noise = 2 * run.noise;
       bands.push({ x: p, low: predicted.map((v) => v - noise), high: predicted.map((v) => v + noise) });
     }
-    upper.push({ name: k && !several ? "" : `measured${name}`, x, y: part(run.measured), colour: "--measured", width: 1.1, opacity, dots: run.dots });
+    upper.push({
+      name: k && !several ? "" : `measured${name}`,
+      x,
+      y: part(run.measured),
+      colour: "--measured",
+      width: 1.1,
+      opacity,
+      dots: run.dots,
+      ...look,
+      shift: -0.3,
+    });
     lower.push({
       name: k && !several ? "" : `residual / noise${name}`,
       x: p,
@@ -103,14 +115,16 @@ export function spec({ part, shift, several }, signal, members) {
       width: 1.1,
       opacity,
       dots: run.dots,
+      ...look,
     });
-    if (k === 0 || several) upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, opacity: several ? 0.8 : 1 });
+    if (k === 0 || several)
+      upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, opacity: several ? 0.8 : 1, ...look, shift: 0.3 });
   });
   return {
     xTitle: signal.axis.title,
     loop: signal.loop,
     panes: [
-      { title: `${signal.title.split(" (")[0]} [${signal.unit}]`, weight: 2, lines: upper, bands },
+      { title: `${signal.title.split(" (")[0]} [${signal.unit}]`, weight: 2, lines: upper, bands, zero: !!look.stems, floor: !!look.stems },
       { title: "residual / noise", weight: 1, zero: true, limits: [-2, 2], lines: lower },
     ],
   };

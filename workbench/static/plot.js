@@ -133,7 +133,7 @@ export class Plot {
       high = Math.max(high, b);
     }
     if (!(high >= low)) return [0, 1];
-    const spare = high > low ? (this.loop ? 0.03 * (high - low) : 0) : Math.abs(high) || 1;
+    const spare = high > low ? (this.loop || this.lines.some((l) => l.stems) ? 0.03 * (high - low) : 0) : Math.abs(high) || 1;
     return [low - spare, high + spare];
   }
 

@@ -234,6 +234,8 @@ export function show(root, context) {
     if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--a", width: 1.1 });
     if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--b", width: 1.1 });
     if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--tried", width: 1.3 });
+    if (t.stems)
+      [...lines, ...lower].forEach((line, i) => Object.assign(line, { stems: true, sorted: true, width: 2.4, shift: 0.35 * ((i % lines.length) - 1) }));
     plot.set({
       xTitle: t.axis.title,
       loop: t.loop,

@@ -1,7 +1,7 @@
 """What file names say of their conditions, by a pattern such as ``te_{load}Nm_{speed}rpm_{replicate}``."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -85,6 +85,25 @@ def proposed(path: Path) -> Parsed:
             if not is_quantity(part):
                 words.append(part)
     return Parsed(pattern, numbers, replicate, direction, None, "_".join(words))
+
+
+def suggested(patterns: Sequence[str], field: str) -> str | None:
+    """The one pattern of names that differ by a number behind letters alone (T50, T100), with ``field`` in its place; None where it is not so plain.
+
+    What such letters stand for a name does not say, so nobody takes it unasked.
+    """
+    split = [PARTS.split(pattern) for pattern in dict.fromkeys(patterns)]
+    if len(split) < 2 or len({len(parts) for parts in split}) > 1:
+        return None
+    varying = [k for k, column in enumerate(zip(*split)) if len(set(column)) > 1]
+    if len(varying) != 1:
+        return None
+    matches = [LETTERED.match(parts[varying[0]]) for parts in split]
+    kinds = {(match[1], match[3]) if match else None for match in matches}
+    if len(kinds) != 1 or None in kinds or matches[0] is None:
+        return None
+    first = split[0]
+    return "".join((*first[: varying[0]], f"{matches[0][1]}{{{field}}}{matches[0][3]}", *first[varying[0] + 1 :]))
 
 
 def number_of(part: str) -> tuple[str, float, str, str] | None:

@@ -87,7 +87,8 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
     ordered = sorted(rivals, key=penalised)
     inside = [r for r in ordered if not ends_at_a_bound(r)] or ordered[:1]
     simple = [r for r in inside if not has_idle_shapes(r)]
-    inside = simple or inside
+    # Where nothing simpler is near, those of which a shape is unknown stand beside one another.
+    inside = simple if simple and penalised(simple[0]) - penalised(inside[0]) <= margin * max(1.0, inflation) else inside
     best = ordered[0] if penalised(inside[0]) - penalised(ordered[0]) > margin * max(1.0, inflation) else inside[0]
     if dof < 200:
         margin = stdtrit(max(dof, 2.0), ndtr(-np.sqrt(margin))) ** 2

@@ -1,0 +1,41 @@
+"""Pieces of the pages' pictures: bands of loops, maps of a misfit."""
+
+import numpy as np
+import pytest
+
+from discrepancy.page import maps
+from discrepancy.page.panels import band, ways
+
+
+def area_of(trace):
+    """Area of all polygons of a band by the shoelace formula; those of opposite sense take from each other, as they do where they are drawn."""
+    xs, ys = ([[]], [[]])
+    for x, y in zip(trace["x"], trace["y"]):
+        if x is None:
+            xs.append([])
+            ys.append([])
+        else:
+            xs[-1].append(x)
+            ys[-1].append(y)
+    return abs(sum(0.5 * (np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) for x, y in zip(xs, ys)))
+
+
+def test_band_of_a_loop_covers_both_ways():
+    up = np.linspace(-1.0, 1.0, 50)
+    x = np.concatenate([up, up[::-1][1:]]) + 0.004 * np.sin(np.arange(99) * 2.4)
+    y = np.where(np.arange(99) < 50, 1.0, -1.0)
+    assert [(w.start, w.stop) for w in ways(up)] == [(0, 50)] and len(ways(x)) == 2
+    # One way after the other, with a gap between: each band is twice as high as the noise on either side.
+    assert area_of(band(x, y - 0.1, y + 0.1, "")) == pytest.approx(2 * 2.0 * 0.2, rel=0.1)
+    assert ways(np.array([0.0, 1.0, 0.0, -1.0, 0.0])) == [slice(0, 2), slice(1, 4), slice(3, 5)]
+    assert ways(np.zeros(0)) == [] and band(np.zeros(0), np.zeros(0), np.zeros(0), "")["x"] == []
+
+
+def test_a_map_of_one_column_is_a_table():
+    places = [{"signal": "hysteresis", "feature": f, "dependence": "everywhere", "p": p, "share": 0.5, "statistic": 9.0, "width": 1}
+              for f, p in (("mean", 0.5), ("along torque", 1e-9))]  # fmt: skip
+    figures, tables = maps.localisation("place", places, 1e-3)
+    assert not figures and tables[0].title == "Misfit at all conditions alike"
+    assert [(row[1], row[4]) for row in tables[0].rows] == [("along torque", "yes"), ("mean", "no")]
+    figures, tables = maps.localisation("place", [*places, places[0] | {"dependence": "load"}], 1e-3)
+    assert len(figures) == 1 and not tables
