@@ -36,7 +36,7 @@ EFFECT = Effect(
 
 
 def change(values: Floats, record: Record, at: Callable[[str], float], size: float) -> Floats:
-    if record.quantity != "transmission_error" or "angle" not in record.axes:
+    if record.quantity != "transmission_error" or "angle" not in record.axes or at("ripple_cos") == at("ripple_sin") == 0.0:
         return values
     order, damping = at("ripple_order"), at("ripple_damping")
     sense = record.factors.get("direction", 1.0)
