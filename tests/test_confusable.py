@@ -8,6 +8,7 @@ import pytest
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.judgement import against
 from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
+from discrepancy.inference.refit.starts import halved
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
 from discrepancy.problem import Candidate, Parameter
 
@@ -100,3 +101,15 @@ def test_effects_that_make_unused_runs_worse_are_not_several_effects():
 def test_unused_runs_within_the_noise_say_nothing_against_it():
     assert against(judged(0.9, 1.1)) == against(judged(5.0, 1.0)) == against(None) == ""
     assert "not explained" in against(judged(9.0, 3.0, 1e-6))
+
+
+def test_a_start_that_is_worse_than_no_effect_is_halved():
+    """Debris makes debris: the slope at none promises 6, at which races are worn away; 2 is right."""
+    size = Parameter("size", "1", 0.0, 0.0, 100.0, 1.0, 1)
+
+    def cost(values):
+        return (np.exp(values["size"]) - np.exp(2.0)) ** 2
+
+    assert cost({"size": 6.0}) > cost({"size": 0.0})
+    assert halved([size], {"size": 6.0}, cost, cost({"size": 0.0})) == [{"size": 1.5}]
+    assert halved([size], {"size": 6.0}, cost, 0.0) == []

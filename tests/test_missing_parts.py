@@ -10,7 +10,7 @@ import scipy.io
 
 from discrepancy.campaign.file_format import FILE
 
-PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "nptdms", "openpyxl", "pyarrow", "wasmtime", "ziglang")
+PARTS = ("SALib", "asammdf", "dask", "distributed", "h5py", "joblib", "matplotlib", "nptdms", "openpyxl", "pyarrow", "wasmtime", "ziglang")
 SCRIPT = """
 import contextlib, io, json, os, sys
 for name in {parts}:
@@ -78,6 +78,8 @@ def found(tmp_path_factory):
     commands["processes"] = ["ensemble", "ensemble.toml", "--jobs", "2"]
     commands["cluster"] = ["ensemble", "ensemble.toml", "--jobs", "2", "--backend", "dask", "--scheduler", "tcp://localhost:1"]
     commands["platforms"] = ["build", "--all-platforms"]
+    commands["sheet"] = ["hysteresis", "--export", "a.xlsx"]
+    commands["picture"] = ["hysteresis", "--picture", "a.svg"]
     commands["solve"] = ["solve", "--positions", "8"]
     commands["effects"] = ["effects"]
     return dict(zip(commands, without_parts(folder, *commands.values()), strict=True)) | {"folder": folder}
@@ -87,6 +89,7 @@ def found(tmp_path_factory):
     ("mf4", "asammdf", "measurements"), ("tdms", "nptdms", "measurements"), ("parquet", "pyarrow", "measurements"), ("xlsx", "openpyxl", "measurements"),
     ("hdf.mat", "h5py", "measurements"), ("template", "pyarrow", "measurements"), ("drawing", "SALib", "ensembles"),
     ("processes", "joblib", "ensembles"), ("cluster", "distributed", "ensembles"), ("platforms", "zig", "build"),
+    ("sheet", "openpyxl", "measurements"), ("picture", "matplotlib", "pictures"),
 ])  # fmt: skip
 def test_a_missing_part_is_asked_for_by_name(found, command, package, part):
     code, text = found[command]

@@ -304,6 +304,8 @@ def test_the_file_of_an_ensemble_is_that_of_the_form(tmp_path):
     row = {"name": "bearing.clearance", "unit": "um", "distribution": "normal", "first": "2,5", "second": 0.4}
     given = {"model": "RV20E-121", "hours": "3000", "samples": "4", "scatters": [row], "limits": {"disc_flank_um": "5"}}
     (tmp_path / "ensemble.toml").write_text(text_of(opened(tmp_path), given), encoding="utf-8")
+    # No model, though it names a reducer.
+    assert opened(tmp_path).models() == []
     drawn = load_ensemble(tmp_path / "ensemble.toml")
     assert (drawn.samples, drawn.hours, drawn.limits, [s.name for s in drawn.scatters]) == (4, 3000.0, {"disc_flank_um": 5.0}, ["bearing_clearance"])
     with pytest.raises(InputFault, match="power of two"):

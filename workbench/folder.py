@@ -8,6 +8,7 @@ import os
 import re
 import tomllib
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,7 @@ class Folder:
 
     def models(self) -> list[str]:
         """Model and reducer files of the folder."""
-        return [path.name for path in sorted(self.root.glob("*.toml")) if path.name != CAMPAIGN]
+        return [path.name for path in sorted(self.root.glob("*.toml")) if path.name != CAMPAIGN and is_model(path, path.stat().st_mtime_ns)]
 
     def model(self, given: dict[str, Any]) -> str | Path:
         """The model that is asked for: the name of a reducer, or a file of the folder."""
@@ -121,6 +122,16 @@ class Folder:
                 told = path.stat()
                 found.update(f"{path.name} {told.st_size} {told.st_mtime_ns}\n".encode())
         return found.hexdigest()[:20]
+
+
+@lru_cache(maxsize=256)
+def is_model(path: Path, changed: int) -> bool:
+    """Whether a file says that it is a model or a reducer, as it begins to; one that cannot be read is shown, so that choosing it says why."""
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return True
+    return isinstance(content.get("model"), dict) or isinstance(content.get("reducer"), dict)
 
 
 def opened(root: Path) -> Folder:

@@ -90,7 +90,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     for effect in answer.effects:
         effects.append({
             "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": share_text(answer, effect["share_explained"]),
-            "error": error_text(answer, effect), "parameters": parameters(effect["parameters"]),
+            "error": error_text(answer, effect).replace("->", "→"), "parameters": parameters(effect["parameters"]),
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {
@@ -102,12 +102,13 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
 
 
 def parameters(given: dict[str, Any]) -> list[dict[str, Any]]:
+    from discrepancy.page.amounts import pretty
     from discrepancy.scales import parameter_texts
 
     found = []
     for name, entry in given.items():
         value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
-        found.append({"name": name, "value": value, "interval": interval, "unit": unit, "bound": bool(entry.get("bound"))})
+        found.append({"name": name, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound"))})
     return found
 
 

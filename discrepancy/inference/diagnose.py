@@ -15,7 +15,7 @@ from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, Candidate, Model
 from fmu_src.progress import say
 
@@ -174,6 +174,9 @@ class Diagnostician:
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
+        level = [r.name for r in rivals if r not in members and penalised(r) - penalised(final) <= settings.margin]
+        if verdict == ONE and level:
+            reason = f"one effect explains the misfit; as good, but with a value at a bound or one that this campaign says nothing about: {', '.join(level)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.

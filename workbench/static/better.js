@@ -1,6 +1,6 @@
 // After the diagnosis: what to measure next, the effect added, how the error fell, the units built.
 
-import { choose, command, h, number, table, words } from "./dom.js";
+import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
 
 export function nextPart(bag) {
@@ -16,7 +16,7 @@ export function nextPart(bag) {
               { id: "sheet" },
               table(
                 ["☐", "experiment", "price", "least separation", "mean separation"],
-                next.proposals.map((p) => ["☐", p.experiment, number(p.cost, 4), number(p.least, 3), number(p.mean, 3)]),
+                next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
                 [2, 3, 4],
               ),
             )
@@ -85,13 +85,13 @@ export function addPart(bag) {
         { class: "row" },
         options.length > 1
           ? choose(
-              options.map((o) => [o, words(o)]),
+              options.map((o) => [o, effectName(o)]),
               choice,
               (v) => {
                 choice = v;
               },
             )
-          : h("b", {}, words(choice)),
+          : h("b", {}, effectName(choice)),
         h(
           "button",
           {
@@ -110,7 +110,7 @@ export function addPart(bag) {
             h(
               "p",
               { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
-              `${extension.effects.map(words).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
+              `${extension.effects.map(effectName).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
             ),
             cards(extension.page.cards),
             sections(extension.page.sections),
@@ -146,7 +146,7 @@ export function ladder(bag) {
       table(
         ["step", "fitted runs, before", "after", "unused runs, before", "after", "verdict"],
         steps.map((s) => [
-          s.effects.map(words).join(" + "),
+          s.effects.map(effectName).join(" + "),
           bar(s.training_before, "quiet"),
           bar(s.training_after, "quiet"),
           bar(s.held_out_before, "bad"),

@@ -1,7 +1,7 @@
 // Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
 
 import { addPart, ladder, nextPart } from "./better.js";
-import { clear, command, duration, h, note, table, words } from "./dom.js";
+import { clear, command, duration, effectName, h, note, table, words } from "./dom.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
@@ -147,7 +147,7 @@ export function show(root, context) {
       rows.push([
         "its name",
         "fits of the nearest effects, each in earnest",
-        answer.rejected[0] ? `nearest rival: ${words(answer.rejected[0].name)}, ${answer.rejected[0].reason}` : "no rival",
+        answer.rejected[0] ? `nearest rival: ${effectName(answer.rejected[0].name)}, ${answer.rejected[0].reason}` : "no rival",
         "6 of chi-square: 20 to 1 in likelihood",
       ]);
     if (held)
@@ -175,10 +175,12 @@ export function show(root, context) {
           { class: "panel", open: answer.confusable.length > 0 },
           h("summary", {}, h("b", {}, "Rivals, and why not")),
           answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${answer.confusable.map(words).join(", ")}.`) : null,
-          Object.entries(answer.alternatives).map(([name, others]) => h("p", {}, `in place of ${words(name)} could stand: ${others.map(words).join(", ")}`)),
+          Object.entries(answer.alternatives).map(([name, others]) =>
+            h("p", {}, `in place of ${effectName(name)} could stand: ${others.map(effectName).join(", ")}`),
+          ),
           table(
             ["effect", "why not"],
-            answer.rejected.slice(0, 12).map((r) => [words(r.name), r.reason]),
+            answer.rejected.slice(0, 12).map((r) => [effectName(r.name), r.reason]),
           ),
         )
       : null;

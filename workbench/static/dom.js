@@ -131,6 +131,13 @@ export function number(value, digits = 4) {
 
 export const words = (text) => String(text).replaceAll("_", " ");
 
+// An effect in one of its forms: ``raceway_wear.inner`` as "raceway wear (inner)".
+export const effectName = (name) =>
+  name
+    .split(" + ")
+    .map((one) => words(one).replace(/\.(.+)$/, " ($1)"))
+    .join(" + ");
+
 export function duration(seconds) {
   if (seconds < 90) return `${Math.max(1, Math.round(seconds))} s`;
   return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;

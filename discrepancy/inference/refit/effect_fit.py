@@ -10,7 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, other_starts
+from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
 
@@ -163,6 +163,9 @@ def _search(
         return frozen.total(frozen.part.array(values))[0]
 
     found = [_descend(frozen, start) for start in starts]
+    if min(cost(f[0]) for f in found) > frozen.space.base.chi2:
+        # Worse than no effect at all: the start lay where the effect runs away, and slopes there lead nowhere.
+        found += [_descend(frozen, start) for start in halved([p for c in candidates for p in c.amplitudes], starts[0], cost, frozen.space.base.chi2)]
     amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()
     if widely and (1 < len(amplitudes) <= MOST_AMPLITUDES or any(p.sign for p in amplitudes)):
         # An optimum may lie behind a ridge, further along a valley, or beyond a threshold.

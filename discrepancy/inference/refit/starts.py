@@ -4,7 +4,7 @@ An estimate from the slope at the base model leads into the nearest optimum.  Ef
 only, or whose parameters do nearly the same have others.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
@@ -16,6 +16,8 @@ from fmu_src.arrays import Floats
 FACTORS, SIZES = (0.25, 4.0), (0.5, 2.0)
 # More amplitudes than these have too many quadrants; they are harmonics of one pattern, and linear.
 MOST_AMPLITUDES = 3
+# So often a start that is worse than no effect is halved.
+HALVINGS = 6
 # Steps along the valley in its own standard deviations.
 ALONG = (-12.0, -4.0, 4.0, 12.0)
 
@@ -41,6 +43,15 @@ def along_valley(parameters: Sequence[Parameter], values: Mapping[str, float], i
     direction *= min(1.0, 1.0 / float(np.abs(direction).max()))
     moved = [{p.name: _inside(p, values[p.name] + step * d * p.scale) for p, d in zip(parameters, direction)} for step in ALONG]
     return [{**values, **m} for m in moved]
+
+
+def halved(amplitudes: Sequence[Parameter], start: Mapping[str, float], cost: Callable[[Mapping[str, float]], float], least: float) -> list[dict[str, float]]:
+    """The first of the starts with half the size, a quarter, ... that costs less than ``least``; none if none of them does."""
+    for k in range(1, HALVINGS + 1):
+        nearer = _scaled(amplitudes, start, 0.5**k)
+        if cost(nearer) < least:
+            return [nearer]
+    return []
 
 
 def _scaled(amplitudes: Sequence[Parameter], start: Mapping[str, float], factor: float) -> dict[str, float]:
