@@ -4,7 +4,8 @@ A size gives rated torque, outer diameter and a ratio of its list; ``reducers.co
 all sizes, each within its published or assumed range; one of them, how soft a crank's bearing is in place, is fitted to the stiffness of all sizes
 together.  What is then left of each size is named: the compliance at the cranks' supports that is missing, or too much.
 
-Source of the catalogue's figures: Nabtesco, Precision Reduction Gear RV, E series, rating table, as it is quoted elsewhere; not checked against the printed catalogue.
+Source of the catalogue's figures: Nabtesco, Precision Reduction Gear RV, E series, rating table, as it is quoted elsewhere; not checked
+against the printed catalogue.
 Efficiency there is a chart per size, which was not to be had: typical start-up efficiency is a column of the table, 80 to 90 % at rated load and 50 to
 60 % at a tenth of it are what is generally read off the charts.
 """
