@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from properties import assert_near, examples
 from stand import only, records_of
@@ -41,7 +41,10 @@ def worn(table, moves, seed, **values):
         records["output_angle"] -= turning / 39
         records["cage_angle"] += rolling
         records["acceleration"] = hours * 3600.0 / 1e-3
-        assert accumulator.step(records, 0.0, 1e-3) == 0
+        fault = accumulator.step(records, 0.0, 1e-3)
+        # Laws that are not for these temperatures take whole parts away: refused, and nothing to hold a property against.
+        assume(fault != accumulator.WORN_THROUGH)
+        assert fault == 0
         yield only(records.copy())
 
 
