@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.observe import error_with_cages
+from discrepancy.prediction.observe import ripple_of_cages, transmission_error
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -52,13 +52,15 @@ class Cages:
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
-        at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
-        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+        there = transmission_error(self.bench, record, own)
+        quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in (0.25, 0.5, 0.75))
+        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = record.values - record.values.mean() - (middle - middle.mean())
+        misfit = record.values - there - middle
+        misfit -= misfit.mean()
         share, sure = resultant(basis, misfit)
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * error_with_cages(self.bench, record, own, share) + (1.0 - sure) * middle - at[0]
+        return sure * ripple_of_cages(self.bench, record, own, share) + (1.0 - sure) * middle
 
 
 def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
-from discrepancy.prediction.curves import OverAngle, OverTorque, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -47,10 +47,9 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
     return None if change is None else from_zero(record, change)
 
 
-def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
-    """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
-    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    return signal(OverAngle(bench, record, "transmission_error", share * pitch), values)
+def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
+    """What cages a ``share`` of their rollers' pitch ahead change in the transmission error."""
+    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, copied
 from fmu_src.faults import RunFault
 from fmu_src.table import Table
 from fmu_src.threads import Once
@@ -96,7 +96,7 @@ class Units:
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
         """Records of a unit (0 plant, 1 wear) with values and the condition's temperature."""
-        records = self.templates[unit].copy()
+        records = copied(self.templates[unit])
         for name, value in values.items():
             if name in self.tables[unit].by_name:
                 records[name] = value
