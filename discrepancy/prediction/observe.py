@@ -13,7 +13,6 @@ from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
-from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.life import peak_of_circle
 
@@ -150,8 +149,7 @@ def housing_force(bench: Bench, record: Record, values: Values) -> tuple[Floats,
     """Force of the pins on their ring along x over one output turn, less its mean."""
     condition = condition_of(bench, record)
     angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
-    series = bench.running(condition, values, angles if condition.direction > 0 else angles[::-1])
-    force = series[:, COLUMNS.index("housing_force_x")]
+    force = bench.column("housing_force_x", condition, values, angles if condition.direction > 0 else angles[::-1])
     force = force if condition.direction > 0 else force[::-1]
     return angles, centred(force)
 
