@@ -77,10 +77,7 @@ def inputs(options: argparse.Namespace) -> "tuple[ModelFile, Campaign]":
     from discrepancy.model_file import load_model
 
     file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
-    if not campaign.records:
-        raise InputFault(f"{options.campaign}: no run has any rows yet; fill in the files (rvwear campaign check lists them)")
-    if not campaign.training:
-        raise InputFault(f"{options.campaign}: every run is held out; leave some conditions for fitting (held_out = false)")
+    campaign.require_fittable()
     return file, campaign
 
 
@@ -98,7 +95,7 @@ def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile
     from discrepancy.page.write import page_of
     from discrepancy.tables import tables_of
 
-    write_exports(options, lambda: tables_of(result), lambda: [figure for section in page_of(result).sections for figure in section.figures])
+    write_exports(options, lambda: tables_of(result), lambda: page_of(result).figures)
 
 
 def run_compare(options: argparse.Namespace) -> int:
