@@ -8,6 +8,7 @@ may change as much from 1,000 to 2,000 h as from 5,000 to 10,000 h.  It rises mo
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -41,7 +42,7 @@ class Growth:
     horizon: float
     drift: float = DRIFT
 
-    @property
+    @cached_property
     def hours(self) -> Floats:
         """Where the growth is computed [h]."""
         end = np.log1p(self.horizon / FIRST)
