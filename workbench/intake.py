@@ -202,11 +202,9 @@ def save(folder: Folder) -> dict[str, Any]:
     if not proposal.reducer:
         raise InputFault("which reducer was measured has to be said first: choose it above the table")
     checked(proposal)
-    if folder.campaign.is_file():
-        if not written_here(folder):
-            raise InputFault("campaign.toml was not written on this page, or was changed since: it is not overwritten; rename it to begin anew")
-        folder.campaign.unlink()
-    write_campaign(proposal, folder.root)
+    if folder.campaign.is_file() and not written_here(folder):
+        raise InputFault("campaign.toml was not written on this page, or was changed since: it is not overwritten; rename it to begin anew")
+    write_campaign(proposal, folder.root, overwrite=True)
     folder.remember("saved", {"sha256": sha256(folder.campaign.read_bytes())})
     return {"saved": True, "needs": [need.as_json() for need in proposal.needs]}
 

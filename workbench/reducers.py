@@ -21,6 +21,7 @@ from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
+from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
 from workbench.told import figure_data, page_data
 
@@ -115,15 +116,12 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
 def given_of(given: Mapping[str, Any]) -> Given:
     values: dict[str, Any] = {}
     for name, label, _, needed in ASKED:
-        text = str(given.get(name) or "").strip().replace(",", ".")
+        text = str(given.get(name) or "").strip()
         if not text:
             if needed:
                 raise InputFault(f"{label} is needed")
             continue
-        try:
-            values[name] = int(text) if name in WHOLE else float(text)
-        except ValueError:
-            raise InputFault(f"{label}: {text!r} is no {'whole ' if name in WHOLE else ''}number") from None
+        values[name] = (form.whole if name in WHOLE else form.number)(text, label)
     known = given.get("known") or {}
     if not isinstance(known, dict):
         raise InputFault("known numbers are a table of names and values")
@@ -142,12 +140,12 @@ def command(completion: Completion, name: str) -> str:
     import shlex
 
     g = completion.given
-    words = ["rvwear", "reducer", "new", "--ratio", f"{g.ratio:g}", "--pins", str(g.pins), "--rated", f"{g.rated:g}", "--speed", f"{g.speed:g}",
-             "--rollers", str(g.rollers), "--lost-motion", f"{g.lost_motion:g}"]  # fmt: skip
-    words += ["--diameter", f"{g.diameter:g}"] if g.diameter is not None else []
+    words = ["rvwear", "reducer", "new", "--ratio", form.exactly(g.ratio), "--pins", str(g.pins), "--rated", form.exactly(g.rated),
+             "--speed", form.exactly(g.speed), "--rollers", str(g.rollers), "--lost-motion", form.exactly(g.lost_motion)]  # fmt: skip
+    words += ["--diameter", form.exactly(g.diameter)] if g.diameter is not None else []
     words += ["--cranks", str(g.cranks)] if g.cranks is not None else []
     for key, value in g.known.items():
-        words += ["--known", f"{key}={value:g}{'' if UNITS[key] == '1' else UNITS[key]}"]
+        words += ["--known", f"{key}={form.exactly(value)}{'' if UNITS[key] == '1' else UNITS[key]}"]
     return shlex.join([*words, "--name", name])
 
 
