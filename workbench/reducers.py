@@ -12,9 +12,9 @@ from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 from pages.words import number
+from reducers.checking import check
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
-from reducers.completion.geometry import largest_pin
 from reducers.completion.given import Given
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
@@ -25,7 +25,6 @@ from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
 from workbench.told import figure_data, page_data
 
-MM = 1e3
 # What the form asks for: name, what it is, unit, whether it must be given.
 ASKED = (
     ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", True), ("rated", "rated torque", "N·m", True),
@@ -78,15 +77,7 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
 
 def findings(reducer: Reducer) -> list[str]:
     """What cannot be made, or lies where its own file says that it does not; in words with place, value and bound."""
-    s, pins = reducer.starts, reducer.topology.pins
-    ring, pin, throw = (MM * s[k] for k in ("pin_circle_radius", "pin_radius", "eccentricity"))
-    found = []
-    if pin >= ring * math.sin(math.pi / pins):
-        found.append(f"pin.radius = {pin:.4g} mm: {pins} pins on a circle of {ring:.4g} mm overlap; below {ring * math.sin(math.pi / pins):.4g} mm they do not")
-    if throw * pins >= ring:
-        found.append(f"crank.eccentricity = {throw:.4g} mm: the profile has loops; below {ring / pins:.4g} mm it has none")
-    elif pin >= (most := largest_pin(ring, throw, pins)):
-        found.append(f"pin.radius = {pin:.4g} mm: the flank is undercut, where it is most convex; below {most:.4g} mm it is not")
+    found = [plainly(fault) for fault in check(reducer).faults]
     found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(reducer) if row["outside"]]
     return found
 
