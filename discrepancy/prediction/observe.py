@@ -69,7 +69,7 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
     table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
     turning = bench.held(held_condition(bench, record), elastic, table)
-    friction, share, presliding = (values.get(n, float(bench.templates[0][n][0])) for n in DRIVE_FRICTION)
+    friction, share, presliding = (values.get(n, bench.starts[0][n]) for n in DRIVE_FRICTION)
     if friction + share == 0.0:
         return np.interp(applied, table, turning)
     found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
@@ -274,7 +274,7 @@ def mass_loss(bench: Bench, record: Record, values: Values, turns: int) -> Float
 
 
 def debris_iron(bench: Bench, record: Record, values: Values) -> Floats:
-    mass = float(bench.templates[1]["grease_mass"][0])
+    mass = bench.starts[1]["grease_mass"]
     whole = Record(**{**record.__dict__, "tags": {"part": "reducer"}})
     return mass_loss(bench, whole, values) / values.get("grease_mass", mass)
 
