@@ -122,6 +122,7 @@ class Units:
         ahead = angle - float(plants["ideal_output"][0])
         rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
         plants["ideal_output"], plants["cage"] = angle, rate * within_turn(angle) + cage
+        plants["ideal_output_rest"] = plants["cage_rest"] = 0.0
         # Until it is solved there: as ideal kinematics has it.
         plants["crank_angle"] -= self.reducer.topology.lobes * ahead
         plants["output_angle"] += ahead
