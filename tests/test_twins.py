@@ -136,3 +136,10 @@ def test_ripple_of_the_cages_errs_less_than_noise_shows(bench, noise):
     assert error < 0.5 * np.std(exact - there)
     if noise < 1e-7:
         assert error < 1e-12
+
+
+def test_forces_on_the_housing_repeat_but_for_unbalance(bench):
+    """They cancel to rounding, which is no difference; unbalance goes with the speed."""
+    for values, shared in (({"disc_ovality": 1e-6}, True), ({"unbalance": 1e-5}, False)):
+        rated, slow = (bench.column("housing_force_x", c, values, ANGLES) for c in (COLD, SLOW))
+        assert np.array_equal(rated, slow) is shared

@@ -10,7 +10,14 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
+<<<<<<< HEAD
 from discrepancy.prediction.observe import ripple_of_cages, transmission_error
+=======
+from discrepancy.prediction.conditions import angles_of
+from discrepancy.prediction.curves import errors_of_cages
+from discrepancy.prediction.fewer import fewer
+from discrepancy.prediction.observe import error_with_cages
+>>>>>>> wb19
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -19,6 +26,9 @@ from fmu_src.progress import task
 LONG = 40
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
+QUARTERS = (0.0, 0.25, 0.5, 0.75)
+# What is left of the mean over all places is no part of a ripple from here.
+SURE = 0.999
 
 ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
 
@@ -52,6 +62,7 @@ class Cages:
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
+<<<<<<< HEAD
         there = transmission_error(self.bench, record, own)
         quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in (0.25, 0.5, 0.75))
         middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
@@ -61,18 +72,40 @@ class Cages:
         share, sure = resultant(basis, misfit)
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple_of_cages(self.bench, record, own, share) + (1.0 - sure) * middle
+=======
+        few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
+        if few is record:
+            at = [error_with_cages(self.bench, record, own, share) for share in QUARTERS]
+        else:
+            pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
+            at = errors_of_cages(self.bench, few, own, [share * pitch for share in QUARTERS])
+        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+        basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
+        misfit = few.values - few.values.mean() - (middle - middle.mean())
+        times = len(record.values) // len(few.values)
+        share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
+        there, rolled = (error_with_cages(self.bench, record, own, s) for s in (share, 0.0))
+        if few is not record:
+            if sure > SURE:
+                return there - rolled
+            middle = np.mean([error_with_cages(self.bench, record, own, s) for s in QUARTERS], axis=0)
+        # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
+        return sure * there + (1.0 - sure) * middle - rolled
+>>>>>>> wb19
 
 
-def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
+def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:
     """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
 
-    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain.
+    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain;
+    each stands for so many ``times`` samples with the variance ``within`` about it.
     """
     parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
-    noise = max(float(np.var(misfit - basis @ parts)), 1e-300)
+    noise = max(float(np.var(misfit - basis @ parts)) + within, 1e-300)
     phases = np.linspace(0.0, 2.0 * np.pi, PLACES, endpoint=False)
-    waves = basis @ np.array([np.cos(phases), np.sin(phases)])
-    chi2 = np.sum((misfit[:, None] - waves) ** 2, axis=0) / noise
+    waves = np.array([np.cos(phases), np.sin(phases)])
+    # Squares of what each place leaves, by their products: over all samples once.
+    chi2 = times * (np.sum((basis.T @ basis @ waves) * waves, axis=0) - 2.0 * (basis.T @ misfit) @ waves) / noise
     weights = np.exp(-0.5 * (chi2 - chi2.min()))
     mean = complex(np.sum(weights * np.exp(1j * phases)) / np.sum(weights))
     return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)

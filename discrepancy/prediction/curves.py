@@ -3,7 +3,7 @@
 A prediction is the base model's, at fine nodes and once, and what the values change in it, at nodes of their own.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -29,6 +29,8 @@ FIRMLY, LEAST_SHARE = 0.1, 0.01
 OF_RIPPLE, HARDLY_SEEN = 0.5, 0.25
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
+# The rollers' ripple has kinks: at these it errs by 3 % of itself.
+LEVEL_OF_A_RIPPLE = 8
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
 LEVEL_OF_SLOPES = 6
 
@@ -191,6 +193,14 @@ def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) 
     assert nodes is not None
     series = curve.run(values, nodes)
     return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
+
+
+def errors_of_cages(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """Transmission error [rad] of the record's samples for several places of the cages [rad], finely enough to see where they are."""
+    curves = [OverAngle(bench, record, "transmission_error", cage) for cage in cages]
+    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, always=True)
+    assert nodes is not None
+    return [nodes.samples(curve.run(values, nodes), curve.places(values)) for curve in curves]
 
 
 def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:

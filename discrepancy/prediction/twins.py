@@ -68,7 +68,10 @@ def places_of(count: int) -> npt.NDArray[np.intp] | None:
     return None if count < HARDLY_MORE else np.linspace(0, count - 1, PLACES).astype(np.intp)
 
 
-def same(seen: Floats, known: Floats, curve: Floats, base: Floats) -> bool:
-    """Whether what is ``seen`` at some places is what was ``known`` there, of a ``curve`` that is ``base`` without the values."""
-    allowed = OF_CHANGE * float(np.abs(curve - base).max()) + OF_CURVE * float(np.ptp(base))
+def same(seen: Floats, known: Floats, curve: Floats, base: Floats, left: float = 0.0) -> bool:
+    """Whether what is ``seen`` at some places is what was ``known`` there, of a ``curve`` that is ``base`` without the values.
+
+    ``left`` is what is nothing but rounding.
+    """
+    allowed = left + OF_CHANGE * float(np.abs(curve - base).max()) + OF_CURVE * float(np.ptp(base))
     return bool(np.abs(seen - known).max() <= allowed)

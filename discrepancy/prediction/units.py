@@ -60,9 +60,9 @@ class Units:
         self.starts = [{name: float(records[name].flat[0]) for name in table.by_name} for table, records in zip(self.tables, self.templates)]
         self.runs = Once(KEPT_RUNS)
         topology = reducer.topology
-        self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
-        self.rated_speed = float(self.templates[0]["input_speed"][0])
-        self.rated_load = float(self.templates[0]["load_torque"][0])
+        self.ratio = float(total_ratio(self.starts[0]["first_stage_ratio"], topology.pins, topology.lobes))
+        self.rated_speed = self.starts[0]["input_speed"]
+        self.rated_load = self.starts[0]["load_torque"]
 
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
