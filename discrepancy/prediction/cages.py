@@ -10,14 +10,10 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
-<<<<<<< HEAD
-from discrepancy.prediction.observe import ripple_of_cages, transmission_error
-=======
 from discrepancy.prediction.conditions import angles_of
 from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
-from discrepancy.prediction.observe import error_with_cages
->>>>>>> wb19
+from discrepancy.prediction.observe import ripple_of_cages, transmission_error
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -26,7 +22,8 @@ from fmu_src.progress import task
 LONG = 40
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
-QUARTERS = (0.0, 0.25, 0.5, 0.75)
+# Parts of the pitch beside 0 at which the ripple is looked at.
+QUARTERS = (0.25, 0.5, 0.75)
 # What is left of the mean over all places is no part of a ripple from here.
 SURE = 0.999
 
@@ -62,36 +59,27 @@ class Cages:
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
-<<<<<<< HEAD
-        there = transmission_error(self.bench, record, own)
-        quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in (0.25, 0.5, 0.75))
-        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
-        basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = record.values - there - middle
-        misfit -= misfit.mean()
-        share, sure = resultant(basis, misfit)
-        # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * ripple_of_cages(self.bench, record, own, share) + (1.0 - sure) * middle
-=======
         few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
         if few is record:
-            at = [error_with_cages(self.bench, record, own, share) for share in QUARTERS]
+            there = transmission_error(self.bench, record, own)
+            quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
         else:
             pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-            at = errors_of_cages(self.bench, few, own, [share * pitch for share in QUARTERS])
-        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+            there, *ahead = errors_of_cages(self.bench, few, own, [share * pitch for share in (0.0, *QUARTERS)])
+            quarter, half, last = (error - there for error in ahead)
+        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = few.values - few.values.mean() - (middle - middle.mean())
+        misfit = few.values - there - middle
+        misfit -= misfit.mean()
         times = len(record.values) // len(few.values)
         share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
-        there, rolled = (error_with_cages(self.bench, record, own, s) for s in (share, 0.0))
+        ripple = ripple_of_cages(self.bench, record, own, share)
         if few is not record:
             if sure > SURE:
-                return there - rolled
-            middle = np.mean([error_with_cages(self.bench, record, own, s) for s in QUARTERS], axis=0)
+                return ripple
+            middle = sum((ripple_of_cages(self.bench, record, own, s) for s in QUARTERS), np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * there + (1.0 - sure) * middle - rolled
->>>>>>> wb19
+        return sure * ripple + (1.0 - sure) * middle
 
 
 def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:
