@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.linalg import solve_banded
+import numpy.typing as npt
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, stream_of
@@ -19,6 +19,7 @@ from discrepancy.prediction.support import reversals
 from discrepancy.problem import ORDERS as TABLE
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
+from fmu_src.kernel import kernel
 from studies.hysteresis import LOST_MOTION_SHARE
 
 STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "width of the loop", "peak to peak"
@@ -140,22 +141,30 @@ def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) ->
     spacing = float(np.median(np.abs(np.diff(position)))) if len(position) > 1 else 1.0
     rho = float(np.exp(-spacing / stream.length)) if stream.length > 0.0 else 0.0
     random = np.random.default_rng(0)
-    # Each deviation is the one before, weaker, and something new.
-    chain = np.array([np.ones(len(predicted)), np.full(len(predicted), -rho)])
     found = []
     for _ in range(DRAWS):
-        slow = np.sqrt(1.0 - rho**2) * solve_banded((1, 0), chain, random.standard_normal(len(predicted)))
+        slow = random.standard_normal(len(predicted))
+        carry_on(slow, rho, float(np.sqrt(1.0 - rho**2)))
         noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(predicted)))
         found.append(reading(predicted + noise))
     return found
+
+
+@kernel
+def carry_on(slow: Floats, rho: float, share: float) -> None:
+    """Make each of ``slow`` (n,) the one before, weaker by ``rho``, and a ``share`` of itself."""
+    before = 0.0
+    for i in range(slow.shape[0]):
+        before = rho * before + share * slow[i]
+        slow[i] = before
 
 
 def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: float) -> Reading:
     """How figures are read from values of a record, from the samples that it has."""
     good = np.isfinite(record.values)
     if record.quantity == "hysteresis" and "torque" in record.axes:
-        torque = np.asarray(record.axes["torque"], float)[good]
-        return lambda values: of_loop(torque, values[good], rated)
+        by_branches = of_loop(np.asarray(record.axes["torque"], float)[good], rated)
+        return lambda values: by_branches(values[good])
     if record.quantity == "transmission_error" and "angle" in record.axes:
         by_orders = orders_over(np.asarray(record.axes["angle"], float)[good], orders)
         return lambda values: by_orders(values[good])
@@ -174,34 +183,41 @@ LOOP_UNITS = {
 }  # fmt: skip
 
 
-def of_loop(torque: Floats, turning: Floats, rated: float) -> dict[str, float]:
-    """Figures of turning [rad] along torques [N m] in their order."""
+def of_loop(torque: Floats, rated: float) -> Reading:
+    """How figures are read from turning [rad] along torques [N m] in their order: what the torques decide is found once."""
     if len(torque) < 4:
-        return {}
+        return lambda _: {}
     most = float(np.abs(torque).max())
     rising = ways(torque)
-    found = {}
-    slopes = []
+    slopes: dict[str, tuple[npt.NDArray[np.intp], Floats]] = {}
     for (sign, loading), name in BRANCHES.items():
-        rows = (sign * torque >= FROM * most) & (rising == (loading == (sign > 0)))
-        if rows.sum() >= 2 and np.ptp(torque[rows]) > 0.2 * most:
-            slope = float(np.polyfit(torque[rows], turning[rows], 1)[0])
-            if slope > 0.0:
-                slopes.append(slope)
-                found[f"{STIFFNESS}, {name}"] = 1.0 / slope
-    if slopes:
-        found[STIFFNESS] = 1.0 / float(np.mean(slopes))
-    up, down = (branch(torque[rows], turning[rows]) for rows in (rising, ~rising))
-    if up is not None and down is not None:
-        small = LOST_MOTION_SHARE * rated
-        low, high = (max(b[0][0] for b in (up, down)), min(b[0][-1] for b in (up, down)))
+        rows = np.flatnonzero((sign * torque >= FROM * most) & (rising == (loading == (sign > 0))))
+        if len(rows) >= 2 and np.ptp(torque[rows]) > 0.2 * most:
+            level = torque[rows] - torque[rows].mean()
+            # Turning times these is the slope of the straight line through it.
+            slopes[name] = rows, level / float(level @ level)
+    up, down = Branch.of(torque, np.flatnonzero(rising)), Branch.of(torque, np.flatnonzero(~rising))
+    small = LOST_MOTION_SHARE * rated
+
+    def read(turning: Floats) -> dict[str, float]:
+        slope = {name: float(weights @ turning[rows]) for name, (rows, weights) in slopes.items()}
+        positive = {name: value for name, value in slope.items() if value > 0.0}
+        found = {f"{STIFFNESS}, {name}": 1.0 / value for name, value in positive.items()}
+        if positive:
+            found[STIFFNESS] = 1.0 / float(np.mean(list(positive.values())))
+        if up is None or down is None:
+            return found
+        low, high = max(up.torque[0], down.torque[0]), min(up.torque[-1], down.torque[-1])
+        above, below = up.means(turning), down.means(turning)
         if low <= -small and high >= small:
-            middle = [0.5 * (np.interp(t, *up) + np.interp(t, *down)) for t in (-small, small)]
+            middle = [0.5 * (np.interp(t, up.torque, above) + np.interp(t, down.torque, below)) for t in (-small, small)]
             found[LOST_MOTION] = float(middle[1] - middle[0])
         at = np.linspace(max(low, -FROM * most), min(high, FROM * most), TORQUES)
         if at[-1] > at[0]:
-            found[WIDTH] = float(np.mean(np.interp(at, *down) - np.interp(at, *up)))
-    return found
+            found[WIDTH] = float(np.mean(np.interp(at, down.torque, below) - np.interp(at, up.torque, above)))
+        return found
+
+    return read
 
 
 def ways(torque: Floats) -> np.ndarray:
@@ -212,12 +228,25 @@ def ways(torque: Floats) -> np.ndarray:
     return rising
 
 
-def branch(torque: Floats, turning: Floats) -> tuple[Floats, Floats] | None:
-    """Turning over rising torques, means where one is met again."""
-    if len(torque) < 2:
-        return None
-    levels, place = np.unique(torque, return_inverse=True)
-    return levels, np.bincount(place, turning) / np.bincount(place)
+@dataclass(frozen=True)
+class Branch:
+    """One way of a loop: its ``torque`` (m,), rising, and where each of its ``rows`` (n,) lies among them."""
+
+    torque: Floats
+    rows: npt.NDArray[np.intp]
+    place: npt.NDArray[np.intp]
+    count: npt.NDArray[np.intp]
+
+    @classmethod
+    def of(cls, torque: Floats, rows: npt.NDArray[np.intp]) -> "Branch | None":
+        if len(rows) < 2:
+            return None
+        levels, place = np.unique(torque[rows], return_inverse=True)
+        return cls(levels, rows, place, np.bincount(place))
+
+    def means(self, turning: Floats) -> Floats:
+        """Turning over the torques, means where one is met again."""
+        return np.bincount(self.place, turning[self.rows]) / self.count
 
 
 # transmission error -----------------------------------------------------------------------
@@ -239,14 +268,15 @@ def orders_over(angle: Floats, orders: Mapping[str, Sequence[float]]) -> Reading
         return lambda _: {}
     families = resolved(angle, orders)
     every = list(dict.fromkeys(o for family in families.values() for o in family))
-    basis = np.column_stack([np.ones(len(angle)), *(f(o * angle) for o in every for f in (np.cos, np.sin))])
-    inverse = np.linalg.pinv(basis) if len(basis) > basis.shape[1] else None
+    basis = np.vstack([np.ones(len(angle)), *(f(o * angle) for o in every for f in (np.cos, np.sin))])
+    # By the products of the waves: a million samples in a twentieth of the time of their singular values.
+    inverse = np.linalg.pinv(basis @ basis.T, hermitian=True) if basis.shape[1] > len(basis) else None
 
     def read(error: Floats) -> dict[str, float]:
         found = {SPAN: float(np.ptp(error))}
         if inverse is None:
             return found
-        parts = inverse @ error
+        parts = inverse @ (basis @ error)
         squares = {o: float(parts[1 + 2 * k] ** 2 + parts[2 + 2 * k] ** 2) for k, o in enumerate(every)}
         return found | {name_of(name, family): float(np.sqrt(sum(squares[o] for o in family))) for name, family in families.items()}
 

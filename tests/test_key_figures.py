@@ -58,20 +58,20 @@ def bench(truth, noise=(3e-6, 5e-7)):
 
 
 def test_figures_of_a_loop():
-    found = of_loop(WAY, loop(WAY, 2e-6, play=3e-5, width=1e-5), RATED)
+    found = of_loop(WAY, RATED)(loop(WAY, 2e-6, play=3e-5, width=1e-5))
     assert found[STIFFNESS] == pytest.approx(5e5, rel=1e-6)
     assert all(found[f"{STIFFNESS}, {name}"] == pytest.approx(5e5, rel=1e-6) for name in ("forward, loading", "backward, unloading"))
     assert found[LOST_MOTION] == pytest.approx(3e-5 + 0.06 * RATED * 2e-6, rel=0.02)
     assert found[WIDTH] == pytest.approx(1e-5, rel=0.02)
     # A ramp to one side has a stiffness and no lost motion.
     ramp = np.concatenate([np.linspace(1.0, 100.0, 50), np.linspace(99.0, 1.0, 49)])
-    one_side = of_loop(ramp, loop(ramp), RATED)
+    one_side = of_loop(ramp, RATED)(loop(ramp))
     assert one_side[STIFFNESS] == pytest.approx(5e5, rel=1e-6) and LOST_MOTION not in one_side
 
 
 def test_stiffness_of_each_branch_is_its_own():
     forward = np.where(WAY > 0.0, 1.0, 2.0) * loop(WAY, 1e-6)
-    found = of_loop(WAY, forward, RATED)
+    found = of_loop(WAY, RATED)(forward)
     assert found[f"{STIFFNESS}, forward, loading"] == pytest.approx(1e6) and found[f"{STIFFNESS}, backward, loading"] == pytest.approx(5e5)
 
 

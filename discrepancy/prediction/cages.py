@@ -10,7 +10,10 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.observe import error_with_cages
+from discrepancy.prediction.conditions import angles_of
+from discrepancy.prediction.curves import errors_of_cages
+from discrepancy.prediction.fewer import fewer
+from discrepancy.prediction.observe import ripple_of_cages, transmission_error
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -19,6 +22,10 @@ from fmu_src.progress import task
 LONG = 40
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
+# Parts of the pitch beside 0 at which the ripple is looked at.
+QUARTERS = (0.25, 0.5, 0.75)
+# What is left of the mean over all places is no part of a ripple from here.
+SURE = 0.999
 
 ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
 
@@ -52,25 +59,41 @@ class Cages:
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
-        at = [error_with_cages(self.bench, record, own, share) for share in (0.0, 0.25, 0.5, 0.75)]
-        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+        few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
+        if few is record:
+            there = transmission_error(self.bench, record, own)
+            quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
+        else:
+            pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
+            there, *ahead = errors_of_cages(self.bench, few, own, [share * pitch for share in (0.0, *QUARTERS)])
+            quarter, half, last = (error - there for error in ahead)
+        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = record.values - record.values.mean() - (middle - middle.mean())
-        share, sure = resultant(basis, misfit)
+        misfit = few.values - there - middle
+        misfit -= misfit.mean()
+        times = len(record.values) // len(few.values)
+        share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
+        ripple = ripple_of_cages(self.bench, record, own, share)
+        if few is not record:
+            if sure > SURE:
+                return ripple
+            middle = sum((ripple_of_cages(self.bench, record, own, s) for s in QUARTERS), np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * error_with_cages(self.bench, record, own, share) + (1.0 - sure) * middle - at[0]
+        return sure * ripple + (1.0 - sure) * middle
 
 
-def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
+def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:
     """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
 
-    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain.
+    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain;
+    each stands for so many ``times`` samples with the variance ``within`` about it.
     """
     parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
-    noise = max(float(np.var(misfit - basis @ parts)), 1e-300)
+    noise = max(float(np.var(misfit - basis @ parts)) + within, 1e-300)
     phases = np.linspace(0.0, 2.0 * np.pi, PLACES, endpoint=False)
-    waves = basis @ np.array([np.cos(phases), np.sin(phases)])
-    chi2 = np.sum((misfit[:, None] - waves) ** 2, axis=0) / noise
+    waves = np.array([np.cos(phases), np.sin(phases)])
+    # Squares of what each place leaves, by their products: over all samples once.
+    chi2 = times * (np.sum((basis.T @ basis @ waves) * waves, axis=0) - 2.0 * (basis.T @ misfit) @ waves) / noise
     weights = np.exp(-0.5 * (chi2 - chi2.min()))
     mean = complex(np.sum(weights * np.exp(1j * phases)) / np.sum(weights))
     return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)

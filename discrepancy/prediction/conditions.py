@@ -22,12 +22,21 @@ def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
 
 def row_conditions(bench: Bench, record: Record) -> list[Condition]:
     """The condition of every row (rows may differ in speed, load, temperature, hours)."""
-    columns = [np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)]
     direction = int(record.factors.get("direction", 1))
-    return [
-        Condition(float(speed), float(load), float(temperature), float(hours), direction)
-        for speed, load, temperature, hours in zip(*columns)
-    ]
+    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in rows_of(bench, record).tolist()]
+
+
+def distinct_conditions(bench: Bench, record: Record) -> list[Condition]:
+    """Each condition that a row has, once: a record has up to a million rows."""
+    rows = rows_of(bench, record)
+    direction = int(record.factors.get("direction", 1))
+    distinct = dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))
+    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in distinct]
+
+
+def rows_of(bench: Bench, record: Record) -> Floats:
+    """Speed, load, temperature and hours of every row (n, 4)."""
+    return np.column_stack([np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)])
 
 
 def condition_of(bench: Bench, record: Record) -> Condition:

@@ -7,12 +7,14 @@ from typing import TypeVar
 import numpy as np
 
 from discrepancy.prediction.support import COARSEST
-from discrepancy.problem import ERROR, ORDERS, Record
+from discrepancy.problem import ERROR, FREE_ZERO, ORDERS, Record
 from discrepancy.rounding import noise_of
 from fmu_src.arrays import Floats
 
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
 SEEN = 2.0
+# What equilibria are solved to [rad] (``units.TOLERANCE``; two ways to one equilibrium differ by a tenth of it): an angle below needs no nodes.
+SOLVED = 5e-11
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
 ROUGHLY = 0.15
 # The few nodes of a band are for searches; what is reported may err by so much less there.
@@ -56,7 +58,7 @@ class Fineness:
                 whole.add(group)
             own = record.stated_noise or scatter if record.quantity == ORDERS else fast_noise(np.asarray(record.values, float))
             noise[group] = min(noise.get(group, np.inf), own)
-        self.allowed = {group: SEEN * noise[group] / np.sqrt(count) for group, count in counts.items()}
+        self.allowed = {g: max(SEEN * noise[g] / float(np.sqrt(count)), SOLVED if g[0] in FREE_ZERO else 0.0) for g, count in counts.items()}
         # Where only orders were measured, nodes for these may do: what lies between shows as their error.
         self.orders = set(counts) - whole
         self.base: dict[Group, int] = {}

@@ -7,13 +7,12 @@ import numpy as np
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
-from discrepancy.prediction.curves import OverAngle, OverTorque, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
-from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.life import peak_of_circle
 
@@ -47,10 +46,9 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
     return None if change is None else from_zero(record, change)
 
 
-def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
-    """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
-    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    return signal(OverAngle(bench, record, "transmission_error", share * pitch), values)
+def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
+    """What cages a ``share`` of their rollers' pitch ahead change in the transmission error."""
+    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
@@ -151,8 +149,7 @@ def housing_force(bench: Bench, record: Record, values: Values) -> tuple[Floats,
     """Force of the pins on their ring along x over one output turn, less its mean."""
     condition = condition_of(bench, record)
     angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
-    series = bench.running(condition, values, angles if condition.direction > 0 else angles[::-1])
-    force = series[:, COLUMNS.index("housing_force_x")]
+    force = bench.column("housing_force_x", condition, values, angles if condition.direction > 0 else angles[::-1])
     force = force if condition.direction > 0 else force[::-1]
     return angles, centred(force)
 

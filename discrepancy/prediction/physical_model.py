@@ -14,8 +14,9 @@ from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, identity, row_conditions
+from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, distinct_conditions, identity
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
+from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.model_error import with_error
@@ -62,7 +63,7 @@ class PhysicalModel:
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         for record in self.records:
-            rows = row_conditions(self.bench, record)
+            rows = distinct_conditions(self.bench, record)
             # A held test looks at a life under the rated load.
             self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)], record.held_out)
         if not any(r.tags.get("surface") == "pin" for r in self.records):
@@ -122,6 +123,8 @@ class PhysicalModel:
             shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * width
             # One record tells; the pattern hardly depends on the condition.
             record = self.records[indices[0]]
+            if record.quantity == ERROR:
+                record = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
             own = self.for_record(record, self.standing())
             found = shifted_errors(self.bench, curve_of(record), own, shifts)
             if record.quantity == ORDERS:

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, copied
 from fmu_src.faults import RunFault
 from fmu_src.table import Table
 from fmu_src.threads import Once
@@ -96,7 +96,7 @@ class Units:
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
         """Records of a unit (0 plant, 1 wear) with values and the condition's temperature."""
-        records = self.templates[unit].copy()
+        records = copied(self.templates[unit])
         for name, value in values.items():
             if name in self.tables[unit].by_name:
                 records[name] = value
@@ -122,6 +122,7 @@ class Units:
         ahead = angle - float(plants["ideal_output"][0])
         rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
         plants["ideal_output"], plants["cage"] = angle, rate * within_turn(angle) + cage
+        plants["ideal_output_rest"] = plants["cage_rest"] = 0.0
         # Until it is solved there: as ideal kinematics has it.
         plants["crank_angle"] -= self.reducer.topology.lobes * ahead
         plants["output_angle"] += ahead

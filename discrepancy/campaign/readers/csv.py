@@ -72,6 +72,11 @@ def scan(path: Path, stated: str | None = None) -> tuple[str, list[int]]:
     for encoding in (stated,) if stated else encodings_of(beginning):
         try:
             with opened(path, encoding) as file:
+                # Blocks first: a file of a million lines has no comment, mostly.
+                found = any(COMMENT in block for block in iter(lambda: file.read(SEEN), ""))
+            if not found:
+                return encoding, []
+            with opened(path, encoding) as file:
                 return encoding, [number for number, line in enumerate(file) if line.startswith(COMMENT)]
         except UnicodeDecodeError:
             continue

@@ -82,9 +82,9 @@ class HeldOutJudge:
         for i in self.indices:
             if stream_of(self.space.records[i]) != finding.signal:
                 continue
-            match = [f for f in features(self.space.records[i], orders) if f.name == finding.feature]
-            if match:
-                blocks[i] = match[0].columns[:, :4]
+            match = next((f for f in features(self.space.records[i], orders) if f.name == finding.feature), None)
+            if match is not None:
+                blocks[i] = match.columns[:, :4]
         if not blocks:
             return []
         width = min(b.shape[1] for b in blocks.values())

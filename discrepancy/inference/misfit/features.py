@@ -4,7 +4,7 @@ Mean; cosines along an axis (place, torque, time); for loops the branch that the
 orders of the output's angle, in families whose harmonics belong together.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,44 +38,71 @@ class Feature:
     columns: Floats
 
 
-def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, comb: int = COMB) -> list[Feature]:
-    """All generic functions of a record."""
+def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, comb: int = COMB) -> Iterator[Feature]:
+    """All generic functions of a record, one after the other: together they are a hundred times its values."""
     if record.quantity == TABLES:
-        return of_orders(record, orders)
+        yield from of_orders(record, orders)
+        return
     count = np.size(record.values)
-    result = [Feature("mean", np.ones((count, 1)))]
+    yield Feature("mean", np.ones((count, 1)))
     if count < SHORT:
-        return result
+        return
     angle = order_axis(record)
     if angle is not None:
-        turns = np.ptp(angle) / (2 * np.pi)
-        highest = 0.9 * np.pi / max(np.median(np.abs(np.diff(angle))), 1e-12)
+        turns, highest = shown(angle)
         named = set()
         for name, family in orders.items():
             inside = [o for o in family if 0.6 / max(turns, 1e-9) <= o <= highest]
             if inside:
                 named.update(inside)
-                result.append(Feature(f"orders: {name}", waves(angle, inside)))
+                yield Feature(f"orders: {name}", waves(angle, inside))
         spacing = max(1, int(np.ceil(0.8 / max(turns, 1e-9))))
+        step, wave = np.exp(1j * spacing * angle), np.ones(count, complex)
         for order in range(spacing, comb + 1, spacing):
+            # Each is the one before times the first: a cosine takes ten times as long.
+            wave *= step
             if order not in named and order <= highest:
-                result.append(Feature(f"order {order}", waves(angle, [order])))
+                yield Feature(f"order {order}", np.column_stack([wave.real, wave.imag]))
+    for name, x in along(record).items():
+        waves_along = np.column_stack([np.cos(np.pi * j * x) for j in range(1, COSINES + 1)])
+        yield Feature(f"along {name}", waves_along)
+        if count >= 64:
+            yield Feature(f"finely along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(COSINES + 1, FINE + 1)]))
+        steps = np.gradient(np.asarray(record.axes[name], dtype=float))
+        if np.any(steps > 0) and np.any(steps < 0):
+            branch = np.sign(steps)[:, None]
+            yield Feature(f"branch of {name}", branch * np.column_stack([np.ones(count), waves_along[:, :2]]))
+
+
+def shown(angle: Floats) -> tuple[float, float]:
+    """Turns of an angle [rad], and the highest order that its samples show."""
+    return float(np.ptp(angle)) / (2 * np.pi), float(0.9 * np.pi / max(np.median(np.abs(np.diff(angle))), 1e-12))
+
+
+def along(record: Record) -> dict[str, Floats]:
+    """Axes (n,) from 0 to 1 along which cosines are laid; not the angle, nor what rises beside it."""
+    found = {}
+    angle = order_axis(record)
     for name, axis in record.axes.items():
         axis = np.asarray(axis, dtype=float)
-        if name == "angle" or axis.size != count or not np.all(np.isfinite(axis)) or np.ptp(axis) == 0:
+        if name == "angle" or axis.size != np.size(record.values) or not np.all(np.isfinite(axis)) or np.ptp(axis) == 0:
             continue
         if angle is not None and np.all(np.diff(axis) > 0):
             continue
-        x = (axis - axis.min()) / np.ptp(axis)
-        waves_along = np.column_stack([np.cos(np.pi * j * x) for j in range(1, COSINES + 1)])
-        result.append(Feature(f"along {name}", waves_along))
-        if count >= 64:
-            result.append(Feature(f"finely along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(COSINES + 1, FINE + 1)])))
-        steps = np.gradient(axis)
-        if np.any(steps > 0) and np.any(steps < 0):
-            branch = np.sign(steps)[:, None]
-            result.append(Feature(f"branch of {name}", branch * np.column_stack([np.ones(count), waves_along[:, :2]])))
-    return result
+        found[name] = (axis - axis.min()) / np.ptp(axis)
+    return found
+
+
+def samples_of_a_wave(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS) -> float:
+    """Samples of the shortest wave among the functions of a record."""
+    shortest = [float(np.size(record.values))]
+    angle = order_axis(record)
+    if angle is not None:
+        _, highest = shown(angle)
+        finest = max([o for family in orders.values() for o in family if o <= highest] + [min(float(COMB), highest)])
+        shortest.append(2.0 * highest / (0.9 * finest))
+    shortest += [2.0 / (FINE * max(float(np.median(np.abs(np.diff(x)))), 1e-12)) for x in along(record).values() if x.size > 1]
+    return min(shortest)
 
 
 def of_orders(record: Record, orders: Mapping[str, Sequence[float]]) -> list[Feature]:

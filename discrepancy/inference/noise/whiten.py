@@ -52,6 +52,9 @@ def fill_innovations(columns: Floats, correlation: Floats, gain: Floats, deviati
 
 def innovations(columns: Floats, correlation: Floats, gain: Floats, deviation: Floats) -> Floats:
     """Normalised innovations of each column."""
+    if not correlation.any():
+        # Noise that forgets at once: nothing to go along.
+        return columns / deviation[:, None]
     columns = np.ascontiguousarray(columns, dtype=float)
     result = np.empty_like(columns)
     fill_innovations(columns, correlation, gain, deviation, np.zeros(columns.shape[1]), result)
@@ -88,8 +91,8 @@ class Whitener:
 
     def innovate(self, columns: Floats) -> Floats:
         """Without weights and patterns."""
-        columns = np.ascontiguousarray(columns[self.kept] / self.scale[:, None])
-        result = innovations(columns, self.correlation, self.gain, self.deviation)
+        rows = columns if self.kept.all() else columns[self.kept]
+        result = innovations(rows / self.scale[:, None], self.correlation, self.gain, self.deviation)
         return autoregress(result, self.taps)
 
     def __call__(self, columns: Floats) -> Floats:
