@@ -23,8 +23,8 @@ LONG = 40
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
 QUARTERS = (0.0, 0.25, 0.5, 0.75)
-# What is left of the mean over all places is no part of a ripple from here.
-SURE = 0.999
+# Share of itself by which a ripple errs at few nodes.
+RIPPLE_ERRS = 0.06
 
 ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
 
@@ -59,11 +59,7 @@ class Cages:
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
         few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
-        if few is record:
-            at = [error_with_cages(self.bench, record, own, share) for share in QUARTERS]
-        else:
-            pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-            at = errors_of_cages(self.bench, few, own, [share * pitch for share in QUARTERS])
+        at = self.at_quarters(few, own, few is record)
         middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
         misfit = few.values - few.values.mean() - (middle - middle.mean())
@@ -71,11 +67,18 @@ class Cages:
         share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
         there, rolled = (error_with_cages(self.bench, record, own, s) for s in (share, 0.0))
         if few is not record:
-            if sure > SURE:
-                return there - rolled
-            middle = np.mean([error_with_cages(self.bench, record, own, s) for s in QUARTERS], axis=0)
+            exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(there - rolled)) > self.bench.allowed(record)
+            at = self.at_quarters(record, own, exactly)
+            middle = rolled + np.mean(at, axis=0) - at[0]
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * there + (1.0 - sure) * middle - rolled
+
+    def at_quarters(self, record: Record, own: dict[str, float], exactly: bool) -> list[Floats]:
+        """Transmission error [rad] with the cages at quarters of the pitch ahead; where not ``exactly``, they err by ``RIPPLE_ERRS`` of the ripple."""
+        if exactly:
+            return [error_with_cages(self.bench, record, own, share) for share in QUARTERS]
+        pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
+        return errors_of_cages(self.bench, record, own, [share * pitch for share in QUARTERS])
 
 
 def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:

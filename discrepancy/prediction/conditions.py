@@ -23,14 +23,15 @@ def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
 def row_conditions(bench: Bench, record: Record) -> list[Condition]:
     """The condition of every row (rows may differ in speed, load, temperature, hours)."""
     direction = int(record.factors.get("direction", 1))
-    return [Condition(*row, direction) for row in rows_of(bench, record).tolist()]
+    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in rows_of(bench, record).tolist()]
 
 
 def distinct_conditions(bench: Bench, record: Record) -> list[Condition]:
     """Each condition that a row has, once: a record has up to a million rows."""
     rows = rows_of(bench, record)
     direction = int(record.factors.get("direction", 1))
-    return [Condition(*row, direction) for row in dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))]
+    different = dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))
+    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in different]
 
 
 def rows_of(bench: Bench, record: Record) -> Floats:
