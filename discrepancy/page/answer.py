@@ -4,7 +4,7 @@ from typing import Any
 
 from discrepancy import wording
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.page import amounts, comparison, profiles, response
+from discrepancy.page import amounts, comparison, profiles, response, whys
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -85,17 +85,18 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
         number(best["held_out_error_before"]),
         "in the patterns that matter" if drowned else "times noise",
         "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
+        whys.of_unused(answer, best["held_out_error_before"], best["held_out_error_after"]),
     )
 
 
 def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer))]
+    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
         best = answer.effects[0]
         most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
         share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
-        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}"))
+        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
             made.append(unused(answer, best))
     made.append(
@@ -103,7 +104,8 @@ def cards(answer: Answer) -> list[Card]:
             "Findings of the localisation",
             str(len(diagnosis.localisation.get("findings", []))),
             f"smallest {amounts.chance(diagnosis.p_localise)}",
+            why=whys.of_localising(answer),
         )
     )
-    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together"))
+    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together", why=whys.of_screening(answer)))
     return made

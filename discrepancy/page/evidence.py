@@ -4,7 +4,7 @@ from typing import Any
 
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
-from discrepancy.page import amounts, bars, laws, maps
+from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
@@ -27,7 +27,7 @@ def listed(names: list[str]) -> str:
 
 def effects(answer: Answer) -> Section:
     """Parameters with intervals, and each effect's share."""
-    rows = []
+    rows, answers = [], []
     for effect in answer.effects:
         first = True
         for name, entry in effect["parameters"].items():
@@ -35,7 +35,8 @@ def effects(answer: Answer) -> Section:
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
             rows.append([named(effect) if first else "", effect["part"] if first else "", name, value, interval, unit, bound])
             first = False
-    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4))
+            answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
+    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
@@ -187,7 +188,8 @@ def rivals(answer: Answer) -> Section:
                 12,
             )
         ]
-    return Section("rivals", "Rivals and why they were turned down", lead, figures, [Table("", ["effect", "reason"], rows)])
+    table = Table("", ["effect", "reason"], rows, whys=[whys.of_rival(r) for r in rejected])
+    return Section("rivals", "Rivals and why they were turned down", lead, figures, [table])
 
 
 def recovered(answer: Answer) -> Section:

@@ -4,7 +4,7 @@ from typing import Any
 
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.model_file import ModelFile
-from discrepancy.page import amounts, bars, ladder
+from discrepancy.page import amounts, bars, ladder, whys
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import number
@@ -82,7 +82,7 @@ def cards(step: dict[str, Any]) -> list[Card]:
         if before is not None and after is not None:
             shown = key != "training" and step["verdict"] == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone))
+            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone, whys.of_step(key, before, after, len(step.get("signals", [])))))
     return made
 
 
