@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, comparison, spectra, whys
@@ -68,7 +69,7 @@ def calibrated(result: Comparison) -> list[dict[str, str]]:
     found = []
     for name, value in result.nuisances.items():
         unit, meaning = units.get(name, ("1", ""))
-        found.append({"name": name, "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
+        found.append({"name": told_name(name, tables_of(result.model)), "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
     return found
 
 

@@ -105,6 +105,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
 
 
 def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
+    from discrepancy.as_told import tables_of, told_name
     from discrepancy.page.amounts import pretty
     from discrepancy.page.whys import of_estimate
     from discrepancy.scales import parameter_texts
@@ -112,7 +113,8 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     found = []
     for name, entry in given.items():
         value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
-        found.append({"name": name, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
+        told = told_name(name, tables_of(answer.model))
+        found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
                       "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 

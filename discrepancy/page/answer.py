@@ -3,6 +3,7 @@
 from typing import Any
 
 from discrepancy import wording
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.page import amounts, comparison, profiles, response, whys
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
@@ -55,6 +56,7 @@ def sentence(answer: Answer) -> str:
     error = wording.error_text(answer, best).replace("->", "→") if best else ""
     share += f"; {error}" if error else ""
     left = wording.left_text(answer)
+    off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
         ONE: f"The model lacks {listed(names)}.{share}.",
@@ -64,7 +66,7 @@ def sentence(answer: Answer) -> str:
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
             f"that no effect of the catalogue explains{f': {left}' if left else ''}."
         ),
-        BASE_OFF: f"No effect is missing; the base model itself is off: {listed([e.name for e in answer.diagnosis.base_off])}.",
+        BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 from typing import Any
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
@@ -213,7 +214,8 @@ def nuisances(result: Comparison) -> Section:
         unit = parameter.unit if parameter else "1"
         scale = of_parameter(abs(value), unit)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
-        rows.append([name, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        told = told_name(name, tables_of(result.model))
+        rows.append([told, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
         "Fitted to the campaign before anything was compared."
         if rows

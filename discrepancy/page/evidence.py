@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
@@ -33,7 +34,8 @@ def effects(answer: Answer) -> Section:
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
-            rows.append([named(effect) if first else "", effect["part"] if first else "", name, value, interval, unit, bound])
+            told = told_name(name, tables_of(answer.model))
+            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
             first = False
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
     table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
@@ -62,7 +64,8 @@ def base_off(answer: Answer) -> Section:
     for e in answer.diagnosis.base_off:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
-        rows.append([e.name, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
+        told = told_name(e.name, tables_of(answer.model))
+        rows.append([told, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
     table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
     lead = (
         "Numbers of the reducer file that are not known for sure, as this campaign has them, and what the base model computes by more off than"

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from discrepancy.as_told import effect_name
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
@@ -163,7 +164,7 @@ def parameters(file: ModelFile) -> Section:
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
             }
             value, interval, unit = amounts.estimate(both)
-            rows.append([effect.replace("_", " ") if k == 0 else "", name, value, interval if "low" in entry else "", unit])
+            rows.append([effect.replace("_", " ") if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."
     return Section(
         "effects",

@@ -124,10 +124,10 @@ export function show(root, context) {
         h(
           "div",
           {},
-          `${words(p.name)} = `,
+          `${p.name} = `,
           h("b", {}, `${p.value} ${p.unit}`),
           h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""} `),
-          why(p.why, words(p.name)),
+          why(p.why, p.name),
         ),
       ),
       answer.effects.length > 1 ? h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")) : null,
