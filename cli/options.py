@@ -32,6 +32,7 @@ SHORTHANDS = {
     "contact_law": ("contact.law", ""),
 }
 
+PAGES = (".html", ".htm")
 PLAIN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*")
 
 
@@ -114,12 +115,31 @@ def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)
         str(path).encode()
     except UnicodeEncodeError:
         raise InputFault(f"--output {path}: the NetCDF library takes names in UTF-8 alone; give another one") from None
-    if path.is_dir():
-        raise InputFault(f"--output {path} is a folder; give a file name in it that ends in .nc")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if not os.access(path.parent, os.W_OK):
-        raise InputFault(f"--output {path}: the folder {path.parent} cannot be written to")
+    require_place(path, "--output", ".nc")
     return path
+
+
+def page_path(text: str | None) -> Path | None:
+    """Where the page of ``--html`` goes, if one is asked for; checked before the work, too."""
+    if not text:
+        return None
+    path = Path(text)
+    if path.suffix.lower() not in PAGES:
+        raise InputFault(f"--html {path}: the name must end in .html")
+    require_place(path, "--html", ".html")
+    return path
+
+
+def require_place(path: Path, option: str, ending: str) -> None:
+    """InputFault where no file can be written; its folder is made."""
+    if path.is_dir():
+        raise InputFault(f"{option} {path} is a folder; give a file name in it that ends in {ending}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise InputFault(f"{option} {path}: the folder {path.parent} cannot be made ({problem.strerror}); give another place") from None
+    if not os.access(path.parent, os.W_OK):
+        raise InputFault(f"{option} {path}: the folder {path.parent} cannot be written to")
 
 
 def all_cores() -> int:

@@ -1,6 +1,5 @@
 """Results on the screen."""
 
-import json
 from collections.abc import Mapping
 
 from rich import box
@@ -8,6 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from exports.plain import plain_json
 from studies.figure_units import figure_unit
 
 # Wide enough for all tables, also where the output goes to a file.
@@ -34,7 +34,7 @@ def dense(title: str) -> Table:
 
 def json_text(content: Mapping[str, object]) -> None:
     """NaN and infinity are not JSON: they become null."""
-    print(json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None), indent=1))
+    print(plain_json(content, indent=1))
 
 
 def figures(title: str, values: Mapping[str, object]) -> None:

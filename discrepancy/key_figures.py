@@ -57,6 +57,11 @@ class KeyFigure:
         """Difference in times its noise."""
         return (self.measured - self.model) / self.noise if self.noise > 0.0 else 0.0
 
+    @property
+    def told_as(self) -> str:
+        """The signal, or the quantity that is read from it, in whose usual unit the figure is told."""
+        return "torsional_stiffness" if self.unit == "N.m/rad" else self.signal
+
     def as_json(self) -> dict[str, Any]:
         return asdict(self) | {"off": self.off}
 

@@ -21,7 +21,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
 from discrepancy.remembered import diagnosed
-from discrepancy.scales import of_axis, shown, speed_words
+from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from studies.hysteresis import torque_way
@@ -261,6 +261,5 @@ def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[
 def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> str:
     scale = of_axis(name, campaign)
     low, high = (f"{scale.number(v):{'.3g' if 0.0 < abs(scale.number(v)) < 10.0 else '.0f'}}" for v in span)
-    where = f" at the {speed_words(campaign)}" if name == "speed" else ""
-    unit = "" if scale.unit == "1" else f" {scale.unit}"
-    return f"{low}{unit}{where}" if low == high else f"any {name} from {low} to {high}{unit}{where}"
+    unit = unit_of_axis(name, campaign)
+    return f"{low} {unit}".rstrip() if low == high else f"any {name} from {low} to {high} {unit}".rstrip()

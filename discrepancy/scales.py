@@ -85,9 +85,12 @@ def of_axis(name: str, campaign: Campaign | None = None) -> Scale:
     return scale
 
 
-def speed_words(campaign: Campaign) -> str:
-    """Where its speeds are counted: at input or output."""
-    return "output" if campaign.speed_at == "output" and campaign.ratio else "input"
+def unit_of_axis(name: str, campaign: Campaign) -> str:
+    """The unit that ``of_axis`` leads to, with where speeds are counted; empty without one."""
+    unit = of_axis(name, campaign).unit
+    if name == "speed":
+        return f"{unit} at the {'output' if campaign.speed_at == 'output' and campaign.ratio else 'input'}"
+    return "" if unit == "1" else unit
 
 
 def shown(value: float, unit: str, signal: str = "") -> str:

@@ -94,7 +94,7 @@ def in_bench_units(row: Mapping[str, Any]) -> dict[str, Any]:
 def figure_rows(figures: Sequence[KeyFigure]) -> Table:
     rows = []
     for f in figures:
-        scale = of_signal("torsional_stiffness" if f.unit == "N.m/rad" else f.signal, f.unit)
+        scale = of_signal(f.told_as, f.unit)
         rows.append({
             "signal": f.signal, "condition": f.condition, "figure": f.name, "measured": scale.number(f.measured), "model": scale.number(f.model),
             "noise": scale.factor * f.noise, "unit": scale.unit, "off_in_noise": f.off, "runs": f.runs,

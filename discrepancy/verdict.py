@@ -20,7 +20,7 @@ from discrepancy.key_figures import KeyFigure, calibrated_first, too_soft
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.scales import of_axis, of_signal, speed_words
+from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from fmu_src.progress import task
 
 
@@ -119,9 +119,11 @@ def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:
     units = {stream_of(r): r.unit for r in model.records}
 
     def told(name: str) -> tuple[float, float, str]:
-        scale = of_signal(name, units[name]) if name in units else of_axis(name, model.campaign)
-        where = f" at the {speed_words(model.campaign)}" if name == "speed" else ""
-        return scale.factor, scale.offset, "" if scale.unit == "1" else scale.unit + where
+        if name not in units:
+            scale = of_axis(name, model.campaign)
+            return scale.factor, scale.offset, unit_of_axis(name, model.campaign)
+        scale = of_signal(name, units[name])
+        return scale.factor, scale.offset, "" if scale.unit == "1" else scale.unit
 
     return told
 

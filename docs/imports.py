@@ -3,6 +3,7 @@
 import ast
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -37,6 +38,7 @@ def imported(name: str, path: Path, known: dict[str, Path]) -> Iterator[tuple[st
                 yield target, node.lineno
 
 
+@cache
 def arrows(root: Path = ROOT) -> dict[str, list[tuple[str, int]]]:
     """File -> (imported file, line)."""
     known = sources(root)

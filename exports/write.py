@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from exports.plain import plain
 from exports.tables import Table
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart
@@ -69,17 +70,11 @@ def write_excel(tables: Sequence[Table], path: Path) -> list[Path]:
             raise InputFault(f"{path}: the table {table.name} has {rows} rows and {len(table.columns)} columns, more than Excel holds; export .parquet or .csv")
         sheet = book.create_sheet(table.name[:31])
         sheet.append([column.head for column in table.columns])
-        for row in zip(*(plain_cells(column.values) for column in table.columns)):
+        for row in zip(*(plain(column.values) for column in table.columns)):
             sheet.append(row)
     with replacing(path) as partial:
         book.save(partial)
     return [path]
-
-
-def plain_cells(values: Any) -> list[Any]:
-    """Numbers as Excel has them: it knows no NaN and no infinity."""
-    cells = values.tolist() if isinstance(values, np.ndarray) else list(values)
-    return [None if isinstance(cell, float) and not np.isfinite(cell) else cell for cell in cells]
 
 
 def write_mat(tables: Sequence[Table], path: Path) -> list[Path]:

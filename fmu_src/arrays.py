@@ -17,3 +17,9 @@ def field_of(record: np.dtype, name: str) -> tuple[np.dtype, int]:
     assert record.fields is not None
     kind, place = record.fields[name][:2]
     return kind, place
+
+
+def copied(records: Records) -> Records:
+    """A copy of one or several records, byte by byte: NumPy goes through their fields, which takes forty times as long."""
+    found = np.ndarray(records.shape, records.dtype, bytearray(records.view(np.uint8)))
+    return found if type(records) is np.ndarray else found.view(type(records))

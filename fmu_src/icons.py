@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import numpy.typing as npt
 
 from fmu_src.arrays import Floats
 
+Bytes = npt.NDArray[np.uint8]
 # Each pixel is the mean of so many squared.
 FINE = 4
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 -100 200 200">'
@@ -73,9 +75,19 @@ def picture(size: int) -> bytes:
     """The units' icon as PNG of ``size`` pixels squared."""
     x, y, colours = canvas(size)
     for disc in reducer():
-        inside = np.hypot(x - disc.x, y - disc.y) < disc.edge(np.arctan2(y - disc.y, x - disc.x))
-        colours[inside] = paint(disc.colour)
+        reach = disc.radius + disc.height
+        # Nothing else is near it.
+        rows, columns = span(y[:, 0] - disc.y, reach), span(x[0] - disc.x, reach)
+        right, up = x[:, columns] - disc.x, y[rows] - disc.y
+        edge = disc.edge(np.arctan2(up, right)) if disc.lobes else disc.radius
+        colours[rows, columns][np.hypot(right, up) < edge] = paint(disc.colour)
     return png(colours)
+
+
+def span(places: Floats, reach: float) -> slice:
+    """Where a sorted row lies within ``reach`` of 0."""
+    inside = np.flatnonzero(np.abs(places) <= reach)
+    return slice(inside[0], inside[-1] + 1)
 
 
 @cache
@@ -116,18 +128,17 @@ def polygon(x: Floats, y: Floats, colour: str) -> str:
     return f'<polygon points="{points}" fill="{colour}"/>'
 
 
-def canvas(size: int) -> tuple[Floats, Floats, Floats]:
-    """Places of the fine pixels, -1 to 1, y up, and their colours, clear."""
+def canvas(size: int) -> tuple[Floats, Floats, Bytes]:
+    """Places of the fine pixels, x (1, n) and y (n, 1), -1 to 1, y up, and their colours (n, n, 4), clear."""
     axis = (np.arange(FINE * size) + 0.5) / (FINE * size) * 2.0 - 1.0
-    x, y = np.meshgrid(axis, -axis)
-    return x, y, np.zeros((FINE * size, FINE * size, 4))
+    return axis[None], -axis[:, None], np.zeros((len(axis), len(axis), 4), "u1")
 
 
 def paint(colour: str) -> tuple[int, ...]:
     return (*(int(colour[i : i + 2], 16) for i in (1, 3, 5)), 255)
 
 
-def png(colours: Floats) -> bytes:
+def png(colours: Bytes) -> bytes:
     """A PNG file of fine pixels."""
     size = len(colours) // FINE
     pixels = colours.reshape(size, FINE, size, FINE, 4).mean((1, 3)).astype("u1")

@@ -1,6 +1,6 @@
 """FMI 2.0 calls on arrays prepared once: a vector of hundreds of values moves in one call.
 
-The functions that run every step are bound past fmpy's wrappers, whose bookkeeping costs
+The functions that run every step are bound past fmpy's wrappers (``bound_calls``), whose bookkeeping costs
 as much as a native unit needs to copy three hundred values.
 """
 
@@ -19,14 +19,10 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
+from orchestrator.bound_calls import address, bound, bound_step
 from orchestrator.component import Snapshot
 from orchestrator.model_description import Described
 
-# Statuses above "warning" are failures.
-WARNING, ERROR = 1, 3
-VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
-DERIVATIVES = (*VALUES[:3], ctypes.c_void_p, ctypes.c_void_p)
-STEP = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
 TYPE = {"f8": "Real", "i8": "Integer", "?": "Boolean"}
 
 
@@ -48,27 +44,17 @@ class Fmi2:
 
     def instantiate(self) -> None:
         self.slave.instantiate(callbacks=self.callbacks, loggingOn=True)
-        self.do_step = self.bound("fmi2DoStep", STEP)
+        self.step = bound_step(self.slave.dll, "fmi2DoStep", self.slave.component, (ctypes.c_int(self.keeps_state),), self.refuse)
 
-    def bound(self, function: str, types: tuple[type, ...], *arguments: Any) -> Callable[..., None]:
-        """The function with the instance and arguments held."""
-        call = self.slave.dll[function]
-        call.argtypes, call.restype = types, ctypes.c_int
-        instance, refuse = self.slave.component, self.refuse
-
-        def run(*rest: float) -> None:
-            status = call(instance, *arguments, *rest)
-            if status > WARNING:
-                refuse(function, status)
-
-        return run
+    def bound(self, function: str, *arguments: Any) -> Callable[[], None]:
+        return bound(self.slave.dll, function, self.slave.component, arguments, self.refuse)
 
     def values(self, verb: str, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
         """fmi2GetReal and its like on a buffer of the width that FMI wants."""
         kind = TYPE["?" if buffer.dtype == bool else buffer.dtype.str[1:]]
         native = buffer if kind == "Real" else np.zeros(len(references), np.int32)
         numbers = (ctypes.c_uint * len(references))(*references)
-        call = self.bound(f"fmi2{verb}{kind}", VALUES, numbers, len(references), address(native))
+        call = self.bound(f"fmi2{verb}{kind}", numbers, ctypes.c_size_t(len(references)), address(native))
         return call if native is buffer else copied(call, verb, native, buffer)
 
     def reader(self, references: tuple[int, ...], buffer: np.ndarray) -> Callable[[], None]:
@@ -80,7 +66,7 @@ class Fmi2:
     def derivative_writer(self, references: tuple[int, ...], order: int, buffer: np.ndarray) -> Callable[[], None]:
         n = len(references)
         numbers, orders = (ctypes.c_uint * n)(*references), (ctypes.c_int * n)(*[order] * n)
-        return self.bound("fmi2SetRealInputDerivatives", DERIVATIVES, numbers, n, orders, address(buffer))
+        return self.bound("fmi2SetRealInputDerivatives", numbers, ctypes.c_size_t(n), orders, address(buffer))
 
     def set_text(self, reference: int, text: str) -> None:
         self.slave.setString([reference], [text])
@@ -91,9 +77,6 @@ class Fmi2:
 
     def exit_initialisation(self) -> None:
         self.slave.exitInitializationMode()
-
-    def step(self, time: float, duration: float) -> None:
-        self.do_step(time, duration, self.keeps_state)
 
     def snapshot(self) -> Snapshot:
         return self.slave.getFMUstate()
@@ -109,11 +92,6 @@ class Fmi2:
 
     def deserialise(self, state: bytes) -> Snapshot:
         return self.slave.deSerializeFMUstate(state)
-
-
-def address(buffer: np.ndarray) -> ctypes.c_void_p:
-    """Of a buffer's values; it keeps the buffer alive, as a plain number would not."""
-    return buffer.ctypes.data_as(ctypes.c_void_p)
 
 
 def copied(call: Callable[[], None], verb: str, native: np.ndarray, buffer: np.ndarray) -> Callable[[], None]:

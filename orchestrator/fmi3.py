@@ -4,18 +4,15 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from fmpy.fmi3 import FMU3Slave
 
 from fmu_src.arrays import Integers
+from orchestrator.bound_calls import ERROR, address, bound, bound_step
 from orchestrator.component import Snapshot
-from orchestrator.fmi2 import ERROR, WARNING, address
 from orchestrator.model_description import Described
 
-VALUES = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t)
-STEP = (ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_bool, *[ctypes.c_void_p] * 4)
 NATIVE = {
     "Float64": "f8", "Float32": "f4", "Boolean": "?", "Enumeration": "i8",
     **{f"{sign}Int{bits}": f"{kind}{bits // 8}" for sign, kind in (("", "i"), ("U", "u")) for bits in (8, 16, 32, 64)},
@@ -62,27 +59,14 @@ class Fmi3:
         # event handling needed, terminate, early return (Booleans) and the last successful time.
         self.flags, self.reached = (ctypes.c_bool * 3)(), ctypes.c_double()
         first = ctypes.addressof(self.flags)
-        self.results = (first, first + 1, first + 2, ctypes.addressof(self.reached))
-        self.do_step = self.bound("fmi3DoStep", STEP)
-
-    def bound(self, function: str, types: tuple[type, ...], *arguments: Any) -> Callable[..., None]:
-        """The function with the instance and arguments held."""
-        call = self.slave.dll[function]
-        call.argtypes, call.restype = types, ctypes.c_int
-        instance, refuse = self.slave.component, self.refuse
-
-        def run(*rest: float) -> None:
-            status = call(instance, *arguments, *rest)
-            if status > WARNING:
-                refuse(function, status)
-
-        return run
+        results = [ctypes.c_void_p(place) for place in (first, first + 1, first + 2, ctypes.addressof(self.reached))]
+        arguments = (ctypes.c_bool(self.keeps_state), *results)
+        self.do_step = bound_step(self.slave.dll, "fmi3DoStep", self.slave.component, arguments, self.refuse)
 
     def call_on(self, verb: str, block: Block) -> Callable[[], None]:
-        return self.bound(
-            f"fmi3{verb}{'Int64' if block.kind == 'Enumeration' else block.kind}", VALUES,
-            block.numbers, len(block.numbers), address(block.values), block.values.size,
-        )  # fmt: skip
+        function = f"fmi3{verb}{'Int64' if block.kind == 'Enumeration' else block.kind}"
+        arguments = (block.numbers, ctypes.c_size_t(len(block.numbers)), address(block.values), ctypes.c_size_t(block.values.size))
+        return bound(self.slave.dll, function, self.slave.component, arguments, self.refuse)
 
     def blocks(self, references: tuple[int, ...], buffer: np.ndarray) -> list[Block]:
         """The variables that the elements belong to, by type; in the buffer itself if they fill it."""
@@ -142,7 +126,7 @@ class Fmi3:
             read()
 
     def step(self, time: float, duration: float) -> None:
-        self.do_step(time, duration, self.keeps_state, *self.results)
+        self.do_step(time, duration)
         if self.flags[1]:
             self.log(f"the unit asked to end the simulation at time {self.reached.value:.9g} s")
             self.refuse("fmi3DoStep", ERROR)

@@ -15,8 +15,8 @@ from fmpy.fmi1 import FMICallException
 
 from fmu_src.faults import MissingPart
 from fmu_src.wasm.interface import INSTANCE, PACKAGE
+from orchestrator.bound_calls import ERROR, WARNING
 from orchestrator.component import Snapshot
-from orchestrator.fmi2 import ERROR, WARNING
 from orchestrator.fmi3 import Block, Fmi3
 from orchestrator.model_description import Described
 

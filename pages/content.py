@@ -78,3 +78,8 @@ class Page:
     cards: list[Card]
     sections: list[Section]
     warnings: list[str]
+
+    @property
+    def figures(self) -> list[Figure]:
+        """Of all sections, in the page's order."""
+        return [figure for section in self.sections for figure in section.figures]

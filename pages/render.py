@@ -44,7 +44,7 @@ def packed_plotly() -> str:
 
 def rendered_sections(page: Page) -> str:
     """HTML of a page of cards, figures and tables."""
-    return rendered(HERE / "sections.html", [figure for section in page.sections for figure in section.figures], page=page)
+    return rendered(HERE / "sections.html", page.figures, page=page)
 
 
 def written(text: str, path: Path) -> Path:

@@ -44,8 +44,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         # Large enough for the bodies in motion too.
         scratch("residual_vector", (n,)), scratch("tangent", (n, n)),
         scratch("crank_force", (crank, 2)), scratch("crank_moment", (crank,)),
-        # Gradient of a bearing's shift, see bearing_contacts.
-        scratch("bearing_columns", (9, 4)),
+        # Gradient of a bearing's shift and what follows from it, see bearing_contacts.
+        scratch("bearing_columns", (7, 4)), scratch("bearing_stiffness", (7, 7)), scratch("bearing_pull", (7,)),
     ]
 
 
@@ -99,7 +99,7 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side, near):
     r.crank_force[c, 1] -= fy
     r.crank_moment[c] -= ex * fy - ey * fx
 
-    # Columns of d(ux, uy, turning of disc)/dz; the last three are shared by carrier and crank.
+    # Columns of d(ux, uy, turning of disc)/d(x, y, turning of the disc; turning of the carrier; shift x, y of carrier or crank; turning of the crank).
     g = r.bearing_columns
     g[0, 0], g[0, 1], g[0, 2] = -ce, -se, 0.0
     g[1, 0], g[1, 1], g[1, 2] = se, -ce, 0.0
@@ -109,43 +109,64 @@ def bearing_contacts(r, d, c, ideal_output, cage_angle, side, near):
     g[5, 0], g[5, 1], g[5, 2] = -per_y * ey, 1.0 + per_y * ex, 0.0
     # The fourth column is d(crank's turning)/dz.
     g[0, 3] = g[1, 3] = g[2, 3] = 0.0
-    g[3, 3], g[4, 3], g[5, 3], g[8, 3] = per_turn, per_x, per_y, 1.0
-    for i in range(4):
-        g[6, i], g[7, i] = g[4, i], g[5, i]
-    g[8, 0], g[8, 1], g[8, 2] = -ey, ex, 0.0
+    g[3, 3], g[4, 3], g[5, 3], g[6, 3] = per_turn, per_x, per_y, 1.0
+    g[6, 0], g[6, 1], g[6, 2] = -ey, ex, 0.0
     # Levers turn with disc and carrier.
     r.tangent[3 * d + 2, 3 * d + 2] += fx * hx + fy * hy
     r.tangent[carrier, carrier] -= fx * ax + fy * ay
     outward, forward = fx * ex + fy * ey, fy * ex - fx * ey
-    k = r.bearing_tangent
-    for a in range(9):
-        ia = bearing_coordinate(a, d, carrier, crank)
-        if not r.is_free[ia]:
-            continue
+    k, stiffness, pull = r.bearing_tangent, r.bearing_stiffness, r.bearing_pull
+    columns = 7 if has_soft_crank(r, carrier, crank) else 4
+    for a in range(columns):
         g0, g1, g2 = g[a, 0], g[a, 1], g[a, 2]
-        r.residual_vector[ia] += g0 * fx + g1 * fy + g2 * moment
+        pull[a] = g0 * fx + g1 * fy + g2 * moment
         k0 = g0 * k[0, 0] + g1 * k[1, 0] + g2 * k[2, 0]
         k1 = g0 * k[0, 1] + g1 * k[1, 1] + g2 * k[2, 1]
         k2 = g0 * k[0, 2] + g1 * k[1, 2] + g2 * k[2, 2]
-        for b in range(a, 9):
-            ib = bearing_coordinate(b, d, carrier, crank)
-            if r.is_free[ib]:
-                r.tangent[ia, ib] += k0 * g[b, 0] + k1 * g[b, 1] + k2 * g[b, 2] - outward * g[a, 3] * g[b, 3]
-                # The teeth's direction turns with the carrier.
-                if a == 3 and (b == 4 or b == 6):
-                    r.tangent[ia, ib] -= forward * per_y
-                elif a == 3 and (b == 5 or b == 7):
-                    r.tangent[ia, ib] += forward * per_x
+        for b in range(a, columns):
+            stiffness[a, b] = k0 * g[b, 0] + k1 * g[b, 1] + k2 * g[b, 2] - outward * g[a, 3] * g[b, 3]
+    for a in range(3):
+        r.residual_vector[3 * d + a] += pull[a]
+        r.tangent[3 * d + a, carrier] += stiffness[a, 3]
+        for b in range(a, 3):
+            r.tangent[3 * d + a, 3 * d + b] += stiffness[a, b]
+    r.residual_vector[carrier] += pull[3]
+    r.tangent[carrier, carrier] += stiffness[3, 3]
+    if columns == 7:
+        # The teeth's direction turns with the carrier.
+        stiffness[3, 4] -= forward * per_y
+        stiffness[3, 5] += forward * per_x
+        add_soft_crank(r, 3 * d, carrier, crank)
 
 
 @kernel
-def bearing_coordinate(column, d, carrier, crank):
-    """Index in z of one of a bearing's nine columns; increasing with the column."""
-    if column < 3:
-        return 3 * d + column
-    if column < 6:
-        return carrier + column - 3
-    return crank + column - 6
+def has_soft_crank(r, carrier, crank):
+    """Whether carrier or crank can be shifted, or the crank turned on its teeth."""
+    soft = 0
+    for i in range(3):
+        soft += r.is_free[crank + i] + (r.is_free[carrier + i] if i > 0 else 0)
+    return soft > 0
+
+
+@kernel
+def add_soft_crank(r, disc, carrier, crank):
+    """A bearing's share of residual and tangent by the shifts of carrier and crank, which are one to it, and the crank's turning."""
+    stiffness, pull, t = r.bearing_stiffness, r.bearing_pull, r.tangent
+    stiffness[5, 4] = stiffness[4, 5]
+    for a in range(3):
+        r.residual_vector[crank + a] += pull[4 + a]
+        for b in range(3):
+            t[disc + a, crank + b] += stiffness[a, 4 + b]
+            t[carrier + a, crank + b] += stiffness[3 + a, 4 + b]
+            if b >= a:
+                t[crank + a, crank + b] += stiffness[4 + a, 4 + b]
+    for b in range(2):
+        r.residual_vector[carrier + 1 + b] += pull[4 + b]
+        for a in range(3):
+            t[disc + a, carrier + 1 + b] += stiffness[a, 4 + b]
+        t[carrier, carrier + 1 + b] += stiffness[3, 4 + b]
+        t[carrier + 1, carrier + 1 + b] += stiffness[4, 4 + b]
+    t[carrier + 2, carrier + 2] += stiffness[5, 5]
 
 
 @kernel

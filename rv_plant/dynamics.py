@@ -27,6 +27,7 @@ from rv_plant.mesh import mesh_contacts, ring_coordinate
 from rv_plant.needle_bearing import cage_rate, roller_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
 from rv_plant.supports import teeth_yield, twist_compliance
+from rv_plant.turning import left_out
 
 # Stand for rigid: joints [m/N, rad/(N m)], below a thousandth of the stiffest
 # contact's compliance; teeth [m/N], whose small force would make a stiffer contact chatter.
@@ -176,7 +177,7 @@ def tooth_contact(r, c, rate_weight):
     turned = q[carrier] + math.atan2(y * cs - x * sn, x * cs + y * sn)
     rolled = small * (q[sun] - turned) + planet * (q[crank + 2] - turned)
     ca, sa = math.cos(r.pressure_angle), math.sin(r.pressure_angle)
-    mesh_phase = r.sun_teeth * (q[sun] - q[carrier] + r.first_stage_phase)
+    mesh_phase = r.sun_teeth * (q[sun] - q[carrier] + r.first_stage_ratio * r.pin_x.shape[0] * left_out(r) + r.first_stage_phase)
     compliance = max(teeth_yield(r), RIGID_TOOTH)
     swing = r.tooth_stiffness_variation
     stiffness = (1.0 + swing * math.cos(mesh_phase)) / compliance

@@ -11,6 +11,7 @@ from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, local, scratch, state
 from rv_plant.assembly import assemble, assemble_beside
 from rv_plant.coordinates import coordinate_count, moving_count
+from rv_plant.line_search import between, narrowed
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import forget_phases
 from rv_plant.near_mesh import missed
@@ -152,7 +153,6 @@ def newton(r, ideal_output, cage_angle, load_torque, most):
         slope = slope_along(r)
         taken = 0.0
         step = 1.0
-        # Illinois rule between a place where the slope falls and one where it rises.
         low, low_slope, high, high_slope = 0.0, slope, 0.0, 0.0
         for _ in range(40):
             for a in range(r.free_count):
@@ -163,14 +163,8 @@ def newton(r, ideal_output, cage_angle, load_torque, most):
             new_slope = slope_along(r)
             if abs(new_slope) <= 0.5 * abs(slope) or (high == 0.0 and new_slope < 0.0):
                 break
-            if new_slope > 0.0:
-                high, high_slope = step, new_slope
-                low_slope *= 0.5
-            else:
-                low, low_slope = step, new_slope
-                high_slope *= 0.5
-            step = low - low_slope * (high - low) / (high_slope - low_slope)
-            step = min(max(step, low + 0.02 * (high - low)), high - 0.02 * (high - low))
+            low, low_slope, high, high_slope = narrowed(low, low_slope, high, high_slope, step, new_slope)
+            step = between(low, low_slope, high, high_slope)
         r.residual = relative_residual(r, load_torque)
     return r.residual + missed(r) <= r.tolerance
 

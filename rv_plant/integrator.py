@@ -15,6 +15,7 @@ from rv_plant.constraints import CONSTRAINED, SETTLING, constrained_direction, s
 from rv_plant.contact import NO_DAMPING
 from rv_plant.coordinates import moving_count
 from rv_plant.dynamics import RIGID, assemble_motion
+from rv_plant.line_search import between, narrowed
 from rv_plant.linear import cholesky_solve
 from rv_plant.mesh import forget_phases, ring_coordinate
 
@@ -196,15 +197,8 @@ def shorten_to_rest(r):
         new = force_along(r)
         if abs(new) <= 0.5 * abs(slope) or (high == 0.0 and new < 0.0):
             break
-        # Illinois rule, as in the equilibrium.
-        if new > 0.0:
-            high, high_slope = step, new
-            low_slope *= 0.5
-        else:
-            low, low_slope = step, new
-            high_slope *= 0.5
-        step = low - low_slope * (high - low) / (high_slope - low_slope)
-        step = min(max(step, low + 0.02 * (high - low)), high - 0.02 * (high - low))
+        low, low_slope, high, high_slope = narrowed(low, low_slope, high, high_slope, step, new)
+        step = between(low, low_slope, high, high_slope)
 
 
 @kernel

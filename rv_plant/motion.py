@@ -30,6 +30,7 @@ from rv_plant.outputs import prepare_position, publish_contacts, publish_losses
 from rv_plant.poses import disc_offset, seat
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 from rv_plant.supports import teeth_yield, twist_compliance
+from rv_plant.turning import add_turning, angles_within_turn, leave_out_turns, left_out, whole_turns
 
 # Deflection that tolerances are relative to [m].
 TYPICAL_DEFLECTION = 1e-6
@@ -86,7 +87,9 @@ def start_motion(r):
     ratio = total_ratio(r.first_stage_ratio, pins, lobes)
     speed = r.input_speed / ratio
     crank_speed = -lobes * speed
-    ideal, z, q, v = r.ideal_output, r.z, r.q, r.v
+    ideal, _cage = angles_within_turn(r)
+    r.turns_left_out = whole_turns(r.ideal_output)
+    z, q, v = r.z, r.q, r.v
     set_masses(r)
     for d in range(discs):
         eccentric = -lobes * ideal + disc_offset(r, d)
@@ -161,9 +164,10 @@ def advance(r, duration):
     time = 0.0
     r.assemblies = r.substeps = r.rejected = 0
     start_profiles(r, r.crank_speed * duration)
-    crank_angle = mean_crank_angle(r)
     lost = 0.0
     cage_share = r.cage_share * r.inner_race_radius / (r.inner_race_radius + r.outer_race_radius)
+    leave_out_turns(r)
+    crank_angle = mean_crank_angle(r)
     while time < duration * (1.0 - 1e-12):
         if r.substeps + r.rejected >= MOST_SUBSTEPS:
             end_profiles(r)
@@ -178,17 +182,17 @@ def advance(r, duration):
             h = left
         elif 2.0 * h > left:
             h = 0.5 * left
-        r.ideal_output = r.q[carrier]
+        r.ideal_output = r.q[carrier] + left_out(r)
         prepare_position(r)
         keep_start(r)
-        cage, loss, torque, speed = r.cage, r.dissipation, r.drive_torque, r.v[sun]
+        cage, cage_rest, loss, torque, speed = r.cage, r.cage_rest, r.dissipation, r.drive_torque, r.v[sun]
         cage_power, load_speed = r.cage_power, r.v[load]
-        r.cage = cage + h * (r.v[carrier + 5] - r.v[carrier]) * cage_share
+        r.cage, r.cage_rest = add_turning(cage, cage_rest, h * (r.v[carrier + 5] - r.v[carrier]) * cage_share)
         take_profiles(r, (time + h) / duration)
         error = alpha_step(r, h, r.drive_speed + slope * h, slope)
         if not 0.0 <= error <= 1.0:
             back_to_start(r)
-            r.cage, r.dissipation, r.cage_power = cage, loss, cage_power
+            r.cage, r.cage_rest, r.dissipation, r.cage_power = cage, cage_rest, loss, cage_power
             r.rejected += 1
             r.internal_step = 0.25 * h if error < 0.0 else next_step_size(r, h, error)
             if r.internal_step < SHORTEST_STEP:
@@ -242,9 +246,11 @@ def publish_motion(r):
     for c in range(cranks):
         crank_angle += r.q[carrier + 5 + 3 * c] / cranks
         crank_speed += r.v[carrier + 5 + 3 * c] / cranks
-    r.input_angle, r.crank_angle, r.crank_speed, r.cage_angle = r.q[sun], crank_angle, crank_speed, r.cage
-    r.output_angle, r.output_speed = r.q[load], r.v[load]
-    r.transmission_error = r.q[load] - r.q[sun] / total_ratio(r.first_stage_ratio, pins, lobes)
+    ratio, turned = total_ratio(r.first_stage_ratio, pins, lobes), left_out(r)
+    r.input_angle, r.crank_angle = r.q[sun] + ratio * turned, crank_angle - lobes * turned
+    r.crank_speed, r.cage_angle = crank_speed, r.cage
+    r.output_angle, r.output_speed = r.q[load] + turned, r.v[load]
+    r.transmission_error = r.q[load] - r.q[sun] / ratio
     r.lag = -crank_angle / lobes - r.q[load]
     if r.joints == CONSTRAINED:
         r.reaction_torque = -r.multiplier[2 * cranks + 2]

@@ -28,6 +28,7 @@ from rv_plant.poses import crank_position
 from rv_plant.prepared import prepare, retune
 from rv_plant.profiles import end_profiles, start_profiles, take_profiles
 from rv_plant.supports import twist_compliance
+from rv_plant.turning import add_turning, angles_within_turn, speeds
 
 effects = compose("rv_plant.effects", HOOKS)
 start_effects, advance_states, heat_effects = effects.start, effects.advance, effects.heat
@@ -61,7 +62,6 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
                nominal=1e-4, path="output.lag"),
         local("substeps", "1", "equilibria in the last communication step", integer=True, path="numerics.substeps"),
-        state("ideal_output", "rad", "output angle of ideal kinematics"),
         state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
         state("advance_before", "rad", "turning of the ideal output between z_before and z"),
     ]
@@ -139,13 +139,6 @@ def extrapolate(r, advance):
 
 
 @kernel
-def angles_within_turn(r):
-    """Ideal output and cages within one turn: everything repeats, and rounding of a large angle would move parts against each other."""
-    turn = 2.0 * math.pi
-    return r.ideal_output - turn * math.floor(r.ideal_output / turn + 0.5), r.cage - turn * math.floor(r.cage / turn)
-
-
-@kernel
 def solve(r):
     """Equilibrium at the present input angle."""
     prepare_position(r)
@@ -159,23 +152,6 @@ def assemble_at_input(r):
     prepare_position(r)
     output, cage = angles_within_turn(r)
     assemble(r, output, cage, r.load_torque)
-
-
-@kernel
-def speeds(r):
-    """Ideal speeds of output and cages [rad/s]."""
-    pins, lobes = r.pin_x.shape[0], r.lobe_pitch_error.shape[1]
-    output = r.input_speed / total_ratio(r.first_stage_ratio, pins, lobes)
-    return output, r.cage_share * cage_rate(-lobes * output, output, r.inner_race_radius, r.outer_race_radius)
-
-
-@kernel
-def turn_input(r, duration):
-    """Turn the input by input_speed times duration [s]; returns the output's ideal speed [rad/s]."""
-    output_speed, cage_speed = speeds(r)
-    r.ideal_output += output_speed * duration
-    r.cage += cage_speed * duration
-    return output_speed
 
 
 @entry_point
@@ -270,13 +246,13 @@ def step_through_equilibria(r, duration):
     if not crank_advance < MOST_SUBSTEPS * r.largest_crank_step:
         return LONG_STEP
     n = max(1, math.ceil(crank_advance / r.largest_crank_step - 1e-9))
-    output_before, cage_before = r.ideal_output, r.cage
+    output_before, output_rest, cage_before, cage_rest = r.ideal_output, r.ideal_output_rest, r.cage, r.cage_rest
     start_profiles(r, -lobes * output_speed * duration)
     spent, crank_angle, fault = 0, r.crank_angle, 0
     for i in range(n):
         share = (i + 1.0) / n
-        r.ideal_output = output_before + share * output_speed * duration
-        r.cage = cage_before + share * cage_speed * duration
+        r.ideal_output, r.ideal_output_rest = add_turning(output_before, output_rest, share * output_speed * duration)
+        r.cage, r.cage_rest = add_turning(cage_before, cage_rest, share * cage_speed * duration)
         extrapolate(r, output_speed * duration / n)
         take_profiles(r, share)
         if not solve(r):

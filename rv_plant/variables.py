@@ -23,6 +23,7 @@ from rv_plant import (
     poses,
     profiles,
     supports,
+    turning,
 )
 from rv_plant.effects import EFFECTS
 from rv_plant.terminals import TERMINALS
@@ -30,7 +31,7 @@ from rv_plant.topology import SMALLEST, Topology
 
 # In this order they stand in the table, within each role.
 PIECES = (
-    plant, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, supports, contact, assembly, equilibrium,
+    plant, turning, mesh, near_mesh, poses, needle_bearing, profiles, force_paths, output_pins, gear_stage, supports, contact, assembly, equilibrium,
     outputs, dynamics, constraints, integrator, motion,
 )  # fmt: skip
 

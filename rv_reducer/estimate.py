@@ -12,11 +12,12 @@ Source: Kalman 1960.
 from fmu_src.kernel import kernel
 from fmu_src.variables import Variable
 
-# A first reading is known to this share before.
+# A first reading is known to this share before, which is as good as nothing; in a forecast too.
 LEVEL_DEVIATION = 0.3
 # A rate does not fall below this share of itself by one reading: what is worn does not grow back.
 LEAST_SHARE = 0.2
-LONGEST = 1e12
+# No end in sight [s]: 30,000 years.
+LONGEST_LIFE = 1e12
 
 
 def variables() -> list[Variable]:
@@ -101,10 +102,14 @@ def look_ahead(r):
     if r.expected_rate == 0.0:
         r.estimated_lost_motion = r.lost_motion
         rate = r.own_rate
-    left = r.lost_motion_limit - r.estimated_lost_motion
-    if r.lost_motion_limit == 0.0:
-        r.estimated_remaining = LONGEST
-    elif left <= 0.0:
-        r.estimated_remaining = 0.0
-    else:
-        r.estimated_remaining = left / rate if left < rate * LONGEST else LONGEST
+    r.estimated_remaining = time_until(r.lost_motion_limit, r.estimated_lost_motion, rate)
+
+
+@kernel
+def time_until(limit, present, rate):
+    """Time until ``present`` reaches ``limit`` [s]; 0 is no limit."""
+    if limit == 0.0:
+        return LONGEST_LIFE
+    if present >= limit:
+        return 0.0
+    return (limit - present) / rate if limit - present < rate * LONGEST_LIFE else LONGEST_LIFE

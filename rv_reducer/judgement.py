@@ -11,13 +11,11 @@ short a time drowns in the equilibrium's tolerance; it is taken as proportional 
 from fmu_src.kernel import kernel
 from rv_plant.plant import solve
 from rv_plant.supports import twist_compliance
-from rv_reducer.estimate import estimate, start_estimate
+from rv_reducer.estimate import LONGEST_LIFE, estimate, start_estimate, time_until
 from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
-# No end in sight [s]: 30,000 years.
-LONGEST_LIFE = 1e12
 
 NONE, FLANK, RACE, LOST_MOTION = range(4)
 # Where a step may end before its time (``pausing``).
@@ -72,16 +70,6 @@ def find_worst_depths(r):
 def growth(depth, volume, judged_volume, passed):
     """Rate of a depth [m/s] whose volume has grown since the last judgement ``passed`` [s] ago."""
     return depth * (volume - judged_volume) / (volume * passed) if volume > 0.0 else 0.0
-
-
-@kernel
-def time_until(limit, present, rate):
-    """Time until ``present`` reaches ``limit`` [s]."""
-    if limit == 0.0:
-        return LONGEST_LIFE
-    if present >= limit:
-        return 0.0
-    return (limit - present) / rate if limit - present < rate * LONGEST_LIFE else LONGEST_LIFE
 
 
 @kernel

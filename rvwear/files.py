@@ -34,7 +34,7 @@ def figures(result: Result) -> "list[Figure]":
     if isinstance(result, Shown):
         from discrepancy.page.write import page_of
 
-        return [figure for section in page_of(result._result).sections for figure in section.figures]
+        return page_of(result._result).figures
     if isinstance(result, pd.DataFrame):
         raise InputFault("a table of numbers has no picture of its own; export it, or draw it with pandas")
     from studies.report.page import figures_of

@@ -11,7 +11,6 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.model_file import ModelFile, load_model
 from discrepancy.tables import tables_of
-from fmu_src.faults import InputFault
 
 if TYPE_CHECKING:
     from discrepancy.verdict import Answer
@@ -20,8 +19,7 @@ if TYPE_CHECKING:
 def inputs(model: ModelFile | str | Path, campaign: Campaign | str | Path) -> tuple[ModelFile, Campaign]:
     file = model if isinstance(model, ModelFile) else load_model(model)
     measured = campaign if isinstance(campaign, Campaign) else load_campaign(campaign)
-    if not measured.training:
-        raise InputFault(f"{measured.folder}: no run with rows that is not held out: nothing can be fitted")
+    measured.require_fittable()
     return file, measured
 
 

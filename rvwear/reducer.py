@@ -100,28 +100,14 @@ def life(
     >>> lived["disc_wear"].dims
     ('hour', 'disc', 'lobe', 'flank_bin')
     """
-    from studies import results
-    from studies.coupled_master import CoupledMaster
     from studies.duty import load_duty
-    from studies.life import Life, LifeSettings, live
-    from studies.pair import make_pair
+    from studies.kept_life import WantedLife, whole_life
+    from studies.life import LifeSettings
 
     chosen = reducer_of(reducer)
-    wanted = LifeSettings(hours, tolerance)
-    wanted.check()
-    given = settings_of(chosen, settings or {})
     segments = load_duty(duty) if duty is not None else ()
-    pair = make_pair(chosen, given, positions=positions, duty=segments, master_kind=CoupledMaster)
-    lived = Life(wanted)
-    first = results.order_spectrum(pair, 0.0)
-    live(pair, lived, lambda state: progress(state.hours[-1]) if progress else None, lambda _: None)
-    inputs = {
-        "reducer": chosen.name, "starts": chosen.starts, "settings": {s.name: s.value for s in given}, "life": vars(wanted).copy(),
-        "duty": [vars(s) for s in segments], "positions": positions,
-    }  # fmt: skip
-    dataset = results.life_dataset(pair, lived, [first, results.order_spectrum(pair, lived.hours[-1])], inputs)
-    pair.master.close()
-    return dataset
+    wanted = WantedLife(chosen, settings_of(chosen, settings or {}), LifeSettings(hours, tolerance), positions, segments)
+    return whole_life(wanted, lambda state: progress(state.hours[-1]) if progress else None)
 
 
 def read(path: str | Path) -> xr.Dataset:

@@ -9,8 +9,9 @@ from fmu_src.kernel import kernel
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.equilibrium import newton_direction
 from rv_plant.faults import NO_EQUILIBRIUM
-from rv_plant.plant import advance_effects, assemble_at_input, publish, turn_input
+from rv_plant.plant import advance_effects, assemble_at_input, publish
 from rv_plant.plant import step as step_plant
+from rv_plant.turning import turn_input
 from wear_fmu.accumulator import step as step_wear
 
 

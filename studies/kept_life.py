@@ -41,7 +41,7 @@ class WantedLife:
         """InputFault where the life sets what it chooses itself."""
         self.life.check()
         if any(setting.name == "acceleration" for setting in self.settings):
-            raise InputFault("acceleration is chosen by the life run itself; give --hours and --tolerance")
+            raise InputFault("acceleration is chosen by the life run itself; give hours and tolerance")
         object.__setattr__(self, "inputs", {
             "reducer": self.reducer.name, "starts": self.reducer.starts, "settings": {s.name: s.value for s in self.settings},
             "life": vars(self.life).copy(), "duty": [vars(s) for s in self.duty], "scheme": self.scheme, "positions": self.positions,
@@ -50,7 +50,7 @@ class WantedLife:
 
 
 class Paused(KeyboardInterrupt):
-    """Interrupted at ``hours``; the checkpoint goes on from there."""
+    """Interrupted at ``hours``; a checkpoint goes on from there."""
 
     def __init__(self, hours: float):
         super().__init__(f"at {hours:g} h")
@@ -75,20 +75,29 @@ def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
 
 def live_to(path: Path, wanted: WantedLife, resume: bool, progress: Callable[[Life], None]) -> xr.Dataset:
     """The life from its beginning, or from its checkpoint, to the result at ``path``; ``Paused`` at Ctrl-C."""
-    checkpoint, inputs = checkpoint_of(path), wanted.inputs
+    checkpoint = checkpoint_of(path)
+    dataset = whole_life(wanted, progress, checkpoint, resume)
+    netcdf.write(dataset, path)
+    checkpoint.unlink(missing_ok=True)
+    return dataset
+
+
+def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint: Path | None = None, resume: bool = False) -> xr.Dataset:
+    """The life; ``progress`` is told after each jump.  With a ``checkpoint`` it is kept there, and gone on with from there to ``resume``."""
     with task("loading the units"):
         # In this process many steps go into one compiled call.
         pair = make_pair(wanted.reducer, wanted.settings, wanted.fmus, wanted.scheme, wanted.positions, wanted.duty, Master if wanted.fmus else CoupledMaster)
     lived = Life(wanted.life)
-    first_orders = results.order_spectrum(pair, 0.0)
-    if resume:
-        lived, saved = load_checkpoint(checkpoint, inputs)
-        pair.master.restore(saved)
 
     def keep(state: Life) -> None:
-        save_checkpoint(checkpoint, state, pair.master.save(), inputs)
+        if checkpoint:
+            save_checkpoint(checkpoint, state, pair.master.save(), wanted.inputs)
 
     try:
+        first_orders = results.order_spectrum(pair, 0.0)
+        if checkpoint and resume:
+            lived, saved = load_checkpoint(checkpoint, wanted.inputs)
+            pair.master.restore(saved)
         with task("hours of life", total=round(wanted.life.hours)) as hours:
 
             def show(state: Life) -> None:
@@ -96,11 +105,8 @@ def live_to(path: Path, wanted: WantedLife, resume: bool, progress: Callable[[Li
                 progress(state)
 
             live(pair, lived, show, keep)
+        return results.life_dataset(pair, lived, [first_orders, results.order_spectrum(pair, lived.hours[-1])], wanted.inputs)
     except KeyboardInterrupt as interruption:
         raise Paused(lived.hours[-1] if lived.hours else 0.0) from interruption
-    orders = [first_orders, results.order_spectrum(pair, lived.hours[-1])]
-    dataset = results.life_dataset(pair, lived, orders, inputs)
-    netcdf.write(dataset, path)
-    checkpoint.unlink(missing_ok=True)
-    pair.master.close()
-    return dataset
+    finally:
+        pair.master.close()

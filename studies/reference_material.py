@@ -24,7 +24,7 @@ from fmu_src.source_hash import source_hash
 from fmu_src.state import STEPPING, State, pack
 from orchestrator.component import InProcess
 from orchestrator.experiments import Carried, Series, perform
-from orchestrator.ssp.exporter import Unit, values
+from orchestrator.ssp.exporter import Unit, value_set, values
 from orchestrator.ssp.parameters import Parameter
 from reducers.reducer import Reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
@@ -76,7 +76,7 @@ def material(path: Path, reducer: Reducer, unit: str, step: float) -> dict[str, 
         if settings:
             files[f"{kind}-values.ssv"] = written(parameter_set(fmu, settings, kind))
         listed.append(Related(EXPERIMENTS, f"{kind}.exp", f"experiment/{kind}", description))
-    files["new.ssv"] = written(renamed(values(fmu, {}, set()), f"{reducer.name} new"))
+    files["new.ssv"] = written(renamed(value_set([fmu], values(fmu, {}, set()), ""), f"{reducer.name} new"))
     listed.append(Related(VALUES, "new.ssv", "parameter", f"{reducer.name} as its reducer file has it", ("hours:0",)))
     if unit in CARRIES_SURFACES and not reducer.worn:
         for hours in WORN_HOURS:
@@ -138,11 +138,9 @@ def csv_of(series: Series) -> bytes:
 
 def parameter_set(fmu: Unit, settings: list[Parameter], name: str) -> Element:
     """An SSV of settings, arrays element by element in FMI 2 and whole in FMI 3."""
-    root = renamed(values(fmu, {}, set()), name)
+    root = renamed(value_set([fmu], [], ""), name)
     parameters = root.find("ssv:Parameters")
     assert parameters is not None
-    for element in list(parameters):
-        parameters.remove(element)
     kind = "Float64" if fmu.version == "2.0" else "Real"
     for setting in settings:
         signal = fmu.signals[setting.name]

@@ -49,6 +49,15 @@ def test_turning_points_are_those_of_the_torque_and_not_of_its_noise():
     assert len(points) == 4 and abs(points[1] - 49) < 5 and abs(points[2] - 149) < 5
 
 
+def test_an_encoder_that_starts_anew_at_each_turn_is_told():
+    turning = np.linspace(0.0, 4.0 * np.pi, 400)
+    good = {"output_angle": turning + ARCMIN * np.sin(39.0 * turning), "input_angle": 121.0 * turning}
+    assert figures("transmission-error", good)["transmission_error"] == pytest.approx(120.0, rel=1e-2)
+    for sense in (1.0, -1.0):
+        with pytest.raises(InputFault, match="curve 1: output_angle starts anew at each turn"):
+            figures("transmission-error", good | {"output_angle": sense * (turning % (2.0 * np.pi))})
+
+
 def test_virtual_bench_agrees_with_the_hysteresis_study(rv20e):
     rated = rated_of(rv20e, [])[0]
     curves = [*PROCEDURES["lost-motion"](rv20e, []).values()]

@@ -1,6 +1,7 @@
 """What a campaign's file says comes out in the records, in SI units."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,6 +64,15 @@ def test_conditions_in_si_units(tmp_path):
     assert campaign.training == (warm,) and campaign.held_out == (other,)
     assert warm.tags["interventions"] == "grease_changed"
     assert campaign.rated_torque == 167.0 and campaign.ratio == 121.0
+
+
+def test_a_campaign_without_anything_to_fit_says_why(tmp_path):
+    kept = load(tmp_path, run('value = "0.5 N.m"'))
+    kept.require_fittable()
+    with pytest.raises(InputFault, match="every run is held out; leave some conditions"):
+        replace(kept, records=tuple(replace(r, held_out=True) for r in kept.records)).require_fittable()
+    with pytest.raises(InputFault, match="no run has any rows yet; fill in the files"):
+        replace(kept, records=()).require_fittable()
 
 
 def test_rows_are_selected_dropped_and_counted(tmp_path):

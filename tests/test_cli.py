@@ -96,6 +96,8 @@ def test_the_librarys_reducers_are_within_the_catalogues_scatter(capsys, name, r
     (("run", "--step", "0"), "--step without a system's file"),
     (("life", "--tolerance", "1e-300"), "5e-06 is the smallest"),
     (("report", "README.md"), "not readable as a NetCDF file"),
+    (("family", "--html", "x.pdf"), "--html x.pdf: the name must end in .html"),
+    (("diagnose", "RV20E-121", "nowhere", "--html", "README.md/x.html"), "--html README.md/x.html: the folder README.md cannot be made"),
 ])  # fmt: skip
 def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
     assert main(list(arguments)) == 2

@@ -31,6 +31,23 @@ def total_and_largest(row):
 
 
 @kernel
+def read_backwards(row):
+    """Whole numbers that fall below zero later than they are used, one through another."""
+    found, i, last = 0.0, row.shape[0] - 1, 0
+    j = 0
+    for _ in range(row.shape[0] + 2):
+        k = j
+        found = 10.0 * found + row[k]
+        j = last
+        last = last - 1
+    for i in range(row.shape[0] - 1, -1, -1):
+        found = 10.0 * found + row[i]
+    for i in range(2, -row.shape[0] - 1, -1):
+        found = 10.0 * found + row[i]
+    return found
+
+
+@kernel
 def steps_to_one(n):
     steps = 0
     while n != 1:
@@ -72,6 +89,11 @@ def of_all(records):
 def swapped(a, b):
     a, b = b, a
     return a, b, not 0.0 <= a < b or b == 2.0
+
+
+def test_an_index_that_falls_below_zero_counts_from_the_end():
+    row = np.array([1.0, 2.0, 3.0])
+    assert read_backwards(row) == read_backwards.__wrapped__(row)
 
 
 def test_numbers_arrays_and_tuples_go_in_and_come_out():

@@ -33,7 +33,7 @@ def orders(bench, values, at):
 def test_mean_seat_is_a_spring_by_castigliano(bench):
     """phi = sum c F^2/M with the forces of equal springs, by a sum over so many pins that it is an integral."""
     at = rated(bench)
-    circle = float(bench.templates[0]["pin_circle_radius"][0])
+    circle = bench.starts[0]["pin_circle_radius"]
     k1 = THROW * PINS / circle
     psi = (np.arange(20000) + 0.5) * math.pi / 20000
     squares = 0.5 * PINS * np.mean(np.sin(psi) ** 2 / (1.0 + k1**2 - 2.0 * k1 * np.cos(psi)))

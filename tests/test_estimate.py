@@ -56,7 +56,7 @@ def test_without_a_rate_estimates_are_those_of_the_unit(rv20e):
     unit = make_unit(rv20e, acceleration=1e6)
     run(unit, 144, crank_turn_time(rv20e, unit) / 72)
     assert unit.get("estimated_lost_motion") == unit.get("lost_motion")
-    assert 0.0 < unit.get("estimated_remaining") <= estimate.LONGEST
+    assert 0.0 < unit.get("estimated_remaining") <= estimate.LONGEST_LIFE
 
 
 def test_a_reading_reaches_the_unit(rv20e):

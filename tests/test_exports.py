@@ -13,6 +13,7 @@ from cli.main import main
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.tables import tables_of as measured_tables
+from exports.plain import plain, plain_json
 from exports.tables import Column, Table, tables_of
 from exports.write import write_tables
 from fmu_src.faults import InputFault
@@ -197,3 +198,10 @@ def test_modes_ladders_and_ensembles_are_tables(tmp_path, capsys):
     distributions, shares = (table.frame() for table in ensemble_tables(found))
     assert distributions.iloc[0].tolist() == ["pin_um", "mean", "um", 1.0, 0.5, 1.5] and np.isnan(distributions.iloc[1]["value"])
     assert shares.values.tolist() == [["pin_um", "bearing.clearance", 0.2, 0.3]]
+
+
+def test_what_json_and_excel_have_no_sign_for_is_nothing():
+    assert plain({"a": (1.0, np.nan), 2: np.array([[np.inf, 0.5]]), "c": Column("x", "m", [np.float64(np.nan)])}) == {
+        "a": [1.0, None], "2": [[None, 0.5]], "c": {"name": "x", "unit": "m", "values": [None]},
+    }  # fmt: skip
+    assert plain_json({"b": np.bool_(True), "t": "µm", "n": -np.inf}) == '{"b": true, "t": "\\u00b5m", "n": null}'

@@ -275,5 +275,9 @@ def test_fmpy_simulates_each_unit_alone(path):
 
 def test_many_instances_one_after_the_other(fmus):
     """pythonfmu drops a reference per instance; thirty would crash an unguarded module."""
+    unit = Fmu("wear", fmus / "RvWear.fmu")
     for _ in range(30):
-        Fmu("wear", fmus / "RvWear.fmu").close()
+        # Not fmpy's freeInstance, which unloads the library too.
+        unit.slave.fmi2FreeInstance(unit.slave.component)
+        unit.calls.instantiate()
+    unit.close()

@@ -20,7 +20,7 @@ ARCSEC = np.pi / 180.0 / 3600.0
 SHORT = Condition(209.0, 167.0)
 WORN = Condition(209.0, 110.0, 300.0, 300.0 * HOUR, -1)
 VALUES = {CLEARANCE: 0.6e-6, "friction_coefficient": 0.02}
-CANDIDATES = {"needle_clearance", "pin_position_errors.scatter", "stribeck_friction.mesh", "drag"}
+FEW = {"needle_clearance", "pin_position_errors.scatter", "drag"}
 
 
 @pytest.fixture(scope="module")
@@ -94,14 +94,16 @@ def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
         FmuBench(model, {}, fmus)
 
 
-def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, native_fmus):
+# The search over a curve of friction takes seven times as long as all others.
+@pytest.mark.parametrize("candidates", [FEW, pytest.param(FEW | {"stribeck_friction.mesh"}, marks=pytest.mark.campaign)], ids=["few", "more"])
+def test_diagnosis_by_the_fmus_is_that_of_their_kernels(model, native_fmus, candidates):
     campaign = campaign_of(model, {CLEARANCE: 0.6e-6}, 1)
     answers = []
     for folder in (None, native_fmus / "fmi2"):
         # Angles are counted from the model's own 0, and few candidates: it is the predictions that are compared.
         by = PhysicalModel(model, campaign, zeros={}, fmus=folder)
-        by.candidates = tuple(c for c in by.candidates if c.name in CANDIDATES)
-        assert len(by.candidates) == len(CANDIDATES)
+        by.candidates = tuple(c for c in by.candidates if c.name in candidates)
+        assert len(by.candidates) == len(candidates)
         answers.append(diagnose(model, campaign, model=by))
     here, there = answers
     assert here.verdict == there.verdict == "one effect"

@@ -1,6 +1,7 @@
 """Forecasts of remaining life: samples against a closed form, limits and refusals, a campaign's readings, intervals on made lives."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.forecast import posterior
 from discrepancy.forecast.forecast import Range, Reading, forecast, narrowing
 from discrepancy.forecast.growth import FIRST, Growth
-from discrepancy.forecast.readings import inspections, limit_of
+from discrepancy.forecast.readings import inspections, limit_of, without_hours
 from fmu_src.faults import InputFault
 
 TEST = Path(__file__).parent.parent / "examples" / "durability_test"
@@ -97,6 +98,14 @@ def test_command(capsys):
 def test_refusals(options, says, capsys):
     assert main(["forecast", str(TEST), *options]) == 2
     assert says in capsys.readouterr().err
+
+
+def test_conditions_are_told_as_the_campaign_states_them():
+    record = next(r for r in load_campaign(TEST).records if r.quantity == "lost_motion")
+    at = replace(record, factors={"speed": 121.0 * 15.0 * np.pi / 30.0, "load": 167.0, "temperature": 313.15, "direction": -1.0, "hours": 3600.0}, tags={})
+    campaign = replace(load_campaign(TEST), ratio=121.0, speed_at="output")
+    assert without_hours(at, campaign) == "backward, load 167 N.m, speed 15 rpm at the output, temperature 40 degC"
+    assert "speed 1815 rpm at the input" in without_hours(at, replace(campaign, speed_at="input"))
 
 
 def test_noise_that_nobody_states_is_asked_for():

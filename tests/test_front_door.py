@@ -2,6 +2,7 @@
 
 import ast
 import doctest
+import json
 import subprocess
 import sys
 from importlib import import_module
@@ -71,8 +72,6 @@ def test_it_is_imported_at_once_and_loads_nothing():
 
 
 def test_results_are_those_of_the_commands(capsys):
-    import json
-
     from cli.main import main
 
     assert main(["solve", "--positions", "8", "--torque", "100Nm", "--json"]) == 0
@@ -85,11 +84,21 @@ def test_results_are_those_of_the_commands(capsys):
     assert float(np.ptp(turn["lag"].values)) == pytest.approx(figures["transmission_error_pp_arcsec"])
 
 
+def test_a_life_says_all_that_it_was_run_with():
+    told = []
+    lived = rvwear.life(hours=1.0, tolerance=0.5, positions=8, settings={"output.load_torque": "100 N.m"}, progress=told.append)
+    inputs = json.loads(lived.attrs["inputs"])
+    assert inputs["positions"] == 8 and inputs["settings"] == {"load_torque": 100.0} and told[-1] == pytest.approx(1.0) == lived["hour"][-1].item()
+    assert {"life", "duty", "scheme", "units", "source_hash"} <= inputs.keys()
+
+
 def test_what_is_wrong_is_an_input_fault():
     with pytest.raises(rvwear.InputFault, match=r"output\.load_torque"):
         rvwear.solve(settings={"output.load_torqe": 3.0})
     with pytest.raises(rvwear.InputFault, match="figure 'x': this result has loop"):
         rvwear.figure(rvwear.hysteresis(steps=4, angles=1), "x")
+    with pytest.raises(rvwear.InputFault, match="acceleration is chosen by the life run itself"):
+        rvwear.life(settings={"acceleration": 10.0})
     with pytest.raises(rvwear.InputFault, match="no picture of its own"):
         rvwear.figure_names(xr.Dataset({"x": ("a", [1.0])}))
 

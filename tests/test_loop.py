@@ -56,6 +56,11 @@ def wide(file):
     return campaign_of(file, {CLEARANCE: 0.6e-6}, 3)
 
 
+@pytest.fixture(scope="module")
+def diagnosed(file, wide):
+    return diagnose(file, wide)
+
+
 def test_model_that_is_right_errs_by_the_noise(file):
     comparison = compare(file, campaign_of(file, {}, 2))
     # The noise of two or three single numbers is known too badly for more.
@@ -63,8 +68,8 @@ def test_model_that_is_right_errs_by_the_noise(file):
     assert comparison.diagnostician.localisation.findings == []
 
 
-def test_wider_needle_bearings_are_found_and_added(file, wide, tmp_path):
-    answer = diagnose(file, wide)
+def test_wider_needle_bearings_are_found_and_added(file, wide, diagnosed, tmp_path):
+    answer = diagnosed
     assert answer.as_json()["verdict"] == "one effect"
     first = answer.effects[0]
     assert first["name"] == "needle_clearance"
@@ -195,10 +200,11 @@ def test_compare_doubts_a_scale_that_no_reducer_has(file):
     assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1
 
 
-def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, tmp_path, monkeypatch):
+def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch):
     from discrepancy import remembered
 
     monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
+    monkeypatch.setattr(remembered, "diagnose", lambda *arguments, **options: diagnosed)
     first = remembered.diagnosed(file, wide)
     assert len(list(tmp_path.iterdir())) == 1
 

@@ -10,6 +10,7 @@ import pytest
 from fmpy import read_model_description
 from lxml import etree
 
+from fmu_src import icons
 from fmu_src.description import add_units
 from fmu_src.display import display_unit, displays
 from fmu_src.unit import make_unit
@@ -145,3 +146,14 @@ def test_initial_unknowns_of_the_description(rv20e, native_fmus):
     assert "life.worst_flank_depth" in rv20e.joint.by_path
     of_lag = rv20e.joint.known_at_start["lag"]
     assert "pin_radius" in of_lag and "hardness" not in of_lag and rv20e.joint.known_at_start["worst_flank_depth"] == ()
+
+
+def test_icons_are_painted_layer_on_layer():
+    """Pixel by pixel: the highest disc that a place lies in, and the mean over the fine places of a pixel."""
+    size = 12
+    axis = (np.arange(icons.FINE * size) + 0.5) / (icons.FINE * size) * 2.0 - 1.0
+    x, y = np.meshgrid(axis, -axis)
+    colours = np.zeros((*x.shape, 4))
+    for disc in icons.reducer():
+        colours[np.hypot(x - disc.x, y - disc.y) < disc.edge(np.arctan2(y - disc.y, x - disc.x))] = icons.paint(disc.colour)
+    assert icons.picture(size) == icons.png(colours)

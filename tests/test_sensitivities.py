@@ -27,7 +27,7 @@ def changes(bench, base, name, step):
 @pytest.mark.parametrize("name, step", [("planet_runout", 5e-6), ("needle_clearance_added", 2e-7), ("mesh_stiffness", 5e3)])
 @pytest.mark.parametrize("base", [{}, {"disc_ovality": 5e-7, "disc_ovality_angle": 0.4}], ids=["ideal", "oval discs"])
 def test_relative_error_vanishes_with_the_change(bench, base, name, step):
-    base = {**base, name: float(bench.templates[0][name][0])}
+    base = {**base, name: bench.starts[0][name]}
     errors = []
     for part in (1.0, 1.0 / 16.0):
         first, exact = changes(bench, base, name, part * step)

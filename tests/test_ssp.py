@@ -266,11 +266,38 @@ def test_connectors_have_their_place_on_the_picture(tmp_path, spring):
     assert root.find("ssd:System/ssd:SystemGeometry", SPACE) is None
 
 
-def test_values_that_seem_to_name_their_unit_again_are_left_at_the_units_own(rv20e, native_fmus, tmp_path):
-    """OMSimulator reads wear.run_in_time of the unit wear as its run_in_time, which is not there, and stops."""
+@pytest.mark.parametrize("version, inline", [("fmi2", False), ("fmi2", True), ("fmi3", False)])
+def test_values_that_seem_to_name_their_unit_again_are_bound_at_the_system_too(native_fmus, tmp_path, version, inline):
+    """OMSimulator reads wear.pin_share of the unit wear as its pin_share, which is not there; libcosim and ecos do not look at the system, nor does OpenMCx."""
+    fmus = {name: native_fmus / version / f"Rv{name.title()}.fmu" for name in ("plant", "wear")}
+    settings = {"wear": {"wear.pin_share": 0.25, "acceleration": 2.0}}
+    path = export_ssp(tmp_path / "x.ssp", "x", fmus, [("plant.output.angle", "wear.output.angle")], Experiment(1e-3, 1.0), settings, inline=inline)
+    with zipfile.ZipFile(path) as archive:
+        root = etree.fromstring(archive.read("SystemStructure.ssd"))
+        places = {place: root.find(f".//ssd:{place}/ssd:ParameterBindings", SPACE) for place in ("System", "Component[@name='wear']")}
+        found = {}
+        for place, element in places.items():
+            for binding in () if element is None else element:
+                values = binding if inline else etree.fromstring(archive.read(binding.get("source")))
+                found[place] = values.xpath(".//ssv:Parameter/@name", namespaces=SPACE)
+    of_unit = found.pop("Component[@name='wear']")
+    assert len(of_unit) > 20 and "wear.pin_share" in of_unit and ("wear.inner_slip_ratio" in of_unit) == inline
+    assert found == ({} if inline else {"System": [f"wear.{name}" for name in of_unit]})
+    system = load(path)
+    assert float(system["wear.wear.pin_share"]) == 0.25 and float(system["wear.acceleration"]) == 2.0
+    system.close()
+
+
+def test_the_pairs_package_has_no_value_that_seems_to_name_its_unit_again(rv20e, native_fmus, tmp_path):
     with zipfile.ZipFile(export_pair(rv20e, native_fmus / "fmi2", 1e-3)) as archive:
         names = etree.fromstring(archive.read("resources/wear.ssv")).xpath("//ssv:Parameter/@name", namespaces=SPACE)
+        assert not [name for name in archive.namelist() if name.endswith("SystemStructure.ssv")]
     assert len(names) > 20 and not [name for name in names if name.startswith("wear.")]
+
+
+def test_a_unit_is_not_named_as_the_description(tmp_path, spring):
+    with pytest.raises(InputFault, match="a unit cannot be named SystemStructure"):
+        export_ssp(tmp_path / "x.ssp", "x", {"SystemStructure": spring}, [], Experiment(0.1, 1.0), {})
 
 
 def test_values_for_a_unit_that_is_not_there_are_refused(tmp_path, spring):

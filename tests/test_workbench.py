@@ -312,3 +312,41 @@ def test_the_file_of_an_ensemble_is_that_of_the_form(tmp_path):
         text_of(opened(tmp_path), given | {"samples": 5})
     with pytest.raises(InputFault, match="no such distribution"):
         text_of(opened(tmp_path), given | {"scatters": [row | {"name": 'a" = 1'}]})
+    with pytest.raises(InputFault, match="base samples: 4.5 is no whole number"):
+        text_of(opened(tmp_path), given | {"samples": 4.5})
+    with pytest.raises(InputFault, match="what scatters: there is no such"):
+        text_of(opened(tmp_path), given | {"scatters": [row | {"name": ""}]})
+    with pytest.raises(InputFault, match="x = 3: there is no such limit"):
+        text_of(opened(tmp_path), given | {"limits": {"x = 3": "1"}})
+    # With all digits.
+    assert "hours = 123456.75\n" in text_of(opened(tmp_path), given | {"hours": "123456.75"})
+
+
+def test_numbers_of_a_form_are_said_where_they_are_wrong():
+    from workbench.form import exactly, number, whole
+    from workbench.life_step import positive
+
+    assert (number(" 2,5 ", "x"), whole("40", "pins"), positive({"hours": ""}, "hours"), exactly(123456.75)) == (2.5, 40, None, "123456.75")
+    for text, said in (("a", "'a' is no number"), ("nan", "a finite number is needed"), ("1.5", "'1.5' is no whole number")):
+        with pytest.raises(InputFault, match=f"pins: {said}"):
+            whole(text, "pins")
+    with pytest.raises(InputFault, match="torque = -1: must lie above 0"):
+        positive({"torque": "-1"}, "torque")
+
+
+def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
+    from concurrent.futures import ThreadPoolExecutor
+
+    folder, begun = opened(tmp_path), []
+    monkeypatch.setattr(jobs.subprocess, "Popen", lambda *words, **how: begun.append(words) or type("Process", (), {"wait": lambda self: 0})())
+
+    def start(kind):
+        try:
+            jobs.start(folder, kind, {}, 1)
+        except InputFault as fault:
+            return str(fault)
+        return ""
+
+    with ThreadPoolExecutor(8) as pool:
+        said = list(pool.map(start, jobs.KINDS))
+    assert len(begun) == 1 and said.count("") == 1 and all("is being computed" in text for text in said if text)

@@ -1,6 +1,5 @@
 """Many lives on the page: parts, load and coefficients that scatter, as bands over the hours that narrow life by life."""
 
-import math
 import shlex
 import time
 from collections.abc import Mapping
@@ -14,6 +13,7 @@ from fmu_src.faults import InputFault, MissingPart
 from fmu_src.held_file import held
 from fmu_src.progress import task
 from workbench.folder import Folder
+from workbench.form import number, settings_of, whole
 from workbench.told import write_json
 
 if TYPE_CHECKING:
@@ -112,14 +112,14 @@ def text_of(folder: Folder, given: Mapping[str, Any]) -> str:
     rows = given.get("scatters") or []
     if not isinstance(rows, list) or not rows:
         raise InputFault("nothing scatters: add a number with its spread")
-    samples = int(number(given.get("samples"), "base samples"))
+    samples = whole(given.get("samples"), "base samples")
     if samples < 2 or samples & (samples - 1):
         raise InputFault(f"base samples = {samples}: must be a power of two, 8 or 16 for instance")
     from discrepancy.model_file import load_model
 
     file = load_model(reducer)
     own = str(file.reducer.path.relative_to(folder.root)) if file.reducer.path.is_relative_to(folder.root) else file.reducer.name
-    lines = [f'reducer = "{own}"', f"samples = {samples}", f"hours = {number(given.get('hours') or 10_000, 'hours'):g}"]
+    lines = [f'reducer = "{own}"', f"samples = {samples}", f"hours = {number(given.get('hours') or 10_000, 'hours')!r}"]
     settings = settings_of(file)
     lines += [f"settings = [{', '.join(f'{chr(34)}{text}{chr(34)}' for text in settings)}]"] if settings else []
     lines += ["", "[parameters]"]
@@ -127,27 +127,16 @@ def text_of(folder: Folder, given: Mapping[str, Any]) -> str:
         name, unit, kind = str(row.get("name", "")), str(row.get("unit") or "1"), str(row.get("distribution"))
         first, second = (number(row.get(k), f"{name}, {k} number") for k in ("first", "second"))
         keys = {"normal": ("mean", "deviation"), "uniform": ("low", "high"), "lognormal": ("median", "factor")}.get(kind)
-        if keys is None or not all(c.isalnum() or c in "._[],*" for c in name) or '"' in unit:
-            raise InputFault(f"{name}: there is no such distribution or number")
+        if keys is None or not is_name(name) or '"' in unit:
+            raise InputFault(f"{name or 'what scatters'}: there is no such distribution or number")
         lines.append(f'{name} = {{ distribution = "{kind}", {keys[0]} = {first!r}, {keys[1]} = {second!r}, unit = "{unit}" }}')
     limits = {name: number(value, name) for name, value in dict(given.get("limits") or {}).items() if str(value).strip()}
+    if wrong := next((name for name in limits if not is_name(name)), None):
+        raise InputFault(f"{wrong}: there is no such limit")
     lines += ["", "[limits]", *(f"{name} = {value!r}" for name, value in limits.items())] if limits else []
     return "\n".join(lines) + "\n"
 
 
-def settings_of(file: Any) -> list[str]:
-    """Settings and effects of a model as ``name=value``."""
-    from workbench.life_step import written
-
-    tables = [file.reducer.plant, file.reducer.wear]
-    return [f"{written(tables, name)}={value!r}" for name, value in file.values().items() if written(tables, name)]
-
-
-def number(value: Any, what: str) -> float:
-    try:
-        found = float(str(value).replace(",", "."))
-    except ValueError:
-        raise InputFault(f"{what}: {value!r} is no number") from None
-    if not math.isfinite(found):
-        raise InputFault(f"{what}: a finite number is needed")
-    return found
+def is_name(name: str) -> bool:
+    """Whether it may be that of a number; whether there is one is said where the file is read."""
+    return bool(name) and all(c.isalnum() or c in "._[],*" for c in name)

@@ -13,7 +13,7 @@ from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from fmu_src.faults import InputFault
@@ -77,7 +77,7 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[s
     files = folder.measurements()
     reducer = given.get("reducer")
     wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
-    name = campaign_name(folder.root)
+    name = name_of(folder.root)
     try:
         return propose(files, wishes, name), []
     except InputFault as fault:
@@ -177,12 +177,6 @@ def columns_of(path: Path, changed: int) -> list[dict[str, Any]]:
     return found
 
 
-def campaign_name(folder: Path) -> str:
-    """Of the folder, in the signs that a campaign's name may have."""
-    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.name).lstrip(" ._-")
-    return name or "campaign"
-
-
 def text_of(folder: Folder, proposal: Proposal) -> str:
     return campaign_text(proposal, folder.root)
 
@@ -202,11 +196,9 @@ def save(folder: Folder) -> dict[str, Any]:
     if not proposal.reducer:
         raise InputFault("which reducer was measured has to be said first: choose it above the table")
     checked(proposal)
-    if folder.campaign.is_file():
-        if not written_here(folder):
-            raise InputFault("campaign.toml was not written on this page, or was changed since: it is not overwritten; rename it to begin anew")
-        folder.campaign.unlink()
-    write_campaign(proposal, folder.root)
+    if folder.campaign.is_file() and not written_here(folder):
+        raise InputFault("campaign.toml was not written on this page, or was changed since: it is not overwritten; rename it to begin anew")
+    write_campaign(proposal, folder.root, overwrite=True)
     folder.remember("saved", {"sha256": sha256(folder.campaign.read_bytes())})
     return {"saved": True, "needs": [need.as_json() for need in proposal.needs]}
 

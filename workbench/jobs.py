@@ -23,6 +23,7 @@ KINDS = ("compare", "diagnose", "next", "extend", "build", "export", "life", "en
 # Silent for so long, a job is gone [s].
 SILENT = 8.0
 RUNNING, DONE, FAILED, STOPPED, GONE = "running", "done", "failed", "stopped", "gone"
+STARTING = threading.Lock()
 
 
 def place_of(folder: Folder, kind: str) -> Path:
@@ -32,16 +33,17 @@ def place_of(folder: Folder, kind: str) -> Path:
 
 
 def start(folder: Folder, kind: str, given: dict[str, Any], jobs: int) -> None:
-    """InputFault where it is running already."""
+    """InputFault where one is running already."""
     place = place_of(folder, kind)
-    busy = [other for other in KINDS if status(folder, other)["state"] == RUNNING]
-    if busy:
-        raise InputFault(f"{busy[0]} is being computed: stop it, or wait for its end")
-    place.mkdir(parents=True, exist_ok=True)
-    for name in ("stop", "beat.json"):
-        (place / name).unlink(missing_ok=True)
-    asked = {"kind": kind, "given": given, "jobs": jobs, "begun": time.time()}
-    folder.remember(f"jobs/{kind}/job", asked)
+    # Of two clicks at once, in two tabs, one counts.
+    with STARTING:
+        busy = [other for other in KINDS if status(folder, other)["state"] == RUNNING]
+        if busy:
+            raise InputFault(f"{busy[0]} is being computed: stop it, or wait for its end")
+        place.mkdir(parents=True, exist_ok=True)
+        for name in ("stop", "beat.json"):
+            (place / name).unlink(missing_ok=True)
+        folder.remember(f"jobs/{kind}/job", {"kind": kind, "given": given, "jobs": jobs, "begun": time.time()})
     with (place / "log.txt").open("wb") as log:
         # A session of its own: Ctrl-C at the server is the server's.
         known = {"PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])}

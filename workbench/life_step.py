@@ -1,8 +1,6 @@
 """A life on the page: its curves as they grow, its report at the end; paused and gone on with like ``rvwear life --resume``."""
 
-import math
 import shlex
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +8,10 @@ from fmu_src.faults import InputFault
 from fmu_src.held_file import held
 from reducers.library import LIBRARY
 from workbench.folder import Folder
+from workbench.form import exactly, number, settings_of
 from workbench.told import write_json
 
 if TYPE_CHECKING:
-    from fmu_src.table import Table
     from reducers.reducer import Reducer
 
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
@@ -23,7 +21,8 @@ PANES = (
     ("transmission error, peak to peak", "arcsec", (("transmission_error_pp_arcsec", "transmission error"),)),
     ("torsional stiffness", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "stiffness"),)),
 )  # fmt: skip
-MOST_HOURS = 1e6
+# Of hours, and of a torque [N m].
+USUAL_HOURS, MOST = 10_000.0, 1e6
 
 
 def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
@@ -35,11 +34,11 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from studies.report import write_report
 
     file = load_model(folder.model(given))
-    tables = [file.reducer.plant, file.reducer.wear]
-    hours = number(given, "hours", 10_000.0)
-    texts = [f"{written(tables, name)}={value!r}" for name, value in file.values().items() if written(tables, name)]
-    texts += [f"output.load_torque={torque!r}N.m" for torque in [number(given, "torque", math.nan)] if math.isfinite(torque)]
-    settings = [parse_setting(text, tables) for text in texts]
+    hours = positive(given, "hours") or USUAL_HOURS
+    texts = settings_of(file)
+    if torque := positive(given, "torque"):
+        texts.append(f"output.load_torque={torque!r}N.m")
+    settings = [parse_setting(text, [file.reducer.plant, file.reducer.wear]) for text in texts]
     wanted = WantedLife(file.reducer, settings, LifeSettings(hours))
     path = folder.root / "results" / f"{file.name}_life.nc"
     path.parent.mkdir(exist_ok=True)
@@ -77,31 +76,21 @@ def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any
     }  # fmt: skip
 
 
-def number(given: dict[str, Any], name: str, usual: float) -> float:
-    """A positive number of the form; ``usual`` where nothing is given."""
-    text = str(given.get(name) or "").strip().replace(",", ".")
+def positive(given: dict[str, Any], name: str) -> float | None:
+    """A number of the form; None where nothing is given."""
+    text = str(given.get(name) or "").strip()
     if not text:
-        return usual
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputFault(f"{name}: {text!r} is no number") from None
-    if not 0.0 < value <= MOST_HOURS:
-        raise InputFault(f"{name} = {text}: must lie above 0, up to {MOST_HOURS:g}")
+        return None
+    value = number(text, name)
+    if not 0.0 < value <= MOST:
+        raise InputFault(f"{name} = {text}: must lie above 0, up to {MOST:g}")
     return value
-
-
-def written(tables: "Sequence[Table]", name: str) -> str:
-    """What a setting calls the variable (or its element); empty for one of the measuring chain, which no life has."""
-    base, bracket, rest = name.partition("[")
-    variable = next((t.by_name[base] for t in tables if base in t.by_name), None)
-    return variable.path + bracket + rest if variable else ""
 
 
 def command(folder: Folder, reducer: "Reducer", hours: float, texts: list[str], path: Path) -> str:
     """The command line that does the same: effects and settings of the model as settings."""
     known = reducer.name if reducer.path.parent == LIBRARY else str(reducer.path)
-    words = ["rvwear", "life", "--reducer", known, "--hours", f"{hours:g}"]
+    words = ["rvwear", "life", "--reducer", known, "--hours", exactly(hours)]
     for text in texts:
         words += ["--set", text]
     return shlex.join([*words, "--output", str(path)])

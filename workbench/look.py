@@ -77,8 +77,7 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
     """Measured against model in one unit, with the noise; what repeats how often."""
     rows = []
     for f in found:
-        named = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
-        scale = of_signal(named, f.unit)
+        scale = of_signal(f.told_as, f.unit)
         values = {key: scale.factor * value for key, value in (("measured", f.measured), ("model", f.model), ("noise", f.noise))}
         decimals = decimals_of(values["noise"])
         rows.append({

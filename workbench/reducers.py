@@ -12,19 +12,19 @@ from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 from pages.words import number
+from reducers.checking import check
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
-from reducers.completion.geometry import largest_pin
 from reducers.completion.given import Given
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
+from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
 from workbench.told import figure_data, page_data
 
-MM = 1e3
 # What the form asks for: name, what it is, unit, whether it must be given.
 ASKED = (
     ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", True), ("rated", "rated torque", "N·m", True),
@@ -77,15 +77,7 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
 
 def findings(reducer: Reducer) -> list[str]:
     """What cannot be made, or lies where its own file says that it does not; in words with place, value and bound."""
-    s, pins = reducer.starts, reducer.topology.pins
-    ring, pin, throw = (MM * s[k] for k in ("pin_circle_radius", "pin_radius", "eccentricity"))
-    found = []
-    if pin >= ring * math.sin(math.pi / pins):
-        found.append(f"pin.radius = {pin:.4g} mm: {pins} pins on a circle of {ring:.4g} mm overlap; below {ring * math.sin(math.pi / pins):.4g} mm they do not")
-    if throw * pins >= ring:
-        found.append(f"crank.eccentricity = {throw:.4g} mm: the profile has loops; below {ring / pins:.4g} mm it has none")
-    elif pin >= (most := largest_pin(ring, throw, pins)):
-        found.append(f"pin.radius = {pin:.4g} mm: the flank is undercut, where it is most convex; below {most:.4g} mm it is not")
+    found = [plainly(fault) for fault in check(reducer).faults]
     found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(reducer) if row["outside"]]
     return found
 
@@ -115,15 +107,12 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
 def given_of(given: Mapping[str, Any]) -> Given:
     values: dict[str, Any] = {}
     for name, label, _, needed in ASKED:
-        text = str(given.get(name) or "").strip().replace(",", ".")
+        text = str(given.get(name) or "").strip()
         if not text:
             if needed:
                 raise InputFault(f"{label} is needed")
             continue
-        try:
-            values[name] = int(text) if name in WHOLE else float(text)
-        except ValueError:
-            raise InputFault(f"{label}: {text!r} is no {'whole ' if name in WHOLE else ''}number") from None
+        values[name] = (form.whole if name in WHOLE else form.number)(text, label)
     known = given.get("known") or {}
     if not isinstance(known, dict):
         raise InputFault("known numbers are a table of names and values")
@@ -142,12 +131,12 @@ def command(completion: Completion, name: str) -> str:
     import shlex
 
     g = completion.given
-    words = ["rvwear", "reducer", "new", "--ratio", f"{g.ratio:g}", "--pins", str(g.pins), "--rated", f"{g.rated:g}", "--speed", f"{g.speed:g}",
-             "--rollers", str(g.rollers), "--lost-motion", f"{g.lost_motion:g}"]  # fmt: skip
-    words += ["--diameter", f"{g.diameter:g}"] if g.diameter is not None else []
+    words = ["rvwear", "reducer", "new", "--ratio", form.exactly(g.ratio), "--pins", str(g.pins), "--rated", form.exactly(g.rated),
+             "--speed", form.exactly(g.speed), "--rollers", str(g.rollers), "--lost-motion", form.exactly(g.lost_motion)]  # fmt: skip
+    words += ["--diameter", form.exactly(g.diameter)] if g.diameter is not None else []
     words += ["--cranks", str(g.cranks)] if g.cranks is not None else []
     for key, value in g.known.items():
-        words += ["--known", f"{key}={value:g}{'' if UNITS[key] == '1' else UNITS[key]}"]
+        words += ["--known", f"{key}={form.exactly(value)}{'' if UNITS[key] == '1' else UNITS[key]}"]
     return shlex.join([*words, "--name", name])
 
 

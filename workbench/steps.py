@@ -34,8 +34,7 @@ def inputs(folder: Folder, given: dict[str, Any]) -> "tuple[ModelFile, Campaign]
     if not folder.campaign.is_file():
         raise InputFault(f"there is no {CAMPAIGN} yet: drop files under In, look at what they are taken for, and save")
     campaign = load_campaign(folder.root)
-    if not campaign.training:
-        raise InputFault("no run is left to be fitted: every run is held out, or has no rows; correct it under In")
+    campaign.require_fittable()
     return load_model(folder.model(given)), campaign
 
 
@@ -181,7 +180,7 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
         if ending in TABLES:
             written = write_tables(tables_of(made), path)
         else:
-            written = write_pictures([figure for section in page_of(made).sections for figure in section.figures], path, width_of("single"))
+            written = write_pictures(page_of(made).figures, path, width_of("single"))
     option = "--export" if ending in TABLES else "--picture"
     files = [{"name": file.relative_to(folder.root).as_posix(), "bytes": file.stat().st_size} for file in written]
     write_json(place / "result.json", {"files": files, "what": what, "command": f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"})

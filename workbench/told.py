@@ -1,11 +1,10 @@
 """Pages of results as data that the browser draws: cards, sections, tables, figures."""
 
-import json
-import math
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from exports.plain import plain_json
 from fmu_src.checked_file import write_text
 from pages.content import Page, Table
 from pages.look import Figure
@@ -38,17 +37,4 @@ def table_data(table: Table) -> dict[str, Any]:
 
 def write_json(place: Path, content: object) -> None:
     """Whole or not at all; numbers that JSON has no sign for become null."""
-    write_text(place, json.dumps(plain(content), ensure_ascii=False, allow_nan=False, default=str))
-
-
-def plain(value: Any) -> Any:
-    """Numbers that JSON has no sign for become None."""
-    if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
-    if hasattr(value, "tolist"):
-        return plain(value.tolist())
-    if hasattr(value, "__dataclass_fields__"):
-        return plain(asdict(value))
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    write_text(place, plain_json(content))

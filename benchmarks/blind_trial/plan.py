@@ -84,4 +84,6 @@ def reduced_plan(seed: int, nulls: int = 26) -> list[Task]:
     entries.append({"kind": "effect", "laws": ("Dahl friction in the loop",), "strength": 12.0})
     entries += [{"kind": "outside", "laws": (law,), "strength": 20.0} for law in REDUCED_OUTSIDE]
     entries += [{"kind": "fault", "fault": fault} for fault in FAULTS if fault != "clock"]
+    # One that costs little to diagnose, in another campaign.
+    entries.append({"kind": "outside", "laws": ("cage ahead with the speed",), "strength": 20.0})
     return [Task(k, int(rng.integers(2**31)), **(entry | {"size": "tiny"})) for k, entry in enumerate(entries)]

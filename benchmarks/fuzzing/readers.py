@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from benchmarks.fuzzing.seeds import FMI2, zipped
+from benchmarks.fuzzing.seeds import zipped
+from benchmarks.fuzzing.texts import FMI2
 from fmu_src.checked_file import checked, checksum_line
 
 

@@ -50,7 +50,7 @@ def run_from(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.guesses import show
     from discrepancy.campaign.guess.propose import propose
-    from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+    from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
     files = [Path(file) for file in options.files]
     reducer = options.reducer or asked(options)
@@ -102,12 +102,6 @@ def asked(options: argparse.Namespace) -> str | None:
     if options.json or not sys.stdin.isatty():
         raise InputFault(f"--reducer: say which reducer was measured: {REDUCER_HELP.rpartition(' (')[0]}")
     return input(f"Which reducer was measured ({REDUCER_HELP.rpartition(' (')[0]})? ").strip() or None
-
-
-def name_of(folder: Path) -> str:
-    """Of the folder, in the signs that a campaign's name may have."""
-    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.resolve().name).lstrip(" ._-")
-    return name or "campaign"
 
 
 def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":

@@ -10,7 +10,7 @@ from cli.commands.drafting import run_draft
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder
+from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder, page_path
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
 from fmu_src.progress import task
@@ -76,19 +76,17 @@ def inputs(options: argparse.Namespace) -> "tuple[ModelFile, Campaign]":
     from discrepancy.campaign.load import load_campaign
     from discrepancy.model_file import load_model
 
+    page_path(options.html)
     file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
-    if not campaign.records:
-        raise InputFault(f"{options.campaign}: no run has any rows yet; fill in the files (rvwear campaign check lists them)")
-    if not campaign.training:
-        raise InputFault(f"{options.campaign}: every run is held out; leave some conditions for fitting (held_out = false)")
+    campaign.require_fittable()
     return file, campaign
 
 
 def write_html(options: argparse.Namespace, result: object) -> None:
-    if options.html:
+    if page := page_path(options.html):
         from discrepancy.page import write_page
 
-        write_page(result, Path(options.html))
+        write_page(result, page)
 
 
 def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile") -> None:
@@ -98,7 +96,7 @@ def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile
     from discrepancy.page.write import page_of
     from discrepancy.tables import tables_of
 
-    write_exports(options, lambda: tables_of(result), lambda: [figure for section in page_of(result).sections for figure in section.figures])
+    write_exports(options, lambda: tables_of(result), lambda: page_of(result).figures)
 
 
 def run_compare(options: argparse.Namespace) -> int:

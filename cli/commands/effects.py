@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cli.options import IDEAL_REDUCER, add_json, add_reducer
+from cli.options import IDEAL_REDUCER, add_json, add_reducer, page_path
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -30,20 +30,21 @@ def run_effects(options: argparse.Namespace) -> int:
     from cli.show.effects import show_list, show_one
     from discrepancy.catalogue.catalogue import entries, found_by
 
+    page = page_path(options.html)
     chosen = found_by(options.name) if options.name else entries()
     one = bool(options.name) and len(chosen) == 1
-    computed = compute(chosen, options.reducer) if one and not options.html else {}
-    if options.html:
-        computed = write_page(chosen, options.reducer, Path(options.html))
+    computed = compute(chosen, options.reducer) if one and not page else {}
+    if page:
+        computed = write_page(chosen, options.reducer, page)
     if options.json:
         found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
         json_text(found[0] if one else {"effects": found})
-    elif one and not options.html:
+    elif one and not page:
         show_one(chosen[0], computed[chosen[0].name])
-    elif not options.html:
+    elif not page:
         show_list(chosen, options.name)
-    if options.html and not options.json:
-        print(options.html)
+    if page and not options.json:
+        print(page)
     return 0
 
 

@@ -1,7 +1,6 @@
 """``rvwear ensemble``: many lives, kept as they finish, and what they say."""
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +8,7 @@ from typing import TYPE_CHECKING
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
+from exports.plain import plain_json
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
 from fmu_src.held_file import held
@@ -92,7 +92,7 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
         interrupted = exit_code(interruption)
         print(f"interrupted with {len(store.lives)} of {len(tasks)} lives; the same command goes on", file=sys.stderr)
     found = summarise(drawn, store.lives, len(tasks)) | {"lives": str(store.path)}
-    write_text(path, json.dumps(found, indent=1) + "\n")
+    write_text(path, plain_json(found, indent=1) + "\n")
     if options.json:
         screen.json_text(found)
     else:

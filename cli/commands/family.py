@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cli.options import add_json
+from cli.options import add_json, page_path
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -26,14 +26,14 @@ def run_family(options: argparse.Namespace) -> int:
     from cli.show.family import show_family
     from studies.family import DIALS, family, fitted_share
 
-    dials = dict(DIALS) | dials_of(options.dial)
+    dials, page = dict(DIALS) | dials_of(options.dial), page_path(options.html)
     members = family(dials)
     fitted = None
     if options.fit:
         with task("fitting the supports"):
             fitted = fitted_share(dials)
-    if options.html:
-        write_page(dials, members, Path(options.html))
+    if page:
+        write_page(dials, members, page)
     if options.json:
         json_text({"dials": dials, "support_share_fitted": fitted, "sizes": [as_json(one) for one in members]})
     else:
@@ -65,7 +65,5 @@ def write_page(dials: dict[str, float], members: "list[Member]", path: Path) -> 
     from pages.render import rendered_sections, written
     from studies.report.family import page_of
 
-    if path.suffix != ".html":
-        raise InputFault(f"--html {path}: the name must end in .html")
     with task("drawing"):
         written(rendered_sections(page_of(dials, members)), path)

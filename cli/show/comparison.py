@@ -59,8 +59,7 @@ def show_figures(figures: list[KeyFigure], out: Console) -> None:
         left = name in ("signal", "figure", "condition")
         table.add_column(name, justify="left" if left else "right", overflow="fold" if left else "ellipsis", no_wrap=not left)
     for f in list(worst.values())[:LONGEST]:
-        unit_of = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
-        measured, noise, model = (shown(v, f.unit, unit_of) for v in (f.measured, f.noise, f.model))
+        measured, noise, model = (shown(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
         table.add_row(f.signal.replace("[", "\n["), f.name, f.condition, measured, noise, model, f"{abs(f.off):.1f} noise")
     out.print(table)
     if len(figures) > min(len(worst), LONGEST):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from discrepancy.problem import Parameter, Record
+from fmu_src.faults import InputFault
 from reducers.reducer import Reducer
 
 
@@ -105,6 +106,13 @@ class Campaign:
     @property
     def held_out(self) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.held_out)
+
+    def require_fittable(self) -> None:
+        """InputFault where no run is left to fit a model to."""
+        if not self.records:
+            raise InputFault(f"{self.folder}: no run has any rows yet; fill in the files (rvwear campaign check lists them)")
+        if not self.training:
+            raise InputFault(f"{self.folder}: every run is held out; leave some conditions for fitting (held_out = false)")
 
     def place(self, run: str, axis: str) -> str:
         """Where the numbers of a run's axis (or ``value``) stand, in brackets; empty for records of no file."""

@@ -8,10 +8,12 @@ may change as much from 1,000 to 2,000 h as from 5,000 to 10,000 h.  It rises mo
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from fmu_src.arrays import Floats
+from rv_reducer.estimate import LEVEL_DEVIATION
 
 # Hours [h] from which on time is counted by its logarithm, steps of the walk and of the integral in it.
 FIRST = 300.0
@@ -24,8 +26,6 @@ TIME, TIME_DEVIATION = 200.0, 0.8
 # Of the rate's logarithm the rise per step of 1 in s and its deviation per root of it: chosen so that intervals hold on lives of
 # benchmarks.forecasts with seeds that are not those of the judgement.
 TREND, DRIFT = 0.15, 0.3
-# The first reading is known to this share before, which is as good as nothing.
-LEVEL_DEVIATION = 0.3
 LEVEL, RATE, EXCESS, DECAY = range(4)
 
 
@@ -41,7 +41,7 @@ class Growth:
     horizon: float
     drift: float = DRIFT
 
-    @property
+    @cached_property
     def hours(self) -> Floats:
         """Where the growth is computed [h]."""
         end = np.log1p(self.horizon / FIRST)

@@ -73,11 +73,9 @@ def laplace(misfits: Misfits, log_density: Density, dimensions: int) -> tuple[Fl
     x, damping = np.zeros(dimensions), 1e-2
     best = float(log_density(x[None])[0])
     for _ in range(ROUNDS):
-        steps = np.vstack([x, x + DIFFERENCE * np.eye(dimensions)])
-        left = misfits(steps)
-        jacobian = (left[1:] - left[0]).T / DIFFERENCE
+        left, jacobian = linearised(misfits, x)
         normal = jacobian.T @ jacobian + np.eye(dimensions)
-        step = np.linalg.solve(normal + damping * np.diag(np.diag(normal)), -(jacobian.T @ left[0] + x))
+        step = np.linalg.solve(normal + damping * np.diag(np.diag(normal)), -(jacobian.T @ left + x))
         there = float(log_density((x + step)[None])[0])
         if there >= best:
             x, damping = x + step, damping / 5.0
@@ -86,6 +84,11 @@ def laplace(misfits: Misfits, log_density: Density, dimensions: int) -> tuple[Fl
             best = there
         else:
             damping *= 5.0
-    left = misfits(np.vstack([x, x + DIFFERENCE * np.eye(dimensions)]))
-    jacobian = (left[1:] - left[0]).T / DIFFERENCE
+    jacobian = linearised(misfits, x)[1]
     return x, np.linalg.cholesky(np.linalg.inv(jacobian.T @ jacobian + np.eye(dimensions)))
+
+
+def linearised(misfits: Misfits, x: Floats) -> tuple[Floats, Floats]:
+    """Misfits (k,) at ``x`` (dim,) and their derivatives (k, dim)."""
+    found = misfits(np.vstack([x, x + DIFFERENCE * np.eye(len(x))]))
+    return found[0], (found[1:] - found[0]).T / DIFFERENCE

@@ -11,13 +11,12 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.forecast.forecast import Reading
 from discrepancy.problem import Record
+from discrepancy.scales import of_axis, unit_of_axis
 from fmu_src.faults import InputFault, nearest
 
 # What only grows, one number an inspection.
 GROWING = ("lost_motion", "wear_depth", "mass_loss")
 HOUR = 3600.0
-# [rad/s] and [K].
-RPM, ZERO_CELSIUS = math.pi / 30.0, 273.15
 
 
 @dataclass(frozen=True)
@@ -56,11 +55,11 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     if not records:
         shown = sorted({r.quantity for r in campaign.records})
         raise InputFault(f"{campaign.folder}: no run of {limit.quantity}; there {'is' if len(shown) == 1 else 'are'} {', '.join(shown)}")
-    named = sorted({without_hours(r) for r in records})
+    named = sorted({without_hours(r, campaign) for r in records})
     chosen = condition or (named[0] if len(named) == 1 else "")
     if chosen not in named:
         raise InputFault(f"{campaign.folder}: {limit.quantity} was read at {', '.join(named)}; say which with --condition")
-    records = [r for r in records if without_hours(r) == chosen]
+    records = [r for r in records if without_hours(r, campaign) == chosen]
     factor = to_si(limit.unit, QUANTITIES[limit.quantity].unit, "")[0]
     stated = amount(noise, QUANTITIES[limit.quantity].unit, "--noise") if noise else None
     repeated = scatter([r for r in records if not r.held_out])
@@ -76,20 +75,18 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     return Inspections(used, held_out, chosen)
 
 
-def without_hours(record: Record) -> str:
+def without_hours(record: Record, campaign: Campaign) -> str:
     """What was inspected, whenever: where a campaign has a condition for each number of hours its factors tell them apart."""
     factors = {name: value for name, value in record.factors.items() if name != "hours"}
     tags = ", ".join(f"{name} {value}" for name, value in sorted(record.tags.items()))
-    return ", ".join(factor_text(name, value) for name, value in sorted(factors.items())) + (f", {tags}" if tags else "")
+    return ", ".join(factor_text(name, value, campaign) for name, value in sorted(factors.items())) + (f", {tags}" if tags else "")
 
 
-def factor_text(name: str, value: float) -> str:
-    """A factor in the unit that people state it in."""
+def factor_text(name: str, value: float, campaign: Campaign) -> str:
+    """A factor in the unit that the campaign states it in."""
     if name == "direction":
         return "forward" if value > 0.0 else "backward"
-    units = {"load": (1.0, 0.0, "N m"), "speed": (RPM, 0.0, "rpm at the input"), "temperature": (1.0, ZERO_CELSIUS, "degC")}
-    per, zero, unit = units.get(name, (1.0, 0.0, ""))
-    return f"{name} {(value - zero) / per:.4g} {unit}".rstrip()
+    return f"{name} {of_axis(name, campaign).number(value):.4g} {unit_of_axis(name, campaign)}".rstrip()
 
 
 def scatter(records: list[Record]) -> float:

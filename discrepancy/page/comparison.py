@@ -195,8 +195,7 @@ def figures_section(figures: list[KeyFigure]) -> list[Section]:
         return []
     rows = []
     for f in figures:
-        named = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
-        measured, noise, model = (amounts.text(v, f.unit, named) for v in (f.measured, f.noise, f.model))
+        measured, noise, model = (amounts.text(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
         rows.append([amounts.signal_title(f.signal), f.condition, f.name, measured, noise, model, number(abs(f.off))])
     lead = (
         "Read alike from what was measured and from what the base model predicts there. Noise is what repetitions differ by, over the root of their"

@@ -8,12 +8,14 @@ import math
 from collections.abc import Callable, Hashable, Mapping
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
-from discrepancy.prediction.units import Condition
+from discrepancy.prediction.twins import Twins, places_of, same
+from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, copied
 from reducers.reducer import Reducer
 from studies import coupled
 from studies.hysteresis import MEMORY
@@ -28,6 +30,8 @@ MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
 # Held test: turning is averaged over positions of the cranks; what values change in it, roughly, over fewer (five see as much as
 # eight, whose symmetry is that of the pins, three err by a tenth).
 HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
+# From fewer than these, one is no small share of them.
+LEAST_POSITIONS = 4
 # Turning of the cranks [rad] between two equilibria that is not divided.
 LARGEST_CRANK_STEP = 1e3
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
@@ -42,6 +46,7 @@ class Bench(Lives):
         self.held_angles, self.mean_positions = HELD_ANGLES, MEAN_POSITIONS
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
+        self.twins = Twins()
 
     def roughly(self) -> "Bench":
         """The same bench with the same runs, as coarse as a search allows."""
@@ -74,6 +79,32 @@ class Bench(Lives):
         """
         return self.running_places(condition, values, angles, cage)[0]
 
+    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
+        """One column of ``running``, which may be that of another condition under which it is the same."""
+        k = coupled.COLUMNS.index(name)
+
+        def repeats(other: Condition) -> bool:
+            chosen = places_of(len(angles))
+            if chosen is None:
+                return False
+            known, places = self.running_places(other, values, angles, cage)
+            plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=LARGEST_CRANK_STEP, z=places[0])
+            seen, durations = np.zeros((len(chosen), len(coupled.COLUMNS))), self.durations(condition, angles[chosen])
+            status = coupled.sweep(plants, self.templates[1], durations, seen, False, places[chosen], places[chosen], True)
+            self.check(status, plants, self.templates[1])
+            base = self.running_places(other, {}, angles, cage)[0] if self.relevant(values, False) else known
+            # Forces on the housing cancel but for what equilibria leave.
+            left = TOLERANCE * self.rated_load / self.starts[0]["pin_circle_radius"] if name.startswith("housing_force") else 0.0
+            return same(seen[:, k], known[chosen, k], known[:, k], base[:, k], left)
+
+        run = ("running", k, self.relevant(values, condition.hours > 0.0), angles.tobytes(), cage)
+        return self.running(self.twins.of(run, condition, repeats), values, angles, cage)[:, k]
+
+    def durations(self, condition: Condition, angles: Floats) -> Floats:
+        """Times [s] in which the output turns to each of its ``angles`` from the one before."""
+        found: Floats = np.maximum(np.abs(np.diff(angles, prepend=angles[0])) / (condition.speed / abs(self.ratio)), MOMENT)
+        return found
+
     def running_places(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> tuple[Floats, Floats]:
         """(series, equilibria): the equilibria of the base model are where others start."""
         relevant = self.relevant(values, condition.hours > 0.0)
@@ -81,43 +112,55 @@ class Bench(Lives):
 
         def run() -> tuple[Floats, Floats]:
             # Beside a similar run each angle has a start of its own, however far the cranks turn between them.
-            step = 1.0 if condition.hours > 0.0 or not relevant else LARGEST_CRANK_STEP
-            plants = self.new_plant(condition, values, float(angles[0]), cage=cage, largest_crank_step=step)
+            guessed = bool(relevant) or cage != 0.0
+            step = LARGEST_CRANK_STEP if guessed and condition.hours == 0.0 else 1.0
+            places = np.zeros((len(angles), self.templates[0]["z"].shape[1]))
+            if cage != 0.0:
+                similar = self.running_places(condition, values, angles)[1]
+            else:
+                similar = self.beside(key, lambda: self.running_places(condition, {}, angles)) if relevant else places
+            plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=step, z=similar[0])
             # The wear unit of a new reducer has nothing to do.
             wears = self.templates[1]
             if condition.hours > 0.0:
-                wears = self.worn(condition, values, condition.hours).copy()
+                wears = copied(self.worn(condition, values, condition.hours))
                 for name in ("crank_angle", "output_angle", "cage_angle"):
                     wears[name] = wears[f"{name}_before"] = plants[name]
                 wears["acceleration"] = 0.0
-            out_speed = condition.speed / abs(self.ratio)
-            durations = np.maximum(np.abs(np.diff(angles, prepend=angles[0])) / out_speed, MOMENT)
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
-            places = np.zeros((len(angles), plants["z"].shape[1]))
-            similar = self.beside(key, lambda: self.running_places(condition, {}, angles)) if relevant else places
             if condition.hours > 0.0:
                 # The profile errors of the first angle, before it counts.
                 self.put_wear(wears, plants)
-            status = coupled.sweep(plants, wears, durations, series, condition.hours > 0.0, places, similar, bool(relevant))
+            status = coupled.sweep(plants, wears, self.durations(condition, angles), series, condition.hours > 0.0, places, similar, guessed)
             self.check(status, plants, wears)
             return series, places
 
         return self.kept(key, run)
 
     def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
-                     base: Mapping[str, float], base_angles: Floats) -> Floats:
-        """Transmission error [rad] of a new reducer with ``values``, to first order beside the run with ``base``."""
-        key = ("beside", condition, self.relevant(values, False), self.relevant(base, False), angles.tobytes(), base_angles.tobytes())
+                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0) -> Floats:
+        """Transmission error [rad] of a new reducer with ``values`` and cages ``cage`` ahead, to first order beside the run with ``base``."""
+        relevant, before = self.relevant(values, False), self.relevant(base, False)
 
-        def run() -> Floats:
-            similar = self.running_places(condition, base, base_angles)[1]
-            plants = self.new_plant(condition, values, float(angles[0]))
-            durations = np.abs(np.diff(angles, prepend=angles[0])) / (condition.speed / abs(self.ratio))
-            errors = np.zeros(len(angles))
-            self.check((coupled.sweep_beside(plants, durations, errors, similar), 0), plants, self.templates[1])
+        def beside(setting: Condition, chosen: slice | npt.NDArray[np.intp], similar: Floats) -> Floats:
+            plants = self.new_plant(setting, values, float(angles[0]), cage, z=similar[0])
+            errors = np.zeros(len(similar))
+            self.check((coupled.sweep_beside(plants, self.durations(setting, angles[chosen]), errors, similar), 0), plants, self.templates[1])
             return errors
 
-        return self.kept(key, run)
+        def whole(setting: Condition) -> Floats:
+            key = ("beside", setting, relevant, before, angles.tobytes(), base_angles.tobytes(), cage)
+            return self.kept(key, lambda: beside(setting, slice(None), self.running_places(setting, base, base_angles)[1]))
+
+        def repeats(other: Condition) -> bool:
+            chosen = places_of(len(angles))
+            if chosen is None:
+                return False
+            series, places = self.running_places(other, base, base_angles)
+            known = whole(other)
+            return same(beside(condition, chosen, places[chosen]), known[chosen], known, series[:, coupled.COLUMNS.index("transmission_error")])
+
+        return whole(self.twins.of(("beside", relevant, before, angles.tobytes(), base_angles.tobytes(), cage), condition, repeats))
 
     def averages(self, condition: Condition, values: Mapping[str, float]) -> dict[str, float]:
         """Means over one turn of the cranks."""
@@ -142,66 +185,106 @@ class Bench(Lives):
 
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
         """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""
-        whole = self.held_places(condition, {}, torques, HELD_ANGLES, SHORT_CYCLE)[0]
+        whole = self.held_mean(condition, {}, torques, HELD_ANGLES, SHORT_CYCLE)
         if not self.relevant(values, condition.hours > 0.0):
             return whole
-        turning = self.held_places(condition, values, torques, self.held_angles, self.cycle_turns)[0]
+        turning = self.held_mean(condition, values, torques, self.held_angles, self.cycle_turns)
         if self.held_angles == HELD_ANGLES:
             return turning
         # What the values change, seen from fewer positions and by rougher lives.
-        return whole + turning - self.held_places(condition, {}, torques, self.held_angles, self.cycle_turns)[0]
+        return whole + turning - self.held_mean(condition, {}, torques, self.held_angles, self.cycle_turns)
+
+    def held_mean(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
+        """``held`` from so many positions, which may be that of another condition under which it is the same."""
+
+        def repeats(other: Condition) -> bool:
+            # A way that leaves its mark is gone again whole, from one position.
+            chosen = np.arange(len(torques)) if self.remembers(values) else places_of(len(torques))
+            if chosen is None or positions < LEAST_POSITIONS:
+                return False
+            known, places = self.held_places(other, values, torques, positions, turns)
+            seen, found = np.zeros(len(chosen)), np.zeros((len(chosen), places.shape[2]))
+            guessed = not self.remembers(values)
+            plants = self.new_held(condition, values, 0.0, torques, places[0][0] if guessed else None)
+            self.check((coupled.torque_sweep(plants, torques[chosen], seen, found, places[0][chosen], guessed), 0), plants, self.templates[1])
+            base = self.held_places(other, {}, torques, positions, turns)[0] if self.relevant(values, False) else known
+            return same(seen, known[0][chosen], known[0], base[0])
+
+        run = ("held", self.relevant(values, condition.hours > 0.0), torques.tobytes(), positions, turns)
+        turning = self.held_places(self.twins.of(run, condition, repeats), values, torques, positions, turns)[0]
+        found: Floats = (turning / positions).sum(axis=0)
+        return found
+
+    def new_held(self, condition: Condition, values: Mapping[str, float], angle: float, torques: Floats, z: Floats | None) -> np.ndarray:
+        """A plant with its input held at an output angle [rad] under the first of ``torques``, its bodies at ``z`` if given."""
+        if z is None:
+            return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
+        return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), z=z, advance_before=0.0)
 
     def held_places(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> tuple[Floats, Floats]:
-        """(turning, equilibria by crank position): those of the base model are where others start."""
+        """(turning, equilibria), each by crank position: those of the base model are where others start."""
         worn = condition.hours > 0.0
         relevant = self.relevant(values, worn)
         key = ("held", condition, relevant, torques.tobytes(), positions, turns if worn else 0)
 
         def run() -> tuple[Floats, Floats]:
-            total = np.zeros(len(torques))
+            turning = np.zeros((positions, len(torques)))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
             similar = self.beside(key, lambda: self.held_places(condition, {}, torques, positions, turns)) if relevant else places
             # What sticks remembers where it was: friction's springs must not see a start elsewhere.
             guessed = bool(relevant) and not self.remembers(values)
             surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
             plants = None
-            for k in range(positions):
-                angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)
-                start = {"z": similar[k][0], "advance_before": 0.0} if guessed else {}
-                if plants is None or not guessed:
-                    plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), **start)
+            for k, angle in enumerate(self.held_at(positions)):
+                z = similar[k][0] if guessed else None
+                if plants is None or z is None:
+                    plants = self.new_held(condition, values, angle, torques, z)
                 else:
-                    self.place(plants, angle, **start)
+                    self.place(plants, angle, z=z, advance_before=0.0)
                 if surfaces is not None:
                     self.put_wear(surfaces, plants)
-                turning = np.zeros(len(torques))
-                status = coupled.torque_sweep(plants, torques, turning, places[k], similar[k], guessed)
+                status = coupled.torque_sweep(plants, torques, turning[k], places[k], similar[k], guessed)
                 self.check((status, 0), plants, self.templates[1])
-                total += turning / positions
-            return total, places
+            return turning, places
 
         return self.kept(key, run)
+
+    def held_at(self, positions: int) -> list[float]:
+        """Output angles [rad] at which the cranks stand in so many places of a turn."""
+        return [2.0 * math.pi * k / (positions * self.reducer.topology.lobes) for k in range(positions)]
 
     def held_beside(self, condition: Condition, values: Mapping[str, float], torques: Floats, base: Mapping[str, float]) -> Floats:
         """``held`` of a new reducer with ``values`` to first order beside the run with ``base``; neither may remember its way."""
-        positions = self.held_angles
-        key = ("held beside", condition, self.relevant(values, False), self.relevant(base, False), torques.tobytes(), positions)
+        positions, relevant, before = self.held_angles, self.relevant(values, False), self.relevant(base, False)
 
-        def run() -> Floats:
-            similar = self.held_places(condition, base, torques, positions, SHORT_CYCLE)[1]
-            total, turning = np.zeros(len(torques)), np.zeros(len(torques))
-            for k in range(positions):
-                angle = 2.0 * math.pi * k / (positions * self.reducer.topology.lobes)
-                plants = self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), z=similar[k][0])
-                self.check((coupled.torque_sweep_beside(plants, torques, turning, similar[k]), 0), plants, self.templates[1])
-                total += turning / positions
-            return total
+        def beside(setting: Condition, angle: float, chosen: slice | npt.NDArray[np.intp], similar: Floats) -> Floats:
+            applied, turning = torques[chosen], np.zeros(len(similar))
+            plants = self.new_plant(setting, values, angle, input_speed=0.0, load_torque=float(applied[0]), z=similar[0])
+            self.check((coupled.torque_sweep_beside(plants, applied, turning, similar), 0), plants, self.templates[1])
+            return turning
 
-        return self.kept(key, run)
+        def whole(setting: Condition) -> Floats:
+            def run() -> Floats:
+                similar = self.held_places(setting, base, torques, positions, SHORT_CYCLE)[1]
+                return np.array([beside(setting, angle, slice(None), similar[k]) for k, angle in enumerate(self.held_at(positions))])
+
+            return self.kept(("held beside", setting, relevant, before, torques.tobytes(), positions), run)
+
+        def repeats(other: Condition) -> bool:
+            chosen = places_of(len(torques))
+            if chosen is None:
+                return False
+            turning, places = self.held_places(other, base, torques, positions, SHORT_CYCLE)
+            known = whole(other)[0]
+            return same(beside(condition, 0.0, chosen, places[0][chosen]), known[chosen], known, turning[0])
+
+        run = ("held beside", relevant, before, torques.tobytes(), positions)
+        found: Floats = (whole(self.twins.of(run, condition, repeats)) / positions).sum(axis=0)
+        return found
 
     def put_wear(self, wears: np.ndarray, plants: np.ndarray) -> None:
         """Profile errors of worn surfaces at the present angles, to which their unit is turned without wear."""
-        wears = wears.copy()
+        wears = copied(wears)
         for name in ("crank_angle", "output_angle", "cage_angle"):
             wears[name] = wears[f"{name}_before"] = plants[name]
         wears["acceleration"] = wears["crank_speed"] = 0.0

@@ -13,7 +13,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import angles_of
 from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
-from discrepancy.prediction.observe import error_with_cages
+from discrepancy.prediction.observe import ripple_of_cages, transmission_error
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -22,7 +22,8 @@ from fmu_src.progress import task
 LONG = 40
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
-QUARTERS = (0.0, 0.25, 0.5, 0.75)
+# Parts of the pitch beside 0 at which the ripple is looked at.
+QUARTERS = (0.25, 0.5, 0.75)
 # Share of itself by which a ripple errs at few nodes.
 RIPPLE_ERRS = 0.06
 
@@ -59,26 +60,30 @@ class Cages:
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
         few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
-        at = self.at_quarters(few, own, few is record)
-        middle, cosine, sine = (at[0] + at[1] + at[2] + at[3]) / 4.0, (at[0] - at[2]) / 2.0, (at[1] - at[3]) / 2.0
+        if few is record:
+            there = transmission_error(self.bench, record, own)
+            quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
+        else:
+            there, (quarter, half, last) = self.roughly(few, own)
+        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = few.values - few.values.mean() - (middle - middle.mean())
+        misfit = few.values - there - middle
+        misfit -= misfit.mean()
         times = len(record.values) // len(few.values)
         share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
-        there, rolled = (error_with_cages(self.bench, record, own, s) for s in (share, 0.0))
+        ripple = ripple_of_cages(self.bench, record, own, share)
         if few is not record:
-            exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(there - rolled)) > self.bench.allowed(record)
-            at = self.at_quarters(record, own, exactly)
-            middle = rolled + np.mean(at, axis=0) - at[0]
+            exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
+            ripples = [ripple_of_cages(self.bench, record, own, s) for s in QUARTERS] if exactly else self.roughly(record, own)[1]
+            middle = sum(ripples, np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * there + (1.0 - sure) * middle - rolled
+        return sure * ripple + (1.0 - sure) * middle
 
-    def at_quarters(self, record: Record, own: dict[str, float], exactly: bool) -> list[Floats]:
-        """Transmission error [rad] with the cages at quarters of the pitch ahead; where not ``exactly``, they err by ``RIPPLE_ERRS`` of the ripple."""
-        if exactly:
-            return [error_with_cages(self.bench, record, own, share) for share in QUARTERS]
+    def roughly(self, record: Record, own: dict[str, float]) -> tuple[Floats, list[Floats]]:
+        """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``QUARTERS`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
         pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-        return errors_of_cages(self.bench, record, own, [share * pitch for share in QUARTERS])
+        there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *QUARTERS)])
+        return there, [error - there for error in ahead]
 
 
 def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:

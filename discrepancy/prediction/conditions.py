@@ -30,8 +30,8 @@ def distinct_conditions(bench: Bench, record: Record) -> list[Condition]:
     """Each condition that a row has, once: a record has up to a million rows."""
     rows = rows_of(bench, record)
     direction = int(record.factors.get("direction", 1))
-    different = dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))
-    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in different]
+    distinct = dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))
+    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in distinct]
 
 
 def rows_of(bench: Bench, record: Record) -> Floats:

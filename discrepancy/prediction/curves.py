@@ -12,15 +12,21 @@ import numpy as np
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
-from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
-from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE
 
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
+# Fewer samples than these are computed where they are.
+LEAST_SAMPLES = 16
+# Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
+# than this share of the samples' distance, there are none.
+FIRMLY, LEAST_SHARE = 0.1, 0.01
+# What the ripple of the cages to first order misses, of itself (0.1 to 0.45 by load), and of what a prediction may err.
+OF_RIPPLE, HARDLY_SEEN = 0.5, 0.25
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 # The rollers' ripple has kinks: at these it errs by 6 % of itself.
@@ -91,14 +97,34 @@ class OverAngle:
         return {name: values[name]} if name in values else {}
 
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
-        return self.column(self.bench.running(self.condition, values, nodes.angles, self.cage))
+        return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
     def directly(self, values: Values) -> Floats:
-        angles, place = as_turned(self.bench, self.record, values)
-        return self.column(self.bench.running(self.condition, values, angles, self.cage))[place]
+        at, beyond = self.anchored(values)
+        angles, place = as_turned(self.bench, self.record, at)
+        return moved(angles, self.bench.column(self.name, self.condition, values, angles, self.cage), beyond)[place]
 
-    def column(self, series: Floats) -> Floats:
-        return series[:, COLUMNS.index(self.name)]
+    def anchored(self, values: Values) -> tuple[Values, float]:
+        """The values with the record's angle 0 at one of few places, and how far [rad] it is from there: runs are shared by all zeros near one."""
+        name = angle_zero(self.record)
+        zero, distance = values.get(name, 0.0), self.anchors()
+        at = distance * round(zero / distance) if distance else zero
+        return {**values, name: at}, zero - at
+
+    def anchors(self) -> float:
+        """Distance [rad] of the places at which angle 0 is anchored, so that what lies between is known as well as it must be; 0: everywhere."""
+        angles, _ = as_turned(self.bench, self.record, {})
+        if self.bench.fineness is None or self.condition.hours > 0.0 or len(angles) < LEAST_SAMPLES or np.abs(np.diff(angles)).min() <= 0.0:
+            return 0.0
+
+        def found() -> float:
+            series = self.bench.column(self.name, self.condition, {}, angles, self.cage)
+            spacing = float(np.median(np.abs(np.diff(angles))))
+            error = SplineNodes(angles).error(series)
+            share = FIRMLY * self.bench.allowed(self.record) / error if error > 0.0 else 1.0
+            return spacing * 2.0 / np.pi * float(np.arcsin(min(share, 1.0))) if share > LEAST_SHARE else 0.0
+
+        return self.bench.kept(("anchors", self.name, self.condition, angles.tobytes()), found)
 
 
 @dataclass(frozen=True)
@@ -132,6 +158,11 @@ class OverTorque:
     def along(self, values: Values, torques: Floats) -> Floats:
         path, lead = entered(self.bench, torques)
         return self.bench.held(self.condition, values, path)[lead:]
+
+
+def moved(angles: Floats, series: Floats, by: float) -> Floats:
+    """What a ``series`` at ``angles`` [rad] is ``by`` [rad] further on."""
+    return SplineNodes(angles).samples(series, angles + by) if by else series
 
 
 def entered(bench: Bench, torques: Floats) -> tuple[Floats, int]:
@@ -217,22 +248,41 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     if condition.hours > 0.0:
         return None
 
-
     def between(nodes: AngleNodes) -> Floats:
         high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
         return high - low
 
     nodes = nodes_of_slopes(curve, values, base, between)
     if nodes is None:
-        angles, place = as_turned(bench, record, values)
-        before, place_before = as_turned(bench, record, base)
-        high = bench.error_beside(condition, values, angles, base, before)[place]
-        return high - bench.error_beside(condition, base, before, base, before)[place_before]
+        at, beyond = curve.anchored(base)
+        anchor, place = as_turned(bench, record, at)
+        if values.get(angle_zero(record), 0.0) == base.get(angle_zero(record), 0.0):
+            high, low = (bench.error_beside(condition, v, anchor, base, anchor) for v in (values, base))
+            return moved(anchor, high - low, beyond)[place]
+        high, low = (bench.error_beside(condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
+        return (high - low)[place]
     change = nodes.samples(between(nodes), curve.places(values))
     if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, angle_zero(record): values[angle_zero(record)]}) - signal(curve, base)
     return change
+
+
+def cage_ripple(bench: Bench, record: Record, values: Values, cage: float) -> Floats:
+    """What cages that stand ``cage`` [rad] ahead change in the transmission error [rad]: to first order where nobody could see what that misses."""
+    curve, plain = (OverAngle(bench, record, "transmission_error", ahead) for ahead in (cage, 0.0))
+    if cage == 0.0:
+        return np.zeros(len(record.values))
+    if curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+        nodes = nodes_of(plain, values)
+        at, beyond = plain.anchored(values)
+        anchor, place = as_turned(bench, record, at)
+        angles = anchor if nodes is None else nodes.angles
+        ahead, there = (bench.error_beside(curve.condition, values, angles, values, angles, c) for c in (cage, 0.0))
+        change = ahead - there
+        if OF_RIPPLE * float(np.std(change)) <= HARDLY_SEEN * bench.allowed(record):
+            return moved(anchor, change, beyond)[place] if nodes is None else nodes.samples(change, plain.places(values))
+    return signal(curve, values) - signal(plain, values)
 
 
 def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:
@@ -260,7 +310,6 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
     condition = curve.condition
     if condition.hours > 0.0 or bench.remembers(values) or bench.remembers(base):
         return None
-
 
     def between(torques: Floats) -> Floats:
         path, lead = entered(bench, torques)

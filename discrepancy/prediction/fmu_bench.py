@@ -175,15 +175,18 @@ class FmuBench(Bench):
         key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
         return self.kept(key, run)
 
+    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
+        return self.running(condition, values, angles, cage)[:, COLUMNS.index(name)]
+
     def running_places(
         self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0
     ) -> tuple[Floats, Floats]:
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
     def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
-                     base: Mapping[str, float], base_angles: Floats) -> Floats:
+                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0) -> Floats:
         # There is no equilibrium to start from: the whole run.
-        return self.running(condition, values, angles)[:, COLUMNS.index("transmission_error")]
+        return self.running(condition, values, angles, cage)[:, COLUMNS.index("transmission_error")]
 
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
         def run() -> Floats:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.prediction.units import Condition, Units
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, copied
 from fmu_src.threads import Once
 from reducers.reducer import Reducer
 from studies import coupled
@@ -109,12 +109,12 @@ class Lives(Units):
                 self.check(status, plants, wears)
 
             advance(np.zeros(2), 0)
-            found = {target: wears.copy() for target in inspections if target <= NOTHING}
+            found = {target: copied(wears) for target in inspections if target <= NOTHING}
             for k, (done, stretch, target) in enumerate(jumps):
                 if "grease_age" in self.tables[0].by_name:
                     plants["grease_age"] = done + 0.5 * stretch
                 advance(stretch / step * weights, 2 + k * steps)
-                found[target] = wears.copy()
+                found[target] = copied(wears)
             return found, places[:0] if relevant else places
 
         return kept.get((condition, tuple(inspections), turns, relevant), run)

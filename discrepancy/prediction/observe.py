@@ -7,13 +7,12 @@ import numpy as np
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
-from discrepancy.prediction.curves import OverAngle, OverTorque, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
-from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.life import peak_of_circle
 
@@ -47,10 +46,9 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
     return None if change is None else from_zero(record, change)
 
 
-def error_with_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
-    """Transmission error with the cages a ``share`` of their rollers' pitch ahead."""
-    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    return signal(OverAngle(bench, record, "transmission_error", share * pitch), values)
+def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
+    """What cages a ``share`` of their rollers' pitch ahead change in the transmission error."""
+    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
@@ -71,7 +69,7 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
     table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
     turning = bench.held(held_condition(bench, record), elastic, table)
-    friction, share, presliding = (values.get(n, float(bench.templates[0][n][0])) for n in DRIVE_FRICTION)
+    friction, share, presliding = (values.get(n, bench.starts[0][n]) for n in DRIVE_FRICTION)
     if friction + share == 0.0:
         return np.interp(applied, table, turning)
     found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
@@ -151,8 +149,7 @@ def housing_force(bench: Bench, record: Record, values: Values) -> tuple[Floats,
     """Force of the pins on their ring along x over one output turn, less its mean."""
     condition = condition_of(bench, record)
     angles = np.linspace(0.0, 2.0 * math.pi, SPECTRUM_SAMPLES, endpoint=False)
-    series = bench.running(condition, values, angles if condition.direction > 0 else angles[::-1])
-    force = series[:, COLUMNS.index("housing_force_x")]
+    force = bench.column("housing_force_x", condition, values, angles if condition.direction > 0 else angles[::-1])
     force = force if condition.direction > 0 else force[::-1]
     return angles, centred(force)
 
@@ -277,7 +274,7 @@ def mass_loss(bench: Bench, record: Record, values: Values, turns: int) -> Float
 
 
 def debris_iron(bench: Bench, record: Record, values: Values) -> Floats:
-    mass = float(bench.templates[1]["grease_mass"][0])
+    mass = bench.starts[1]["grease_mass"]
     whole = Record(**{**record.__dict__, "tags": {"part": "reducer"}})
     return mass_loss(bench, whole, values) / values.get("grease_mass", mass)
 

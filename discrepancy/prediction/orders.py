@@ -29,7 +29,7 @@ def named_orders(bench: Bench, more: Mapping[str, tuple[float, ...]] | None = No
             "ring pins": (2 * lobes, 4 * lobes, 6 * lobes),
         }  # fmt: skip
     found["pin mesh"] = (lobes * pins,)
-    if float(bench.templates[0]["first_stage_ratio"][0]) > 0.0:
-        teeth = float(bench.templates[0]["sun_teeth"][0])
+    if bench.starts[0]["first_stage_ratio"] > 0.0:
+        teeth = bench.starts[0]["sun_teeth"]
         found |= {"sun": (ratio - 1.0, ratio), "first mesh": ((ratio - 1.0) * teeth,)}
     return found | dict(more or {})

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, copied
 from fmu_src.faults import RunFault
 from fmu_src.table import Table
 from fmu_src.threads import Once
@@ -60,9 +60,9 @@ class Units:
         self.starts = [{name: float(records[name].flat[0]) for name in table.by_name} for table, records in zip(self.tables, self.templates)]
         self.runs = Once(KEPT_RUNS)
         topology = reducer.topology
-        self.ratio = float(total_ratio(float(self.templates[0]["first_stage_ratio"][0]), topology.pins, topology.lobes))
-        self.rated_speed = float(self.templates[0]["input_speed"][0])
-        self.rated_load = float(self.templates[0]["load_torque"][0])
+        self.ratio = float(total_ratio(self.starts[0]["first_stage_ratio"], topology.pins, topology.lobes))
+        self.rated_speed = self.starts[0]["input_speed"]
+        self.rated_load = self.starts[0]["load_torque"]
 
     def kept(self, key: Hashable, make: Callable[[], Run]) -> Run:
         """The run under ``key``, made if there is none yet."""
@@ -96,7 +96,7 @@ class Units:
 
     def set_up(self, unit: int, values: Mapping[str, float], condition: Condition) -> np.ndarray:
         """Records of a unit (0 plant, 1 wear) with values and the condition's temperature."""
-        records = self.templates[unit].copy()
+        records = copied(self.templates[unit])
         for name, value in values.items():
             if name in self.tables[unit].by_name:
                 records[name] = value
@@ -122,6 +122,7 @@ class Units:
         ahead = angle - float(plants["ideal_output"][0])
         rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
         plants["ideal_output"], plants["cage"] = angle, rate * within_turn(angle) + cage
+        plants["ideal_output_rest"] = plants["cage_rest"] = 0.0
         # Until it is solved there: as ideal kinematics has it.
         plants["crank_angle"] -= self.reducer.topology.lobes * ahead
         plants["output_angle"] += ahead

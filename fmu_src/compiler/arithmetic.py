@@ -144,7 +144,7 @@ def floor_division(e: Writer, operator: ast.operator, a: Value, b: Value) -> Val
         quotient = e.give(f"sdiv i64 {x}, {divisor}")
         lower = e.give(f"sub i64 {quotient}, 1")
         result = e.give(f"select i1 {below}, i64 {lower}, i64 {quotient}")
-        return Value(INTEGER, (e.give(f"select i1 {is_zero}, i64 0, i64 {result}"),))
+        return Value(INTEGER, (e.give(f"select i1 {is_zero}, i64 0, i64 {result}"),), not_negative=a.not_negative and b.not_negative)
     # As Python has it: the quotient follows from the rest, which is exact.
     rest = e.give(f"frem double {x}, {y}")
     inexact = e.give(f"fcmp une double {rest}, 0.0")

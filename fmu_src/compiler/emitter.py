@@ -18,7 +18,7 @@ class Emitter(Function):
 
     def define(self) -> str:
         """The definition of the function in LLVM's language."""
-        for _ in range(8):
+        for _ in range(32):
             try:
                 return self.walk()
             except Wider:

@@ -66,7 +66,7 @@ class Function(ABC):
     instance: Instance
     variables: dict[str, Type] = field(default_factory=dict)
     result: Type | None = None
-    # Counters that one of their loops starts below zero, or may.
+    # Variables that get a whole number below zero somewhere, or may.
     sometimes_negative: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
@@ -155,6 +155,10 @@ class Function(ABC):
                 raise Wider
         if name not in self.places:
             self.places[name] = tuple(self.slot(part, name) for part in known.parts)
+        if not value.not_negative:
+            self.sometimes_negative.add(name)
+        elif name not in self.sometimes_negative:
+            self.never_negative.add(name)
         value = self.cast(value, known)
         for place, kind, part in zip(self.places[name], known.parts, value.parts):
             self.write(f"store {kind} {part}, ptr {place}")

@@ -44,10 +44,6 @@ def count_through(e: Function, node: ast.For) -> None:
             first, last, step = arithmetic.literal(0), arithmetic.literal(len(items)), 1
         case _:
             raise e.fault("kernels loop over range(...) or a tuple of numbers only")
-    if items or step < 0 or not first.not_negative:
-        e.sometimes_negative.add(name)
-    elif name in e.instance.kernel.counters and name not in e.sometimes_negative:
-        e.never_negative.add(name)
     head, body, onward, other, end = (e.new_block(hint) for hint in ("for", "do", "next", "else", "end"))
     counter = e.slot("i64", f"{name}.counter")
     e.write(f"store i64 {first.parts[0]}, ptr {counter}")
@@ -56,7 +52,8 @@ def count_through(e: Function, node: ast.For) -> None:
     now = e.give(f"load i64, ptr {counter}")
     e.branch(e.give(f"icmp {'slt' if step > 0 else 'sgt'} i64 {now}, {last.parts[0]}"), body, other)
     e.start(body)
-    count = Value(INTEGER, (now,), not_negative=True)
+    down_to_zero = step < 0 and isinstance(last.constant, int) and last.constant >= -1
+    count = Value(INTEGER, (now,), not_negative=down_to_zero or (step > 0 and first.not_negative))
     e.store_name(name, elements.item_by_number(e, items, count) if items else count)
     inner(e, node, Loop(onward, end))
     e.start(onward)

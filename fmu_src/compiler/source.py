@@ -40,14 +40,6 @@ class Source:
     def local_names(self) -> tuple[str, ...]:
         return self.function.__code__.co_varnames
 
-    @cached_property
-    def counters(self) -> set[str]:
-        """Names that get their values from ``for`` alone, and are no arguments."""
-        loops = [node.target.id for node in ast.walk(self.tree) if isinstance(node, ast.For) and isinstance(node.target, ast.Name)]
-        stored = [node.id for node in ast.walk(self.tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
-        arguments = {argument.arg for argument in self.tree.args.args}
-        return {name for name in set(loops) - arguments if stored.count(name) == loops.count(name)}
-
     def outer(self, name: str) -> Any:
         """What a name means outside of the function, or None."""
         code = self.function.__code__

@@ -29,6 +29,8 @@ from orchestrator.ssp.picture import Picture
 STANDARD = "http://ssp-standard.org/SSP1/SystemStructure"
 # Names of types in SSP 1.0 and, those of FMI 3, in 2.0.
 TYPES = {"1.0": {"f8": "Real", "i8": "Integer", "?": "Boolean"}, "2.0": {"f8": "Float64", "i8": "Int64", "?": "Boolean"}}
+# In the place of a unit's name: the system itself.
+SYSTEM = "SystemStructure"
 # From where to where one value goes, each as (unit, element).
 Pair = tuple[tuple[str, str], tuple[str, str]]
 
@@ -86,12 +88,22 @@ def export_ssp(
     experiment: Experiment, settings: dict[str, dict[str, float]], description: str = "", tool: str = "rvwear", inline: bool = False,
 ) -> Path:  # fmt: skip
     """Write ``target`` (.ssp); ``settings`` gives units' parameters other values than the FMUs' own, ``inline`` puts all into the description."""
+    if SYSTEM in fmus:
+        raise InputFault(f"a unit cannot be named {SYSTEM}: that is the system's own description")
     units = {key: Unit(key, Path(path)) for key, path in fmus.items()}
     for key in settings.keys() - units.keys():
         raise InputFault(f"values for {key}, which is no unit of the system: it has {', '.join(units)}")
     pairs = [pair for source, end in connections for pair in element_pairs(units, source, end)]
-    sets = {key: values(unit, settings.get(key, {}), {name for _, (end, name) in pairs if end == key}) for key, unit in units.items()}
-    root = structure(name, description, tool, units, pairs, experiment, sets if inline else None)
+    driven = {key: {name for _, (end, name) in pairs if end == key} for key in units}
+    taken = {key: values(unit, settings.get(key, {}), driven[key]) for key, unit in units.items()}
+    if not inline:
+        taken = {key: [v for v in found if v.name in settings.get(key, {}) or not is_ambiguous(v)] for key, found in taken.items()}
+    sets = {key: value_set([unit], taken[key], "") for key, unit in units.items()}
+    # OMSimulator loses all values of such a unit where they are bound to it; libcosim and ecos read nothing that is bound elsewhere.
+    lost = [value for found in taken.values() if any(is_ambiguous(v) for v in found) for value in found]
+    if lost and not inline:
+        sets[SYSTEM] = value_set(list(units.values()), lost, "{unit}.")
+    root = structure(name, description, tool, units, pairs, experiment, sets, inline)
     files = {"SystemStructure.ssd": root} | ({} if inline else {f"resources/{key}.ssv": values for key, values in sets.items()})
     with replacing(target) as partial, ZipFile(partial, "w") as archive:
         for path, element in files.items():
@@ -118,20 +130,22 @@ def element_pairs(units: dict[str, Unit], source: str, target: str) -> list[Pair
 
 def structure(
     name: str, description: str, tool: str, units: dict[str, Unit], pairs: list[Pair], experiment: Experiment,
-    inline: dict[str, Element] | None,
+    sets: dict[str, Element], inline: bool,
 ) -> Element:  # fmt: skip
-    """SystemStructure.ssd; ``inline`` holds the units' values if they are to stand in it."""
+    """SystemStructure.ssd; ``sets`` are the values by unit, which stand in it or in files of their own."""
     root = Element("ssd:SystemStructureDescription", {
         "xmlns:ssd": f"{STANDARD}Description", "xmlns:ssc": f"{STANDARD}Common",
         **{f"xmlns:{prefix}": space for prefix, space in NAMESPACES.items()},
         "version": max(unit.version for unit in units.values()), "name": name, "generationTool": tool,
     })  # fmt: skip
     system = SubElement(root, "ssd:System", name=name, description=description or name)
+    if SYSTEM in sets:
+        bind(system, SYSTEM, sets[SYSTEM], inline)
     elements = SubElement(system, "ssd:Elements")
     picture = Picture({key: i for i, key in enumerate(units)})
     connected = {end for pair in pairs for end in pair}
     for key, unit in units.items():
-        component(elements, unit, unit.connectors(connected), picture, None if inline is None else inline[key])
+        bind(component(elements, unit, unit.connectors(connected), picture), key, sets[key], inline)
     connections = SubElement(system, "ssd:Connections")
     for start, end in pairs:
         connection = SubElement(connections, "ssd:Connection", {
@@ -145,8 +159,8 @@ def structure(
     return root
 
 
-def component(elements: Element, unit: Unit, kinds: dict[str, list[list[str]]], picture: Picture, inline: Element | None) -> None:
-    """One FMU with its connectors, a place in the picture, and its values or where they are."""
+def component(elements: Element, unit: Unit, kinds: dict[str, list[list[str]]], picture: Picture) -> Element:
+    """One FMU with its connectors and a place in the picture."""
     element = SubElement(elements, "ssd:Component", {
         "name": unit.name, "type": "application/x-fmu-sharedlibrary", "source": f"resources/{unit.path.name}",
         "implementation": "CoSimulation", "description": unit.described.description.description or unit.name,
@@ -164,11 +178,16 @@ def component(elements: Element, unit: Unit, kinds: dict[str, list[list[str]]], 
                 SubElement(connector, "ssc:Dimension", size=str(size))
         picture.add_connector(connector, unit.name, name)
     picture.add_unit(element, unit.name)
+    return element
+
+
+def bind(element: Element, name: str, values: Element, inline: bool) -> None:
+    """Values of a unit or of the system, or the file where they are."""
     bindings = SubElement(element, "ssd:ParameterBindings")
-    if inline is None:
-        SubElement(bindings, "ssd:ParameterBinding", source=f"resources/{unit.name}.ssv")
+    if inline:
+        SubElement(SubElement(bindings, "ssd:ParameterBinding"), "ssd:ParameterValues").append(values)
     else:
-        SubElement(SubElement(bindings, "ssd:ParameterBinding"), "ssd:ParameterValues").append(inline)
+        SubElement(bindings, "ssd:ParameterBinding", source=f"resources/{name}.ssv")
 
 
 def settable(unit: Unit) -> dict[str, Signal]:
@@ -179,27 +198,47 @@ def settable(unit: Unit) -> dict[str, Signal]:
     }  # fmt: skip
 
 
-def values(unit: Unit, settings: dict[str, float], driven: set[str]) -> Element:
-    """A parameter set with the unit's own start values, but for the settings."""
+@dataclass(frozen=True)
+class StartValue:
+    """What a scalar of a unit starts with."""
+
+    unit: Unit
+    name: str
+    signal: Signal
+    text: str
+
+
+def is_ambiguous(value: StartValue) -> bool:
+    """Whether a name begins with its unit's own: OMSimulator 3 takes that for the unit itself, finds no such variable and reads no further.
+
+    Bound at the system, by its whole name (wear.wear.pin_share), there is nothing to mistake.
+    """
+    return value.name.startswith(f"{value.unit.name}.")
+
+
+def values(unit: Unit, settings: dict[str, float], driven: set[str]) -> list[StartValue]:
+    """The unit's own start values, but for the settings."""
     taken = {name: s for name, s in settable(unit).items() if name not in driven}
     unknown = settings.keys() - taken.keys()
     if unknown:
         raise InputFault(f"{unit.name} has no scalar parameter or open input {', '.join(sorted(unknown))}")
     starts = {v.name: v.start for v in unit.described.variables}
+    return [StartValue(unit, name, s, repr(settings[name]) if name in settings else starts[name]) for name, s in taken.items()]
+
+
+def value_set(units: list[Unit], values: list[StartValue], before: str) -> Element:
+    """A set of values of units; ``before`` stands before each name, with the unit's in it."""
     root = Element("ssv:ParameterSet", {
-        "xmlns:ssv": f"{STANDARD}ParameterValues", "xmlns:ssc": f"{STANDARD}Common", "version": unit.version, "name": "initialValues",
+        "xmlns:ssv": f"{STANDARD}ParameterValues", "xmlns:ssc": f"{STANDARD}Common", "version": max(unit.version for unit in units),
+        "name": "initialValues",
     })  # fmt: skip
     parameters = SubElement(root, "ssv:Parameters")
-    for name, signal in taken.items():
-        if name.startswith(f"{unit.name}.") and name not in settings:
-            # OMSimulator 3 takes the first part for the unit itself, finds no such variable and reads no further.
-            continue
-        parameter = SubElement(parameters, "ssv:Parameter", name=name)
-        value = repr(settings[name]) if name in settings else starts[name]
-        kind = SubElement(parameter, f"ssv:{TYPES[unit.version][signal.dtype]}", value=value)
-        if signal.dtype == "f8" and signal.base_unit is not None:
-            kind.set("unit", signal.unit)
-    add_units(root, [unit], "ssv:Units")
+    for value in values:
+        parameter = SubElement(parameters, "ssv:Parameter", name=before.format(unit=value.unit.name) + value.name)
+        kind = SubElement(parameter, f"ssv:{TYPES[value.unit.version][value.signal.dtype]}", value=value.text)
+        if value.signal.dtype == "f8" and value.signal.base_unit is not None:
+            kind.set("unit", value.signal.unit)
+    add_units(root, units, "ssv:Units")
     return root
 
 

@@ -80,6 +80,9 @@ class Test:
             raise InputFault(f"curve {number}: {len(curve[self.columns[0]])} samples are too few; give {FEWEST} at least")
         if not all(np.isfinite(curve[name]).all() for name in self.columns):
             raise InputFault(f"curve {number}: a sample is no finite number")
+        for name in self.columns:
+            if name.endswith("_angle") and starts_anew(curve[name]):
+                raise InputFault(f"curve {number}: {name} starts anew at each turn; give an angle that goes on over the turns")
         if self.read in (read_lost_motion, read_stiffness):
             torque = curve["output_torque"]
             most = REACHED * rated * (LOST_MOTION_SHARE if self.read is read_lost_motion else 1.0)
@@ -88,6 +91,12 @@ class Test:
                     f"curve {number}: the output torque goes from {torque.min():g} to {torque.max():g} N.m; {self.name} needs both senses up to"
                     f" {most / REACHED:g} N.m. Give the rated torque with --torque"
                 )
+
+
+def starts_anew(angle: Floats) -> bool:
+    """Whether an angle [rad] jumps back by more than half a turn, as an encoder's does: against the way that it goes."""
+    steps = np.diff(angle)
+    return bool(np.any(np.abs(steps[steps * np.median(steps) < 0.0]) > np.pi))
 
 
 @dataclass(frozen=True)
@@ -139,17 +148,13 @@ def turning_points(torque: Floats) -> list[int]:
     return [*points, extreme] if extreme != points[-1] else points
 
 
-def middle(curve: Curve, torque: float) -> float:
-    """Mean angle [rad] of both ways at a torque."""
-    return float(np.mean([way.at(torque) for way in ways(curve)]))
-
-
 def read_lost_motion(curve: Curve, rated: float, ratio: float) -> dict[str, tuple[float, str, str]]:
     least = LOST_MOTION_SHARE * rated
-    up, down = ways(curve)
+    both = up, down = ways(curve)
     gap = abs(up.at(0.0) - down.at(0.0))
+    forward, backward = (float(np.mean([way.at(torque) for way in both])) for torque in (least, -least))
     return {
-        "lost_motion": (abs(middle(curve, least) - middle(curve, -least)) * ARCMIN, "arcmin",
+        "lost_motion": (abs(forward - backward) * ARCMIN, "arcmin",
                         "angle at +3 % of the rated torque, mean of loading and unloading, less that at -3 %"),
         "backlash": (gap * ARCMIN, "arcmin", "angle at no torque coming from one side, less that coming from the other: width of the loop"),
     }  # fmt: skip

@@ -11,7 +11,7 @@ from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
-from studies.hysteresis import one_angle, torque_way
+from studies.hysteresis import LOST_MOTION_SHARE, one_angle, torque_way
 from studies.solve import ARCMIN
 
 POSITIONS, STEPS = 8, 40
@@ -101,7 +101,7 @@ def both_senses(reducer: Reducer, settings: list[Setting]) -> Curves:
     """A turn of the output there and back under the load's 3 %, which always opposes the motion."""
     torque, speed = rated_of(reducer, settings)
     ratio = ratio_of(reducer, settings)
-    there, back = (run(reducer, settings, reducer.topology.lobes, s * 0.03 * torque, s * speed) for s in (1.0, -1.0))
+    there, back = (run(reducer, settings, reducer.topology.lobes, s * LOST_MOTION_SHARE * torque, s * speed) for s in (1.0, -1.0))
     # The same places of the input, a turn of the output apart at the most.
     order = np.argsort(back["input_angle"])
     shifted = there["input_angle"] - 2.0 * math.pi * abs(ratio)

@@ -16,6 +16,12 @@ from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
 
 
+def name_of(folder: Path) -> str:
+    """Of the folder, in the signs that a campaign's name may have."""
+    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.resolve().name).lstrip(" ._-")
+    return name or "campaign"
+
+
 def campaign_text(proposal: Proposal, folder: Path) -> str:
     """``folder``: where it will stand; paths of data and reducer count from there."""
     data = os.path.relpath(proposal.data, folder.resolve())

@@ -62,7 +62,10 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
             continue
         size = np.linalg.norm(stacked[:, alive], axis=0)
         values, vectors = np.linalg.eigh((stacked[:, alive] / size).T @ (projected[:, alive] / size))
-        keep = values > 1e-6 * values.max()
+        # Below zero only by rounding: what hardly lies outside of the fit's own parameters says nothing.
+        keep = values > 1e-6 * max(values.max(), 0.0)
+        if not keep.any():
+            continue
         root = vectors[:, keep] / np.sqrt(values[keep]) / size[:, None]
         statistic = float(np.sum((root.T @ (stacked[:, alive].T @ settled)) ** 2))
         width = root.shape[1]

@@ -1,0 +1,47 @@
+"""What a form of the page gives: texts that become numbers, and a model whose settings go into commands."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from fmu_src.faults import InputFault
+
+if TYPE_CHECKING:
+    from discrepancy.model_file import ModelFile
+    from fmu_src.table import Table
+
+
+def number(value: Any, what: str) -> float:
+    """With a point or a comma; InputFault for ``what`` that is none, or is not finite."""
+    try:
+        found = float(str(value).strip().replace(",", "."))
+    except ValueError:
+        raise InputFault(f"{what}: {value!r} is no number") from None
+    if not math.isfinite(found):
+        raise InputFault(f"{what}: a finite number is needed")
+    return found
+
+
+def whole(value: Any, what: str) -> int:
+    found = number(value, what)
+    if found != int(found):
+        raise InputFault(f"{what}: {value!r} is no whole number")
+    return int(found)
+
+
+def exactly(value: float) -> str:
+    """As a command takes it, with all its digits."""
+    return f"{value:.15g}"
+
+
+def settings_of(file: "ModelFile") -> list[str]:
+    """Settings and effects of a model as ``name=value``; those of the measuring chain, which no life has, are left out."""
+    tables = [file.reducer.plant, file.reducer.wear]
+    return [f"{name}={value!r}" for kernel_name, value in file.values().items() if (name := written(tables, kernel_name))]
+
+
+def written(tables: "Sequence[Table]", name: str) -> str:
+    """What a setting calls the variable (or its element); empty for one of the measuring chain."""
+    base, bracket, rest = name.partition("[")
+    variable = next((t.by_name[base] for t in tables if base in t.by_name), None)
+    return variable.path + bracket + rest if variable else ""
