@@ -174,8 +174,12 @@ def step(records, time, duration):
     start_ramp(p, duration)
     speed = driven_speed(p)
     if same_sweep(r, speed) and part_of(records, duration, speed) == duration:
-        # The plant may refuse, the wear after it not.
-        return go_on(records, time, duration)
+        # Plant and wear may refuse; surfaces wear once, at the end, if they do.
+        left, path, passed, paused = r.sweep_left, r.sweep_path, r.sweep_time, r.paused_after
+        fault = go_on(records, time, duration)
+        if fault != 0:
+            r.sweep_left, r.sweep_path, r.sweep_time, r.paused_after = left, path, passed, paused
+        return fault
     # A part may fail after surfaces wore in an earlier one: what lies beyond the cells that are put back anyway is kept here.
     first = r.kept.shape[0]
     for i in range(r.worn_kept.shape[0]):

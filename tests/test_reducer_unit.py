@@ -245,3 +245,17 @@ def test_units_of_one_reducer_share_their_table_and_no_value(rv20e, bx40e):
     changed = rv20e.specification("rv_reducer")
     changed["starts"] = changed["starts"] | {"load_torque": 60.0}
     assert InProcess("reducer", changed).get("load_torque") == 60.0
+
+
+def test_a_step_that_the_wear_refuses_changes_nothing_that_is_not_put_back(rv20e):
+    """Part of the way to the next wear is gone, then a flank is worn through: the plant had moved when the wear refused."""
+    unit = make_unit(rv20e)
+    step = crank_turn_time(rv20e, unit) / 72
+    run(unit, 1, 0.4 * step)
+    unit.records["wear"]["flank_depth"] = 1.0
+    # What lies before these cells FMUs put back themselves.
+    beyond = slice(unit.unit.guarded_cells, unit.table.state_cells)
+    before = unit.table.cells(unit.records)[beyond].copy()
+    with pytest.raises(RunFault, match="worn through"):
+        unit.step(0.4 * step, 0.6 * step)
+    assert np.array_equal(unit.table.cells(unit.records)[beyond], before)
