@@ -53,7 +53,7 @@ def bench_test(options: argparse.Namespace) -> int:
     except InputFault as fault:
         raise InputFault(f"{options.measured}: {fault}" if options.measured else str(fault)) from None
     show_bench(reducer.name, test, found, rated, ratio, len(curves), options.measured, options.json)
-    write_exports(options, lambda: bench_tables(found, curves), lambda: [])
+    write_exports(options, lambda: bench_tables(found, curves), list)
     return 0
 
 

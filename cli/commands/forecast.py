@@ -44,7 +44,7 @@ def run_forecast(options: argparse.Namespace) -> int:
                    "unused": [vars(r) for r in found.held_out], "units": units_of(limit)})
     else:
         show(forecasts, found, limit)
-    write_exports(options, lambda: forecast_tables(forecasts, found, limit), lambda: [])
+    write_exports(options, lambda: forecast_tables(forecasts, found, limit), list)
     return 0
 
 
