@@ -1,6 +1,7 @@
 """Fixtures: the two reducers that come with the software and their FMUs; the order of the files."""
 
 import os
+from collections import Counter
 
 # Every worker has a core of its own: more threads would wait for each other.  Before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -26,6 +27,37 @@ FIRST = (
     "test_reproduce", "test_life", "test_strangers", "test_ensemble", "test_plain_python", "test_motion", "test_inference_trial",
     "test_compiler_properties", "test_robot_joint", "test_missing_parts", "test_pin_on_disc", "test_isolation", "test_inference_tools",
 )  # fmt: skip
+
+
+def pytest_addoption(parser):
+    parser.addoption("--cpu", action="store_true", help="tell at the end what CPU each file took, its processes included")
+
+
+def pytest_configure(config):
+    config.cpu_before = sum(os.times()[:4])
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """CPU [s] since the report before: setup, test or teardown, with what they made for others."""
+    report = yield
+    now = sum(os.times()[:4])
+    report.user_properties.append(("cpu", now - item.config.cpu_before))
+    item.config.cpu_before = now
+    return report
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    if not config.getoption("cpu"):
+        return
+    files = Counter()
+    for reports in terminalreporter.stats.values():
+        for report in reports:
+            files[getattr(report, "nodeid", "").partition("::")[0]] += sum(value for name, value in getattr(report, "user_properties", ()) if name == "cpu")
+    terminalreporter.section(f"{sum(files.values()):.0f} s of CPU")
+    for file, seconds in files.most_common():
+        if seconds >= 1.0:
+            terminalreporter.write_line(f"{seconds:7.1f} s  {file}")
 
 
 def pytest_collection_modifyitems(items):

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from discrepancy.campaign.load import load_campaign
@@ -88,6 +89,16 @@ def test_clock_in_nanoseconds_keeps_its_digits(tmp_path):
     time = 'columns.time = { column = "t", unit = "ns", from_start = true }'
     record = load(tmp_path, run(TORQUE + time)).records[0]
     assert record.axes["time"] == pytest.approx([0.0, 1e-3, 2e-3, 4e-3, 5e-3], abs=1e-12)
+
+
+def test_a_moment_that_is_missing_drops_its_row(tmp_path):
+    moments = pd.date_range("2024-01-01", periods=5, freq="ms").to_series(index=range(5))
+    moments[0] = moments[2] = pd.NaT
+    pd.DataFrame({"t": moments, "torque": np.arange(5.0)}).to_parquet(tmp_path / "a.parquet")
+    time = 'columns.time = { column = "t", unit = "ns", from_start = true }'
+    campaign = load(tmp_path, run(TORQUE.replace("a.csv", "a.parquet") + time))
+    assert campaign.records[0].values.tolist() == [1.0, 3.0, 4.0] and campaign.rows["r"].dropped == 2
+    assert campaign.records[0].axes["time"] == pytest.approx([0.0, 2e-3, 3e-3], abs=1e-12)
 
 
 def test_columns_may_be_factors_row_by_row(tmp_path):

@@ -2,6 +2,7 @@
 
 import json
 import re
+import time
 import tomllib
 from pathlib import Path
 
@@ -12,7 +13,9 @@ from bench_files import ANGLE, ARCSEC, CURVES, DEG, DEPTH, ERROR, GUESSED_UNITS,
 
 from cli.main import main
 from discrepancy.campaign.guess.file_names import by_pattern, proposed, suggested
+from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked
@@ -79,6 +82,29 @@ def test_both_encoders_and_steps(tmp_path):
 def test_an_encoder_that_jumps_is_joined(tmp_path):
     pd.DataFrame({"angle_deg": np.degrees(ANGLE) % 360.0, "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
     assert checked(propose([tmp_path], Wishes("RV20E-121"))).records[0].axes["angle"] == pytest.approx(ANGLE)
+
+
+def test_mountings_that_are_dates_are_no_numbers(tmp_path):
+    for day in ("2024.01.02", "2024.01.03", "2024.01.04"):
+        pd.DataFrame({"angle_deg": np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / f"te_{day}_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", names=("te_{mounting}_{replicate}",)))
+    assert len(proposal.conditions) == 3 and [guess.reason for guess in proposal.held_out.values()] == [
+        "kept for the test of what is found: the last one; nothing says which lies inside the others"
+    ]  # fmt: skip
+
+
+def test_moments_that_are_missing_are_no_numbers(tmp_path):
+    moments = pd.date_range("2024-01-01", periods=100, freq="s").to_series(index=range(100))
+    moments[5] = pd.NaT
+    pd.DataFrame({"time": moments, "te_arcsec": np.arange(100.0)}).to_parquet(tmp_path / "a.parquet")
+    times = table_of(tmp_path / "a.parquet").columns["time"]
+    assert np.isnan(times[5]) and np.diff(times[:5]) == pytest.approx(1e9)
+
+
+def test_a_long_line_above_a_table_keeps_nobody_waiting():
+    started = time.process_time()
+    assert stated_above((" " * 20_000 + "x", "a" + " " * 20_000 + "1", "Torque: 15 Nm")) == {"load": (15.0, "N.m")}
+    assert time.process_time() - started < 0.5
 
 
 def test_repetitions_within_a_file(tmp_path):

@@ -33,3 +33,15 @@ def test_review_rules_hold_or_are_excepted_with_a_reason():
     done = run("repo_review", ".", "--format", "json")
     failed = {name: check["description"] for name, check in json.loads(done.stdout)["checks"].items() if check["result"] is False}
     assert not failed
+
+
+def test_what_each_file_takes_is_added_up():
+    from types import SimpleNamespace as Made
+
+    from conftest import pytest_terminal_summary
+
+    reports = [Made(nodeid=f"tests/test_{name}.py::x", user_properties=[("cpu", seconds)]) for name, seconds in (("a", 1.5), ("b", 3.0), ("a", 2.0), ("c", 0.1))]
+    told = []
+    reporter = Made(stats={"passed": reports[:2], "": reports[2:], "warnings": [Made()]}, section=told.append, write_line=told.append)
+    pytest_terminal_summary(reporter, Made(getoption=lambda name: name == "cpu"))
+    assert told == ["7 s of CPU", "    3.5 s  tests/test_a.py", "    3.0 s  tests/test_b.py"]

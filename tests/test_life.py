@@ -108,7 +108,7 @@ def test_measuring_leaves_the_pair_as_it_was(rv20e):
     assert pair.master.save() == before
 
 
-@pytest.mark.parametrize("reducer", ["rv20e", "bx40e"])
+@pytest.mark.parametrize("reducer", ["rv20e", pytest.param("bx40e", marks=pytest.mark.campaign)])
 def test_a_life_in_motion_is_not_worn_by_the_swing_that_accelerated_wear_strikes_up(request, reducer):
     """The load rings through a hundred turns: undamped, 10,000 h in two jumps wear the races of the RV20E-121 twice as deep."""
     ends = {}

@@ -16,7 +16,7 @@ from rv_plant import plant
 from rv_plant.effects import EFFECTS as PLANT
 from wear_fmu.effects import EFFECTS as WEAR
 
-STEPS, HOURS_PER_STEP = 3, 2.0
+STEPS, HOURS_PER_STEP = 2, 2.0
 # Of a communication step: a crank turn's fortieth, in motion 20 us.
 IN_MOTION = 2e-5
 # What each case asks of the kernels beyond the ideal reducer.

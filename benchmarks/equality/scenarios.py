@@ -58,21 +58,22 @@ def scenarios(count: int = 50) -> list[Scenario]:
         Scenario("reducer with its supports, in motion", "BX-40E", "rv_reducer", 1e-4, fast | {"fidelity": 1}),
         Scenario("reducer in motion", "RV20E-121-rigid", "rv_reducer", 1e-4, fast | {"fidelity": 1}),
         Scenario("reducer, every effect", "RV20E-121-rigid", "rv_reducer", 1e-3, fast | everything(PLANT, WEAR)),
-    ]
+    ][:count]
     for scenario in found:
         # What a topology lacks is not to be set.
         table = unit_of(scenario.specification).table
         scenario.values = {name: value for name, value in scenario.values.items() if table.by_name[name].role in SETTABLE}
-    return [*found, *random_ones(max(0, count - len(found)))][:count]
+    return [*found, *random_ones(count - len(found))]
 
 
 def random_ones(count: int) -> Iterator[Scenario]:
-    sets = {name: Sets(name, None) for name in REDUCERS}
+    sets: dict[str, Sets] = {}
     number = 0
     while count:
         name = REDUCERS[number % len(REDUCERS)]
-        drawn = draw(sets[name].reducer, sets[name].unit.table, number)
-        scenario = Scenario(f"random set {number}", name, "rv_reducer", sets[name].step_of(drawn), drawn.values | {"acceleration": 1e4})
+        own = sets[name] = sets.get(name) or Sets(name, None)
+        drawn = draw(own.reducer, own.unit.table, number)
+        scenario = Scenario(f"random set {number}", name, "rv_reducer", own.step_of(drawn), drawn.values | {"acceleration": 1e4})
         if not drawn.astray and runs(scenario):
             count -= 1
             yield scenario

@@ -1,4 +1,4 @@
-"""A trial of one reader, started again where its process dies."""
+"""A trial of one reader, started again where its process dies, and a short one of several."""
 
 import json
 import os
@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -38,21 +39,43 @@ def trial(reader: str, seed: int, seconds: float, count: int, folder: Path) -> O
         left = ends - time.monotonic()
         if left <= 0.0 or outcome.done >= count:
             break
-        command = [sys.executable, "-m", "benchmarks.fuzzing.trial", reader, str(seed + 1000 * death), str(left), str(count - outcome.done), str(folder)]
-        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join([*PATH, str(ROOT)])})
-        done = 0
-        for line in process.stdout.splitlines():
-            said = json.loads(line)
-            done = said.get("done", done)
-            outcome.refused += said.get("refused", 0)
-            outcome.kinds = max(outcome.kinds, said.get("kinds", 0))
-            if "wrong" in said:
-                outcome.found.append(f"{said['wrong']} ({said['file']})")
-        outcome.done += done
+        process = started(reader, str(seed + 1000 * death), str(left), str(count - outcome.done), str(folder))
+        part = heard(process.stdout)[reader]
+        outcome.done, outcome.refused, outcome.kinds = outcome.done + part.done, outcome.refused + part.refused, max(outcome.kinds, part.kinds)
+        outcome.found += part.found
         if process.returncode == 0:
             break
         outcome.found.append(death_of(process.returncode, process.stderr, reader, folder, death))
     return outcome
+
+
+def together(readers: Sequence[str], seed: int, seconds: float, more: int, folder: Path) -> dict[str, Outcome]:
+    """What once failed and ``more`` mutants of each reader, in one process: most of what a process takes is what it loads.  A death ends it."""
+    process = started(",".join(readers), str(seed), str(seconds), f"+{more}", str(folder))
+    found = heard(process.stdout)
+    if process.returncode != 0:
+        last = [*found][-1]
+        found[last].found.append(death_of(process.returncode, process.stderr, last, folder / last, 0))
+    return found
+
+
+def started(*words: str) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([*PATH, str(ROOT)])}
+    return subprocess.run([sys.executable, "-m", "benchmarks.fuzzing.trial", *words], cwd=ROOT, capture_output=True, text=True, env=environment)
+
+
+def heard(text: str) -> dict[str, Outcome]:
+    """By reader, in the order in which they were run."""
+    found: dict[str, Outcome] = {}
+    for line in text.splitlines():
+        said = json.loads(line)
+        outcome = found.setdefault(said["reader"], Outcome(said["reader"]))
+        outcome.done = said.get("done", outcome.done)
+        outcome.refused += said.get("refused", 0)
+        outcome.kinds = max(outcome.kinds, said.get("kinds", 0))
+        if "wrong" in said:
+            outcome.found.append(f"{said['wrong']} ({said['file']})")
+    return found
 
 
 def death_of(code: int, said: str, reader: str, folder: Path, number: int) -> str:

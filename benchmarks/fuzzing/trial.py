@@ -1,6 +1,7 @@
-"""Mutants of one reader, one after the other in a process of their own: ``python -m benchmarks.fuzzing.trial READER SEED SECONDS COUNT FOLDER``.
+"""Mutants of a reader, one after the other in a process of their own: ``python -m benchmarks.fuzzing.trial READERS SEED SECONDS COUNT FOLDER``.
 
-The process prints a line of JSON for each finding and one at the end.  Where it dies, ``FOLDER/work`` holds what it died of.
+Several readers, with commas between them, take turns in one process, each in a folder of its own; COUNT ``+25``: so many besides what once
+failed.  The process prints a line of JSON for each finding and one at the end of each reader.  Where it dies, ``FOLDER/work`` holds what it died of.
 """
 
 import contextlib
@@ -84,7 +85,8 @@ def judged(reader: str, path: Path, guard: Guard) -> tuple[str, str]:
     return (f"elsewhere: {guard.found}" if guard.found else ""), kind
 
 
-def main(reader: str, seed: int, seconds: float, count: int, folder: Path) -> None:
+def main(reader: str, seed: int, seconds: float, count: str, folder: Path) -> None:
+    print(json.dumps({"reader": reader, "done": 0}), flush=True)
     work = folder / "work"
     work.mkdir(parents=True, exist_ok=True)
     (folder / "temporary").mkdir(exist_ok=True)
@@ -93,6 +95,7 @@ def main(reader: str, seed: int, seconds: float, count: int, folder: Path) -> No
     warnings.simplefilter("ignore")
     sys.stderr = open(os.devnull, "w")  # noqa: SIM115
     chance, seeds = random.Random(seed), seeds_of(reader)
+    most = len(seeds) + int(count) if count.startswith("+") else int(count)
     name = READERS[reader][0]
     copy_beside(reader, work)
     for data in seeds:
@@ -107,7 +110,7 @@ def main(reader: str, seed: int, seconds: float, count: int, folder: Path) -> No
     started, done, refused = time.monotonic(), 0, 0
     # What once failed is read as it is: its neighbours would crash the libraries again and again.
     grown = list(SEEDS[reader]())
-    while done < count and time.monotonic() - started < seconds:
+    while done < most and time.monotonic() - started < seconds:
         # All seeds as they are come first.
         data = seeds[done] if done < len(seeds) else mutant(chance.choice(grown), seeds, chance)
         (work / name).write_bytes(data)
@@ -134,9 +137,11 @@ def main(reader: str, seed: int, seconds: float, count: int, folder: Path) -> No
             kept.write_bytes(data)
             print(json.dumps({"reader": reader, "wrong": wrong, "file": str(kept)}), flush=True)
         if done % 200 == 0:
-            print(json.dumps({"done": done}), flush=True)
+            print(json.dumps({"reader": reader, "done": done}), flush=True)
     print(json.dumps({"reader": reader, "done": done, "refused": refused, "kinds": len(kinds)}), flush=True)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4]), Path(sys.argv[5]))
+    chosen, place = sys.argv[1].split(","), Path(sys.argv[5])
+    for one in chosen:
+        main(one, int(sys.argv[2]), float(sys.argv[3]), sys.argv[4], place / one if len(chosen) > 1 else place)

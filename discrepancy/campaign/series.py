@@ -80,6 +80,7 @@ def numbers(column: np.ndarray, entry: Column, missing: Sequence[float | str], p
     A start is taken off in the file's own type: a clock in ns since 1970 would lose its last
     digits as a float.
     """
+    unknown = pd.isna(column)
     if np.issubdtype(column.dtype, np.datetime64):
         column = column.astype("datetime64[ns]").astype(np.int64)
     elif np.issubdtype(column.dtype, np.unsignedinteger):
@@ -88,7 +89,7 @@ def numbers(column: np.ndarray, entry: Column, missing: Sequence[float | str], p
         raise InputFault(f"{place}: column {entry.column!r} is complex; export amplitude or part as a column of its own")
     if not np.issubdtype(column.dtype, np.number) or np.issubdtype(column.dtype, np.bool_):
         column = from_text(column, entry, missing, place)
-    absent = np.isin(column, [float(m) for m in missing if not isinstance(m, str)])
+    absent = unknown | np.isin(column, [float(m) for m in missing if not isinstance(m, str)])
     if entry.from_start and len(known := np.flatnonzero(~absent & ~pd.isna(column))):
         column = column - column[known[0]]
     values = column.astype(float)

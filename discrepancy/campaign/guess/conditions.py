@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from discrepancy.campaign.guess.said import Guess
+from discrepancy.campaign.quantities import FACTOR_KEYS
 
 # A held-out condition is proposed from so many on: two must be left to fit.
 LEAST_CONDITIONS = 3
+NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ def held_out(conditions: Mapping[str, Mapping[str, str]], quantities: Mapping[st
 
 def inside(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]]) -> str | None:
     """The condition nearest to the middle in each number that differs, none of them at an end; None without one."""
-    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if (m := re.match(r"[+-]?[\d.]+(?:e[+-]?\d+)?", text))} for name in names}
+    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if key in FACTOR_KEYS and (m := NUMBER.match(text))} for name in names}
     best: tuple[float, str] | None = None
     varied = [key for key in levels[names[0]] if len({levels[n].get(key) for n in names}) > 2 and all(key in levels[n] for n in names)]
     for name in names:

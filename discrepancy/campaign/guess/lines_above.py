@@ -7,6 +7,8 @@ from discrepancy.campaign.guess.column_words import meaning_of
 from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
 
 STATED = re.compile(r"^[#%\"\s]*([^:=;\t,\d]{1,60}?)\s*[:=;\t,]\s*[;\t,]*\s*([+-]?\d+(?:[.,]\d+)?)\s*[;\t,]?\s*([^;\t,\"]*)[;\t,\"\s]*$")
+# Signs of a line that may state a number; what is longer is looked at in vain, and for long.
+LONGEST = 200
 FACTORS = {
     "torque": ("load", u.TORQUE), "speed": ("speed", u.SPEED), "input_speed": ("input_speed", u.SPEED), "output_speed": ("output_speed", u.SPEED),
     "temperature": ("temperature", u.TEMPERATURE), "hours": ("hours", u.TIME),
@@ -16,8 +18,8 @@ FACTORS = {
 def stated_above(lines: tuple[str, ...]) -> dict[str, tuple[float, str]]:
     """Field as of a file name's pattern -> (number, unit); only what has a unit of its kind."""
     found: dict[str, tuple[float, str]] = {}
-    for line in lines:
-        if not (match := STATED.match(line)):
+    for line in map(str.strip, lines):
+        if len(line) > LONGEST or not (match := STATED.match(line)):
             continue
         field = FACTORS.get(meaning_of(name_of(match[1])) or "")
         known = unit_of(match[3]) or ((inside[0], inside[1]) if (inside := unit_in(match[1])) else None)

@@ -119,7 +119,9 @@ def numeric(raw: Mapping[str, np.ndarray]) -> tuple[dict[str, Floats], set[str]]
     words: set[str] = set()
     for name, column in raw.items():
         if np.issubdtype(column.dtype, np.datetime64):
-            column = column.astype("datetime64[ns]").astype(np.int64)
+            missing = np.isnat(column)
+            column = column.astype("datetime64[ns]").astype(np.int64).astype(float)
+            column[missing] = np.nan
         if column.dtype.kind in "iufb":
             found[name] = column.astype(float)
             continue

@@ -28,7 +28,7 @@ def campaign_text(proposal: Proposal, folder: Path) -> str:
     lines = ["[campaign]", f"name = {toml(proposal.name)}"]
     if proposal.reducer:
         own = Path(proposal.reducer)
-        lines.append(f"reducer = {toml(os.path.relpath(own.resolve(), folder.resolve()) if own.is_file() else proposal.reducer)}")
+        lines.append(f"reducer = {toml(Path(os.path.relpath(own.resolve(), folder.resolve())).as_posix() if own.is_file() else proposal.reducer)}")
     if data != ".":
         lines.append(f"data = {toml(Path(data).as_posix())}")
     for name, stated in proposal.conditions.items():
