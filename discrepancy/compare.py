@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy import as_told
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
@@ -50,10 +51,12 @@ class Comparison:
     figures: list[KeyFigure] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
+        tables, units = as_told.tables_of(self.model), {p.name: p.unit for p in self.model.nuisances}
+        signals, runs = ([as_told.row(r, r["signal"], r["unit"], ("error", "noise_floor")) for r in rows] for rows in (self.signals, self.runs))
         return {
-            "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": self.signals, "runs": self.runs,
-            "nuisances": self.nuisances, "warnings": self.warnings, "not_predicted": self.model.unpredicted,
-            "key_figures": [f.as_json() for f in self.figures],
+            "model": self.model.file.name, "campaign": self.model.campaign.name, "signals": signals, "runs": runs,
+            "nuisances": as_told.numbers(self.nuisances, units, tables), "warnings": self.warnings, "not_predicted": self.model.unpredicted,
+            "key_figures": as_told.figures(self.figures),
             "outlying": [asdict(o) | {"weight": o.weight} for o in self.outlying],
             "localisation": self.diagnostician.localisation.to_dict(),
         }  # fmt: skip

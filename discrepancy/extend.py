@@ -6,10 +6,11 @@ runs that the parameters were fitted to is never called a success.
 
 import difflib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from discrepancy import as_told
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.diagnose import Diagnostician
@@ -38,14 +39,20 @@ class UnknownEffect(InputFault):
 
 @dataclass(frozen=True)
 class Extension:
-    """The extended model and the step of its ladder; ``file`` is the old one where the step did not help."""
+    """The extended model and the step of its ladder; ``file`` is the old one where the step did not help; ``units`` (SI) of its nuisances."""
 
     file: ModelFile
     step: dict[str, Any]
     verdict: str
+    units: dict[str, str] = field(default_factory=dict)
 
     def as_json(self) -> dict[str, Any]:
-        return {"model": self.file.name, "verdict": self.verdict, "step": self.step, "effects": self.file.effects}
+        signals = [as_told.row(r, r["signal"], r["unit"], ("before", "after", "noise_floor")) for r in self.step["signals"]]
+        effects = {
+            name: {as_told.effect_name(name, key): as_told.added(entry) for key, entry in numbers.items()} for name, numbers in self.file.effects.items()
+        }
+        step = self.step | {"signals": signals, "nuisances": as_told.numbers(self.step["nuisances"], self.units, as_told.tables_of(self.file))}
+        return {"model": self.file.name, "verdict": self.verdict, "step": step, "effects": effects}
 
 
 def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
@@ -101,7 +108,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     # What was tested on unused runs and not seen there stays out.
     keep = outcome == HELPED or judged is None or anyway
     step["kept"] = keep
-    return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome)
+    return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
+                     {p.name: p.unit for p in diagnostician.space.base.parameters})
 
 
 def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:

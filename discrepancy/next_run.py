@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -68,6 +69,11 @@ class NextRun:
 
     def as_json(self) -> dict[str, Any]:
         plain = self.result.to_dict() if self.result else {"separable": None, "proposals": [], "at_stake": {}}
+        campaign = self.answer.model.campaign
+        for proposal in plain["proposals"]:
+            proposal["settings"] = {name: as_told.setting(name, value, campaign) for name, value in proposal["settings"].items()}
+            proposal["spans"] = {name: [as_told.setting(name, value, campaign) for value in span] for name, span in proposal["spans"].items()}
+        plain["at_stake"] = {name: {"text": text, "si": self.result.at_stake[name]} for name, text in self.stakes().items()} if self.result else {}
         return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open}
 
     def stakes(self) -> dict[str, str]:
@@ -97,7 +103,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     known = " and ".join(names) if fits.members else ""
     start = f"{f'beside {known} ' if known else ''}something is left that no effect of the catalogue explains" if unexplained else ""
     if answer.verdict == BASE_OFF and len(names) < 2:
-        off = ", ".join(e.name for e in answer.diagnosis.base_off)
+        off = ", ".join(as_told.told_name(e.name, as_told.tables_of(answer.model)) for e in answer.diagnosis.base_off)
         text = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance, then ask again"
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:

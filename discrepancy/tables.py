@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.as_told import tables_of as tables_in
+from discrepancy.as_told import told_name
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import Comparison
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -59,7 +61,7 @@ def answer_tables(result: Answer) -> list[Table]:
         predictions["with_effect"] = space.predictions(found.fits.members[0].fit.values, every)
     rivals = [{"candidate": r["name"], "chi2_difference": none_as_nan(r["chi2_difference"]), "reason": r["reason"]} for r in found.rejected]
     verdict = [{"model": result.model.file.name, "campaign": result.model.campaign.name, "verdict": result.verdict, "reason": result.reason}]
-    effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect)], {})
+    effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect, result)], {})
     named = [effects] if effects.columns else []
     return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
             *curve_tables(space, predictions, result.model.campaign)]  # fmt: skip
@@ -69,14 +71,15 @@ def none_as_nan(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
-def parameter_rows(effect: Mapping[str, Any]) -> list[dict[str, Any]]:
+def parameter_rows(effect: Mapping[str, Any], answer: Answer) -> list[dict[str, Any]]:
     """A row a parameter, with the 95 % interval."""
     rows = []
     for name, p in effect["parameters"].items():
         low, high = p["interval"]
+        told = told_name(name, tables_in(answer.model))
         scale = of_parameter(largest(p["value"], low, high), p["unit"])
         rows.append({
-            "effect": effect["name"], "variant": effect["variant"], "parameter": name, "value": scale.number(p["value"]), "low": scale.number(low),
+            "effect": effect["name"], "variant": effect["variant"], "parameter": told, "value": scale.number(p["value"]), "low": scale.number(low),
             "high": scale.number(high), "unit": scale.unit, "share_explained": effect["share_explained"],
             "held_out_error_before": none_as_nan(effect.get("held_out_error_before")), "held_out_error_after": none_as_nan(effect.get("held_out_error_after")),
         })  # fmt: skip

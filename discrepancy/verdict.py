@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from discrepancy import as_told
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import figures_of, incomplete, warnings_of
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
@@ -38,13 +39,31 @@ class Answer:
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
 
-    def as_json(self) -> dict[str, Any]:
+    def in_si(self) -> dict[str, Any]:
+        """Everything in SI units and by the names that kernels have: what programs of this project go on with."""
         plain = self.diagnosis.to_dict()
         return plain | {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
             "key_figures": [f.as_json() for f in self.figures],
+        }  # fmt: skip
+
+    def as_json(self) -> dict[str, Any]:
+        """By the names and in the units that screen and page have."""
+        space, tables = self.diagnosis.fits.space, as_told.tables_of(self.model)
+        units = {p.name: p.unit for p in space.base.parameters}
+        signals = {stream_of(r): r.unit for r in space.records}
+        held_out = {
+            name: entry | {"rms": {s: as_told.row(r, s, signals[s], ("before", "after", "floor")) for s, r in (entry.get("rms") or {}).items()}}
+            for name, entry in self.diagnosis.held_out.items()
+        }
+        return self.in_si() | {
+            "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]]}
+                        for e in self.effects],
+            "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
+            "nuisances": as_told.numbers(self.diagnosis.nuisances, units, tables), "key_figures": as_told.figures(self.figures),
+            "noise": as_told.noises(self.diagnosis.noise, {s: signals[s] for s in self.diagnosis.noise if s in signals}),
         }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
@@ -30,7 +31,8 @@ def base_texts(answer: Answer) -> list[str]:
         low, high, assumed = (held.text(v, 3) for v in (*e.within, e.assumed))
         share = f", {100.0 * (e.value / e.assumed - 1.0):+.1f} %" if e.assumed else ""
         range_text = f"{low} to {high}" if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
-        texts.append(f"{e.name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {assumed} ({range_text}); {e.title}")
+        name = told_name(e.name, tables_of(answer.model))
+        texts.append(f"{name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {assumed} ({range_text}); {e.title}")
     return texts
 
 

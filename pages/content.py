@@ -23,6 +23,15 @@ class Choosable(Figure):
 
 
 @dataclass(frozen=True)
+class Why:
+    """What answers "why?" beside a number: by which ``relation``, from which ``data``, with which ``margin``."""
+
+    relation: str
+    data: str
+    margin: str
+
+
+@dataclass(frozen=True)
 class Card:
     """One number; ``start`` is given where it came from another one.  ``tone``: good, fair, bad or plain."""
 
@@ -32,17 +41,19 @@ class Card:
     start: str = ""
     unit: str = ""
     tone: str = "plain"
+    why: Why | None = None
 
 
 @dataclass(frozen=True)
 class Table:
-    """``right`` numbers the columns with numbers in them."""
+    """``right`` numbers the columns with numbers in them; ``whys``, if given, answer for each row."""
 
     title: str
     head: list[str]
     rows: list[list[str]]
     right: tuple[int, ...] = ()
     note: str = ""
+    whys: list[Why] = field(default_factory=list)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ QUASI_STATIC, DYNAMIC = 0, 1
 
 NO_EQUILIBRIUM, PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RING_OPEN, RACES_DO_NOT_FIT = range(1, 8)
 NO_MOTION, TORQUE_AT_REST, LONG_STEP = range(8, 11)
-OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS, NO_START = range(11, 16)
+OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, OUTPUT_PINS_AT_REST, CRANKS_ON_AXIS, NO_START, BEARINGS_OVERLAP = range(11, 17)
 FAULTS = {
     NO_EQUILIBRIUM: "no equilibrium at input angle {input_angle:.6g} rad, load {load_torque:.6g} N.m: residual"
     " {residual:.3g} of the load after {iterations} iterations, contacts at {reducer_temperature:.4g} K."
@@ -42,6 +42,9 @@ FAULTS = {
     " Set fidelity to quasi-static",
     CRANKS_ON_AXIS: "crank.circle_radius = 0: cranks on the axis carry no torque to the carrier. Enlarge"
     " crank.circle_radius, or give the reducer output_pins in [topology]",
+    BEARINGS_OVERLAP: "holes for the cranks' bearings overlap each other or cut the flanks: outer_race.radius {outer_race_radius:.6g} m is too large"
+    " for holes on crank.circle_radius {crank_circle_radius:.6g} m within pin.circle_radius {pin_circle_radius:.6g} m."
+    " Reduce outer_race.radius with inner_race.radius, or correct crank.circle_radius",
     LONG_STEP: "the communication step takes more than 100,000 internal steps at input.speed {input_speed:.6g} rad/s."
     " Use a shorter communication step, a larger numerics.largest_crank_step than {largest_crank_step:.3g} rad,"
     " or in motion a looser numerics.dynamic_tolerance",
@@ -77,7 +80,16 @@ def geometry_fault(r):
     for i in range(721):
         if not radius * centre_curve_curvature(math.pi * i / 720.0, lobes, circle, k1) < 1.0:
             return UNDERCUT
-    return 0
+    return BEARINGS_OVERLAP if bearings_overlap(r) else 0
+
+
+@kernel
+def bearings_overlap(r):
+    """Whether the disc's holes for the cranks leave nothing between each other or to its roots."""
+    cranks = r.roller_force.shape[1]
+    apart = cranks == 1 or r.outer_race_radius < r.crank_circle_radius * math.sin(math.pi / cranks)
+    root = r.pin_circle_radius - r.eccentricity - r.pin_radius - r.equidistant_modification
+    return not (apart and r.crank_circle_radius + r.outer_race_radius < root)
 
 
 @kernel

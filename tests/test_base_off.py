@@ -155,7 +155,8 @@ def test_stiffer_contacts_of_the_reducer_are_the_base(tmp_path):
     answer = diagnose(file, campaign)
     assert answer.verdict == BASE_OFF and answer.effects == []
     off = {e["name"]: e for e in answer.as_json()["base_off"]}
-    assert "mesh_stiffness" in off and off["mesh_stiffness"]["interval"][0] < truth < off["mesh_stiffness"]["interval"][1]
+    low, high = off["mesh.stiffness"]["si"]["interval"]
+    assert low < truth < high and off["mesh.stiffness"]["interval"] == pytest.approx([low / 1e3, high / 1e3]) and off["mesh.stiffness"]["unit"] == "kN"
     # Springs, gain and other numbers do the same to one stiffness: said, none of them named.
     assert len(off) > 1 and f"which of {len(off)} numbers" in answer.reason
     assert "sensor_gain.torsional_stiffness" in next(iter(answer.diagnosis.alternatives.values()))

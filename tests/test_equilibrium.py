@@ -211,6 +211,8 @@ def test_negative_load_mirrors_everything(rv20e):
     (faults.UNDERCUT, {"pin_radius": 3.9e-3, "equidistant_modification": 0.8e-3}),
     (faults.UNDERCUT, {"eccentricity": 1.27e-3}),
     (faults.PINS_OVERLAP, {"pin_radius": 4.09e-3}),
+    (faults.BEARINGS_OVERLAP, {"crank_circle_radius": 13.2e-3}),
+    (faults.BEARINGS_OVERLAP, {"crank_circle_radius": 35.9e-3}),
     (faults.ROLLERS_OVERLAP, {"roller_radius": 2.5e-3, "outer_race_radius": 15.25e-3}),
     (faults.RACES_DO_NOT_FIT, {"outer_race_radius": 13.36e-3}),
     (faults.NO_EQUILIBRIUM, {"max_iterations": 1}),
@@ -227,6 +229,7 @@ def test_impossible_values_give_their_fault(rv20e, fault, values):
 @pytest.mark.parametrize("values", [
     {"eccentricity": 1.26e-3, "pin_radius": 0.2e-3}, {"pin_radius": 3.9e-3, "equidistant_modification": 0.7e-3},
     {"roller_radius": 2.4e-3, "outer_race_radius": 15.05e-3}, {"outer_race_radius": 13.34e-3},
+    {"crank_circle_radius": 13.3e-3}, {"crank_circle_radius": 35.8e-3},
 ], ids=str)
 def test_possible_values_near_those_limits_pass(rv20e, values):
     assert faults.geometry_fault(only(records_of(rv20e.plant, **values))) == 0

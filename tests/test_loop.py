@@ -83,7 +83,7 @@ def test_wider_needle_bearings_are_found_and_added(file, wide, diagnosed, tmp_pa
     kept = extension.file.effects["needle_clearance"][CLEARANCE]
     assert [kept["value"], kept["low"], kept["high"]] == pytest.approx([first["parameters"][CLEARANCE]["value"], low, high], rel=1e-6)
     assert [step["held_out_before"], step["held_out_after"]] == pytest.approx([first["held_out_error_before"], first["held_out_error_after"]], rel=1e-6)
-    assert step["nuisances"] == pytest.approx(answer.as_json()["nuisances"], rel=1e-6, abs=1e-12)
+    assert step["nuisances"] == pytest.approx(answer.in_si()["nuisances"], rel=1e-6, abs=1e-12)
     # The file keeps the effect and the ladder, and the reducer for the FMUs has the value as its start.
     save_model(extension.file, tmp_path / "better.toml")
     again = load_model(tmp_path / "better.toml")

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.key_figures import KeyFigure
-from discrepancy.page import amounts, comparison, spectra
+from discrepancy.page import amounts, comparison, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis, of_parameter, of_signal
@@ -68,7 +69,7 @@ def calibrated(result: Comparison) -> list[dict[str, str]]:
     found = []
     for name, value in result.nuisances.items():
         unit, meaning = units.get(name, ("1", ""))
-        found.append({"name": name, "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
+        found.append({"name": told_name(name, tables_of(result.model)), "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
     return found
 
 
@@ -81,7 +82,8 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
         decimals = decimals_of(values["noise"])
         rows.append({
             "signal": f.signal, "title": amounts.signal_title(f.signal), "condition": f.condition, "name": f.name, "unit": amounts.pretty(scale.unit),
-            "runs": f.runs, "repeated": f.repeated, "off": f.off, **{key: text_of(value, decimals) for key, value in values.items()},
+            "runs": f.runs, "repeated": f.repeated, "off": f.off,
+            "why": asdict(whys.of_key_figure(f)), **{key: text_of(value, decimals) for key, value in values.items()},
         })  # fmt: skip
     return rows
 

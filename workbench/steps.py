@@ -2,6 +2,7 @@
 
 import shlex
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -82,6 +83,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
+    from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
     from discrepancy.wording import base_texts, error_text, left_text, share_text, tone
 
@@ -89,25 +91,30 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     for effect in answer.effects:
         effects.append({
             "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": share_text(answer, effect["share_explained"]),
-            "error": error_text(answer, effect).replace("->", "→"), "parameters": parameters(effect["parameters"]),
+            "error": error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
         "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
-        "alternatives": answer.diagnosis.alternatives, "rejected": answer.diagnosis.rejected, "laws": [law.text for law in answer.laws],
+        "alternatives": answer.diagnosis.alternatives, "rejected": [r | {"why": asdict(of_rival(r))} for r in answer.diagnosis.rejected],
+        "laws": [law.text for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page_data(page_of(answer)),
     }  # fmt: skip
 
 
-def parameters(given: dict[str, Any]) -> list[dict[str, Any]]:
+def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
+    from discrepancy.as_told import tables_of, told_name
     from discrepancy.page.amounts import pretty
+    from discrepancy.page.whys import of_estimate
     from discrepancy.scales import parameter_texts
 
     found = []
     for name, entry in given.items():
         value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
-        found.append({"name": name, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound"))})
+        told = told_name(name, tables_of(answer.model))
+        found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
+                      "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 
 

@@ -31,7 +31,8 @@ def figure_data(figure: Figure) -> dict[str, Any]:
 
 
 def table_data(table: Table) -> dict[str, Any]:
-    return {"title": table.title, "head": table.head, "rows": table.rows, "right": list(table.right), "note": table.note}
+    return {"title": table.title, "head": table.head, "rows": table.rows, "right": list(table.right), "note": table.note,
+            "whys": [asdict(w) for w in table.whys]}
 
 
 def write_json(place: Path, content: object) -> None:

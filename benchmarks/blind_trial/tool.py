@@ -36,7 +36,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
             model = PhysicalModel(file, campaign)
             model.bench.runs = model.rough_bench.runs = SHARED
             times["model"] = time.perf_counter() - started - times["load"]
-            answer = plain(diagnose(file, campaign, model=model).as_json())
+            answer = plain(diagnose(file, campaign, model=model).in_si())
     except Exception as problem:  # noqa: BLE001 - a crash is a result of the trial
         answer = {"verdict": "crash", "effects": [], "error": f"{type(problem).__name__}: {problem}"[:500]}
     times["whole"] = time.perf_counter() - started

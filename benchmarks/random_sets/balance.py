@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 Record = Any
+# So near to a root [lobes] rounding says which lobe is meant.
+ON_ROOT = 1e-9
 
 
 def cross(a: Any, b: Any) -> Any:
@@ -66,11 +68,16 @@ class Bodies:
         slow, fast = 1j / self.lobes, 1j * (self.lobes + 1) / self.lobes
         return circle * slow**order * np.exp(slow * phi) - self.r["eccentricity"] * fast**order * np.exp(fast * phi)
 
-    def normals(self) -> Any:
-        """Outward normals of the flanks where they are nearest to the pins [disc, pin]."""
+    def along(self) -> Any:
+        """Where the pins stand on the discs, in lobes from root to root [disc, pin]."""
+        offset = 2 * np.pi * np.arange(self.discs)[:, None] / self.discs
+        return (self.lobes * (2 * np.pi * np.arange(self.pins) / self.pins - self.output) + offset) / (2 * np.pi)
+
+    def normals(self, nudge: float) -> Any:
+        """Outward normals of the flanks where they are nearest to the pins [disc, pin], which stand ``nudge`` lobes further on."""
         r, disc = self.r, np.arange(self.discs)[:, None]
         offset = 2 * np.pi * disc / self.discs
-        along = (self.lobes * (2 * np.pi * np.arange(self.pins) / self.pins - self.output) + offset) / (2 * np.pi)
+        along = self.along() + nudge
         root, lobe = np.round(along), np.floor(along).astype(int) % self.lobes
         pitch = (r["lobe_pitch_error"][disc, lobe] + r["lobe_pitch_added"][disc, lobe]) / r["pin_circle_radius"]
         pitch = pitch + np.where(along >= root, 1.0, -1.0) * r["angle_modification"]
@@ -94,10 +101,18 @@ class Bodies:
         return (r["output_pin_force"] * away / abs(away) if count > 1 else 0 * away), pin, hole
 
     def left_over(self) -> dict[str, float]:
-        """What is out of balance as a share of the largest force (of 30 N at least): discs, carrier with cranks, input, housing."""
+        """What is out of balance as a share of the largest force (of 30 N at least): discs, carrier with cranks, input, housing.
+
+        A pin that stands on a root to the last bits has either lobe's errors: that is right which is in balance.
+        """
+        along = self.along()
+        on_root = float(abs(along - np.round(along)).min()) < ON_ROOT
+        return min((self.left_over_beside(nudge) for nudge in ((-ON_ROOT, ON_ROOT) if on_root else (0.0,))), key=lambda share: share["force on a disc"])
+
+    def left_over_beside(self, nudge: float) -> dict[str, float]:
         r = self.r
         mesh, roller = r["mesh_force_now"], r["roller_force_now"]
-        pull, push = (roller * self.roller_direction).sum(axis=2), mesh * self.normals()
+        pull, push = (roller * self.roller_direction).sum(axis=2), mesh * self.normals(nudge)
         pins, pin, hole = self.output_pins()
         lever = float(r["pin_circle_radius"])
         scale = max(30.0, abs(self.load) / lever, float(mesh.max()), float(roller.max()), float(abs(pins).max()))

@@ -30,6 +30,15 @@ def holes_overlap(r: Record) -> bool:
     return not 2.0 * hole < neighbours or not float(r["output_circle_radius"]) - hole > float(r["outer_race_radius"] + r["crank_circle_radius"])
 
 
+def bearings_overlap(r: Record) -> bool:
+    """By the centres of the holes on the disc."""
+    cranks, hole = r["roller_force"].shape[1], float(r["outer_race_radius"])
+    centres = float(r["crank_circle_radius"]) * np.exp(2j * np.pi * np.arange(cranks) / cranks)
+    between = min((abs(a - b) for i, a in enumerate(centres) for b in centres[:i]), default=np.inf)
+    roots = float(r["pin_circle_radius"] - r["eccentricity"] - r["pin_radius"] - r["equidistant_modification"])
+    return not (2.0 * hole < between and float(np.abs(centres).max()) + hole < roots)
+
+
 def is_worn_through(r: Record) -> bool:
     """Of the record of RvReducer, by its surfaces and not by the depths that it gives."""
     rollers = 0.5 * float(r["outer_race_radius"] - r["inner_race_radius"])
@@ -49,6 +58,7 @@ def is_true(code: int, r: Record) -> bool:
         f.RACES_DO_NOT_FIT: lambda: not abs(float(r["outer_race_radius"] - r["inner_race_radius"] - 2.0 * r["roller_radius"])) < 1e-4,
         f.CRANKS_ON_AXIS: lambda: float(r["crank_circle_radius"]) == 0.0,
         f.OUTPUT_HOLES_OVERLAP: lambda: holes_overlap(r),
+        f.BEARINGS_OVERLAP: lambda: bearings_overlap(r),
         f.OUTPUT_HOLES_OPEN: lambda: not float(r["output_pin_radius"] + r["eccentricity"] + r["output_clearance"] + r["output_circle_radius"])
         < float(r["pin_circle_radius"] - r["eccentricity"] - r["pin_radius"] - r["equidistant_modification"]),
         f.TORQUE_AT_REST: lambda: int(r["drive"]) == 1 and int(r["fidelity"]) == 0,

@@ -37,10 +37,17 @@ def run_forecast(options: argparse.Namespace) -> int:
     forecasts = narrowing(found.readings, limit.value, asked=asked)
     if options.json:
         json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts],
-                   "unused": [vars(r) for r in found.held_out]})
+                   "unused": [vars(r) for r in found.held_out], "units": units_of(limit)})
         return 0
     show(forecasts, found, limit)
     return 0
+
+
+def units_of(limit: "Limit") -> dict[str, str]:
+    """Of what a forecast holds, by its keys: a rate counts per 1,000 h on the screen, per hour in data."""
+    unit = limit.unit
+    return {"hours": "h", "remaining": "h", "level": unit, "first_level": unit, "later": unit, "rate": f"{unit}/h", "run_in_time": "h",
+            "run_in_ratio": "1", "rate_deviation": "1", "drift": "1/h", "value": unit, "noise": unit}  # fmt: skip
 
 
 def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> None:

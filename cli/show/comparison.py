@@ -4,6 +4,7 @@ from rich.console import Console
 from rich.table import Table
 
 from cli.screen import WIDTH, console, dense, styled
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
@@ -39,7 +40,7 @@ def show_comparison(comparison: Comparison) -> None:
     out.print(table)
     if comparison.nuisances:
         units = {p.name: p.unit for p in comparison.model.nuisances}
-        texts = (f"{k} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
+        texts = (f"{told_name(k, tables_of(comparison.model))} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
         out.print("calibrated  " + ", ".join(texts))
     show_figures(comparison.figures, out)
     show_localisation(comparison.diagnostician.localisation, out)
@@ -93,7 +94,7 @@ def show_answer(answer: Answer) -> None:
         for name, number in effect["parameters"].items():
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
-            out.print(f"  {name} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+            out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
         error = error_text(answer, effect)
         if error:
             out.print(f"  {error}")

@@ -3,8 +3,9 @@
 from typing import Any
 
 from discrepancy import wording
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.page import amounts, comparison, profiles, response
+from discrepancy.page import amounts, comparison, profiles, response, whys
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -55,6 +56,7 @@ def sentence(answer: Answer) -> str:
     error = wording.error_text(answer, best).replace("->", "→") if best else ""
     share += f"; {error}" if error else ""
     left = wording.left_text(answer)
+    off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
         ONE: f"The model lacks {listed(names)}.{share}.",
@@ -64,7 +66,7 @@ def sentence(answer: Answer) -> str:
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
             f"that no effect of the catalogue explains{f': {left}' if left else ''}."
         ),
-        BASE_OFF: f"No effect is missing; the base model itself is off: {listed([e.name for e in answer.diagnosis.base_off])}.",
+        BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
@@ -85,17 +87,18 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
         number(best["held_out_error_before"]),
         "in the patterns that matter" if drowned else "times noise",
         "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
+        whys.of_unused(answer, best["held_out_error_before"], best["held_out_error_after"]),
     )
 
 
 def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer))]
+    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
         best = answer.effects[0]
         most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
         share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
-        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}"))
+        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
             made.append(unused(answer, best))
     made.append(
@@ -103,7 +106,8 @@ def cards(answer: Answer) -> list[Card]:
             "Findings of the localisation",
             str(len(diagnosis.localisation.get("findings", []))),
             f"smallest {amounts.chance(diagnosis.p_localise)}",
+            why=whys.of_localising(answer),
         )
     )
-    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together"))
+    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together", why=whys.of_screening(answer)))
     return made

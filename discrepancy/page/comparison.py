@@ -3,9 +3,10 @@
 from dataclasses import asdict
 from typing import Any
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.key_figures import KeyFigure
-from discrepancy.page import amounts, maps, numbers, panels, series, spectra
+from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
@@ -105,6 +106,7 @@ def cards(result: Comparison) -> list[Card]:
             f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
             unit="times noise",
             tone=tone(row["ratio"], row["held_out"]),
+            why=whys.of_error(result.diagnostician.space, row),
         )
         for row in rows
     ]
@@ -134,7 +136,8 @@ def errors(result: Comparison) -> Section:
         ]
         for s in result.signals
     ]
-    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5))
+    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5),
+                  whys=[whys.of_error(result.diagnostician.space, s) for s in result.signals])
     lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
     # A map of one condition says what the table says.
     return Section("errors", "Error against noise", lead, [heat] if len({condition for _, condition in cells}) > 1 else [], [table])
@@ -199,7 +202,7 @@ def figures_section(figures: list[KeyFigure]) -> list[Section]:
         " number; where nothing is repeated, what the noise of the samples makes of it."
     )
     head = ["signal", "condition", "figure", "measured", "noise", "model", "off, in noise"]
-    return [Section("figures", "Key figures", lead, [], [Table("", head, rows, (3, 4, 5, 6))])]
+    return [Section("figures", "Key figures", lead, [], [Table("", head, rows, (3, 4, 5, 6), whys=[whys.of_key_figure(f) for f in figures])])]
 
 
 def nuisances(result: Comparison) -> Section:
@@ -210,7 +213,8 @@ def nuisances(result: Comparison) -> Section:
         unit = parameter.unit if parameter else "1"
         scale = of_parameter(abs(value), unit)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
-        rows.append([name, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        told = told_name(name, tables_of(result.model))
+        rows.append([told, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
         "Fitted to the campaign before anything was compared."
         if rows

@@ -2,9 +2,10 @@
 
 from typing import Any
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
-from discrepancy.page import amounts, bars, laws, maps
+from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
@@ -27,15 +28,17 @@ def listed(names: list[str]) -> str:
 
 def effects(answer: Answer) -> Section:
     """Parameters with intervals, and each effect's share."""
-    rows = []
+    rows, answers = [], []
     for effect in answer.effects:
         first = True
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
-            rows.append([named(effect) if first else "", effect["part"] if first else "", name, value, interval, unit, bound])
+            told = told_name(name, tables_of(answer.model))
+            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
             first = False
-    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4))
+            answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
+    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
@@ -61,7 +64,8 @@ def base_off(answer: Answer) -> Section:
     for e in answer.diagnosis.base_off:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
-        rows.append([e.name, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
+        told = told_name(e.name, tables_of(answer.model))
+        rows.append([told, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
     table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
     lead = (
         "Numbers of the reducer file that are not known for sure, as this campaign has them, and what the base model computes by more off than"
@@ -187,7 +191,8 @@ def rivals(answer: Answer) -> Section:
                 12,
             )
         ]
-    return Section("rivals", "Rivals and why they were turned down", lead, figures, [Table("", ["effect", "reason"], rows)])
+    table = Table("", ["effect", "reason"], rows, whys=[whys.of_rival(r) for r in rejected])
+    return Section("rivals", "Rivals and why they were turned down", lead, figures, [table])
 
 
 def recovered(answer: Answer) -> Section:

@@ -2,9 +2,10 @@
 
 from typing import Any
 
+from discrepancy.as_told import effect_name
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.model_file import ModelFile
-from discrepancy.page import amounts, bars, ladder
+from discrepancy.page import amounts, bars, ladder, whys
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import number
@@ -82,7 +83,7 @@ def cards(step: dict[str, Any]) -> list[Card]:
         if before is not None and after is not None:
             shown = key != "training" and step["verdict"] == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone))
+            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone, whys.of_step(key, before, after, len(step.get("signals", [])))))
     return made
 
 
@@ -163,7 +164,7 @@ def parameters(file: ModelFile) -> Section:
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
             }
             value, interval, unit = amounts.estimate(both)
-            rows.append([effect.replace("_", " ") if k == 0 else "", name, value, interval if "low" in entry else "", unit])
+            rows.append([effect.replace("_", " ") if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."
     return Section(
         "effects",

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from discrepancy.page.amounts import chance, signal_title
 from discrepancy.page.runs import slug
+from discrepancy.page.whys import of_place
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
@@ -102,7 +103,8 @@ def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float)
     named = [p for p in places if not p["feature"].startswith("order ")]
     varied = len({p["dependence"] for p in named}) > 1
     figures = [place_map(prefix, named, level)] if varied else []
-    tables = [place_table(named, level)] if named and not varied else []
+    told = [p for p in named if p["p"] <= level] if varied else named
+    tables = [place_table(told, level)] if told else []
     for signal in sorted({p["signal"] for p in places}):
         single = [p for p in places if p["signal"] == signal and p["feature"].startswith("order ")]
         if single:
@@ -111,13 +113,23 @@ def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float)
 
 
 def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
-    """Features of one dependence, most significant first."""
+    """Features, most significant first."""
+    shown = sorted(places, key=lambda p: p["p"])[:MOST_ROWS]
+    alike = len({p["dependence"] for p in places}) == 1
     rows = [
-        [signal_title(p["signal"]), p["feature"], percent(p["share"]) if p["p"] <= level else "", chance(p["p"]), "yes" if p["p"] <= level else "no"]
-        for p in sorted(places, key=lambda p: p["p"])[:MOST_ROWS]
+        [signal_title(p["signal"]), told_feature(p, alike), percent(p["share"]) if p["p"] <= level else "", chance(p["p"]), "yes" if p["p"] <= level else "no"]
+        for p in shown
     ]
-    where = "at all conditions alike" if all(p["dependence"] == "everywhere" for p in places) else f"with {places[0]['dependence'].replace('_', ' ')}"
-    return Table(f"Misfit {where}", ["signal", "what", "share", "p over all tests", f"significant at {level:g}"], rows, (2,))
+    only = f"with {places[0]['dependence'].replace('_', ' ')}" if alike else "that is significant"
+    where = "at all conditions alike" if all(p["dependence"] == "everywhere" for p in places) else only
+    return Table(f"Misfit {where}", ["signal", "what", "share", "p over all tests", f"significant at {level:g}"], rows, (2,),
+                 whys=[of_place(dict(p), level) for p in shown])
+
+
+def told_feature(p: Mapping[str, Any], alike: bool) -> str:
+    """What carries a misfit, and with what it changes where that is not said of all."""
+    depends = "" if alike else ", everywhere alike" if p["dependence"] == "everywhere" else f", with {p['dependence'].replace('_', ' ')}"
+    return str(p["feature"]) + depends
 
 
 def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) -> Figure:

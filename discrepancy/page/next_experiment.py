@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
 from discrepancy.next_run import NextRun
-from discrepancy.page import amounts, comparison, maps
+from discrepancy.page import amounts, comparison, maps, whys
 from discrepancy.page.amounts import effect_title
 from discrepancy.page.evidence import listed
 from pages import look
@@ -21,7 +21,7 @@ ENOUGH_COLOUR, POOR = look.NOW, "#98a3af"
 def page(run: NextRun) -> Page:
     currency = run.answer.model.campaign.rig.currency if run.answer.model.campaign.rig else ""
     sections = (
-        [proposals(run.result, currency), stake(run)]
+        [proposals(run.result, currency, run.rivals), stake(run)]
         if run.result
         else [Section("proposals", "Proposals", "There are no two effects to separate.")]
     )
@@ -51,12 +51,12 @@ def cards(run: NextRun, currency: str) -> list[Card]:
             tone=tone,
         ),
         Card("Cost", number(best.cost), "", unit=currency),
-        Card("Least separation of two rivals", size(best.least), f"{ENOUGH:g} is enough", tone=tone),
+        Card("Least separation of two rivals", size(best.least), f"{ENOUGH:g} is enough", tone=tone, why=whys.of_proposal(best, run.rivals)),
         Card("Diagnosis so far", run.answer.verdict, f"{len(run.rivals)} rivals"),
     ]
 
 
-def proposals(result: NextExperiment, currency: str) -> Section:
+def proposals(result: NextExperiment, currency: str, rivals: Sequence[str]) -> Section:
     best = result.proposals
     good = sum(p.least >= ENOUGH for p in best)
     lead = (
@@ -74,6 +74,7 @@ def proposals(result: NextExperiment, currency: str) -> Section:
         rows,
         (1, 2, 3),
         "Separations in chi-square, parameters of the rivals free within what is known of them.",
+        [whys.of_proposal(p, rivals) for p in best[:MOST]],
     )
     figures = [ranking(best[:MOST], currency)]
     if len({pair for p in best for pair in p.separation}) > 1:

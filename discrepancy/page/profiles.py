@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.refit.profile import Profile, profiles
 from discrepancy.page.amounts import effect_title, pretty
 from discrepancy.scales import of_parameter
@@ -19,7 +20,7 @@ HIGHEST = 18.0
 def section(answer: Answer) -> Section:
     """Of the best fit: all effects that are named together, or the best of those that are alternatives."""
     space, best = answer.diagnosis.fits.space, answer.diagnosis.fits.members[0]
-    figures = [figure(k, p) for k, p in enumerate(profiles(space, best))]
+    figures = [figure(k, p, told_name(p.name, tables_of(answer.model))) for k, p in enumerate(profiles(space, best))]
     lead = (
         f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
         " follow. Grey is the parabola of the interval; a line that leaves it, flattens or has a second valley says that the interval is too simple."
@@ -27,7 +28,7 @@ def section(answer: Answer) -> Section:
     return Section("profiles", "How well each parameter is known", lead if figures else "No parameter has an interval.", figures)
 
 
-def figure(place: int, p: Profile) -> look.Figure:
+def figure(place: int, p: Profile, name: str) -> look.Figure:
     scale = of_parameter(float(np.abs(p.values).max()), p.unit)
     x = scale.factor * p.values + scale.offset
     best, width = float(p.values[int(np.argmin(p.chi2))]), p.deviation
@@ -40,9 +41,9 @@ def figure(place: int, p: Profile) -> look.Figure:
     ]
     limit = {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": LIMIT, "y1": LIMIT, "line": {"color": look.QUIET, "width": 1}}
     layout = look.layout(
-        xaxis=look.axis(f"{p.name}{f' [{unit}]' if unit else ''}"),
+        xaxis=look.axis(f"{name}{f' [{unit}]' if unit else ''}"),
         yaxis=look.axis("chi-square above the best", range=[-0.5, HIGHEST]),
         shapes=[limit],
         annotations=[{"xref": "paper", "x": 1, "y": LIMIT, "text": "95 %", "showarrow": False, "xanchor": "right", "yanchor": "bottom"}],
     )
-    return look.Figure(f"profile_{place}", p.name.replace("_", " "), "Below the line lie 95 %.", data, layout, 6)
+    return look.Figure(f"profile_{place}", name, "Below the line lie 95 %.", data, layout, 6)

@@ -24,8 +24,8 @@ LONG = 40
 PLACES = 64
 # Parts of the pitch beside 0 at which the ripple is looked at.
 QUARTERS = (0.25, 0.5, 0.75)
-# What is left of the mean over all places is no part of a ripple from here.
-SURE = 0.999
+# Share of itself by which a ripple errs at few nodes.
+RIPPLE_ERRS = 0.06
 
 ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
 
@@ -64,9 +64,7 @@ class Cages:
             there = transmission_error(self.bench, record, own)
             quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
         else:
-            pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-            there, *ahead = errors_of_cages(self.bench, few, own, [share * pitch for share in (0.0, *QUARTERS)])
-            quarter, half, last = (error - there for error in ahead)
+            there, (quarter, half, last) = self.roughly(few, own)
         middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
         basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
         misfit = few.values - there - middle
@@ -75,11 +73,17 @@ class Cages:
         share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
         ripple = ripple_of_cages(self.bench, record, own, share)
         if few is not record:
-            if sure > SURE:
-                return ripple
-            middle = sum((ripple_of_cages(self.bench, record, own, s) for s in QUARTERS), np.zeros(len(record.values))) / 4.0
+            exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
+            ripples = [ripple_of_cages(self.bench, record, own, s) for s in QUARTERS] if exactly else self.roughly(record, own)[1]
+            middle = sum(ripples, np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple + (1.0 - sure) * middle
+
+    def roughly(self, record: Record, own: dict[str, float]) -> tuple[Floats, list[Floats]]:
+        """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``QUARTERS`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
+        pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
+        there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *QUARTERS)])
+        return there, [error - there for error in ahead]
 
 
 def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:

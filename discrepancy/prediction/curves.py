@@ -29,8 +29,8 @@ FIRMLY, LEAST_SHARE = 0.1, 0.01
 OF_RIPPLE, HARDLY_SEEN = 0.5, 0.25
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
-# The rollers' ripple has kinks: at these it errs by 3 % of itself.
-LEVEL_OF_A_RIPPLE = 8
+# The rollers' ripple has kinks: at these it errs by 6 % of itself.
+LEVEL_OF_A_RIPPLE = 7
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
 LEVEL_OF_SLOPES = 6
 
@@ -233,6 +233,8 @@ def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> E
         nodes = curve.nodes(level)
         if nodes is None:
             return None
+        # One turn is like the others.
+        nodes = nodes.beginning()
         at = change(nodes)
         return nodes.error(at), float(np.std(at))
 

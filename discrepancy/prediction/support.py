@@ -5,9 +5,10 @@ distances, along a torque's way on each branch between two reversals, and the sa
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -32,6 +33,8 @@ PER_SIDE = (8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 1024, 2048, 
 # alike, and nothing shows the error.
 SCATTERED = 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+# Turns, with what nodes stand beyond a record of one.
+JUDGED = 1.25
 # How far beyond a record's angles nodes go [rad]: where its angle 0 lies is estimated within a pitch of the pins.
 BEYOND = 2.0 * np.pi / 64
 # Runs of one condition that begin a little apart share their nodes: the ends are rounded to this [rad].
@@ -57,6 +60,15 @@ class AngleNodes(ABC):
     @abstractmethod
     def error(self, values: Floats) -> float:
         """Error of interpolated ``values``, root mean square."""
+
+
+    def beginning(self: "Angles") -> "Angles":
+        """Those of the first turns, by which an error is judged."""
+        within = np.abs(self.angles - self.angles[0]) <= JUDGED * 2.0 * np.pi
+        return self if within.all() else replace(self, angles=self.angles[within])
+
+
+Angles = TypeVar("Angles", bound=AngleNodes)
 
 
 @dataclass(frozen=True)
@@ -160,6 +172,10 @@ class TorqueNodes:
 
     torques: Floats
     branches: tuple[Branch, ...]
+
+    def beginning(self) -> "TorqueNodes":
+        """By which an error is judged: all."""
+        return self
 
     def samples(self, values: Floats, applied: Floats) -> Floats:
         """``values`` (m,) at the nodes, at the torques ``applied`` (n,)."""

@@ -1,7 +1,7 @@
 // Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
 
 import { addPart, ladder, nextPart } from "./better.js";
-import { clear, command, duration, effectName, h, note, table, words } from "./dom.js";
+import { clear, command, duration, effectName, h, note, table, why, words } from "./dom.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
@@ -105,7 +105,6 @@ export function show(root, context) {
         answer.laws.map((law) => h("p", {}, `law without a name: ${law}`)),
       ),
       cards(answer.page.cards),
-      why(),
       rivals(),
       h("h2", {}, "Evidence"),
       sections(answer.page.sections),
@@ -123,50 +122,16 @@ export function show(root, context) {
       h("h3", {}, words(e.name)),
       e.parameters.map((p) =>
         h(
-          "p",
+          "div",
           {},
-          `${words(p.name)} = `,
+          `${p.name} = `,
           h("b", {}, `${p.value} ${p.unit}`),
-          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}`),
+          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""} `),
+          why(p.why, p.name),
         ),
       ),
       answer.effects.length > 1 ? h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")) : null,
     );
-
-  // Every number of the verdict with the relation, the data and the margin that it comes from.
-  function why() {
-    const rows = [];
-    const held = answer.page.cards.find((c) => c.label.startsWith("Error on"));
-    rows.push([
-      "an effect is needed",
-      "score tests of all effects against the base fit",
-      `smallest p over all ${answer.p_screen === null ? "" : answer.p_screen.toExponential(1)}`,
-      "0.02 where the misfit has a place, else 0.002",
-    ]);
-    if (answer.effects[0])
-      rows.push([
-        "its name",
-        "fits of the nearest effects, each in earnest",
-        answer.rejected[0] ? `nearest rival: ${effectName(answer.rejected[0].name)}, ${answer.rejected[0].reason}` : "no rival",
-        "6 of chi-square: 20 to 1 in likelihood",
-      ]);
-    if (held)
-      rows.push(["it helps", "error on conditions that were not fitted", `${held.start} → ${held.value} ${held.unit}`, "1 is what repetitions differ by"]);
-    for (const e of answer.effects)
-      for (const p of e.parameters)
-        rows.push([
-          `${words(p.name)} = ${p.value} ${p.unit}`,
-          "fit to all runs that are not held out, nuisances following",
-          `95 %: ${p.interval}`,
-          "Student's law, widened by what the fit leaves",
-        ]);
-    return h(
-      "details",
-      { class: "panel" },
-      h("summary", {}, h("b", {}, "Why?")),
-      table(["what is said", "by which relation", "from which data", "with which margin"], rows),
-    );
-  }
 
   const rivals = () =>
     answer.rejected.length || answer.confusable.length
@@ -179,8 +144,8 @@ export function show(root, context) {
             h("p", {}, `in place of ${effectName(name)} could stand: ${others.map(effectName).join(", ")}`),
           ),
           table(
-            ["effect", "why not"],
-            answer.rejected.slice(0, 12).map((r) => [effectName(r.name), r.reason]),
+            ["effect", "why not", ""],
+            answer.rejected.slice(0, 12).map((r) => [effectName(r.name), r.reason, why(r.why, effectName(r.name))]),
           ),
         )
       : null;

@@ -67,6 +67,21 @@ export function table(head, rows, right = [], given = {}) {
   );
 }
 
+// Beside a number: by which relation, from which data, with which margin; opened by a click or by Enter.
+export const why = (of, about) =>
+  of
+    ? h(
+        "details",
+        { class: "why" },
+        h("summary", { "aria-label": `why ${about}?` }, "why?"),
+        h(
+          "dl",
+          {},
+          ["relation", "data", "margin"].flatMap((key) => [h("dt", {}, key), h("dd", {}, of[key])]),
+        ),
+      )
+    : null;
+
 // A command line to copy.
 export function command(text) {
   if (!text) return null;

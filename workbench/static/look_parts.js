@@ -1,6 +1,6 @@
 // Pieces of Look: the key figures, what a chart of a signal holds, single numbers, where the model fails.
 
-import { h, note, number, table, words } from "./dom.js";
+import { h, note, number, table, why, words } from "./dom.js";
 
 const CLEAR = 3,
   FEW_FIGURES = 12;
@@ -46,7 +46,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
       "div",
       { class: "panel" },
       table(
-        ["signal", "figure", "condition", "measured", "noise", "model", "off, in noise"],
+        ["signal", "figure", "condition", "measured", "noise", "model", "off, in noise", ""],
         rows.map((f, i) => [
           rows[i - 1]?.title === f.title ? "" : f.title,
           h("b", {}, f.name),
@@ -60,6 +60,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
             h("span", { class: "off" }, number(f.off, 3)),
             h("span", { class: "bar", style: { width: `${Math.max(2, (46 * Math.abs(f.off)) / most)}px` } }),
           ),
+          why(f.why, `${f.name} at ${f.condition}`),
         ]),
         [3, 4, 5, 6],
         { class: "stack" },

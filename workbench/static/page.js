@@ -1,6 +1,6 @@
 // The page of a result drawn in the workbench: the same cards, tables and figures as its file has.
 
-import { h, note, table } from "./dom.js";
+import { h, note, table, why } from "./dom.js";
 import { script } from "./net.js";
 
 const config = { responsive: true, displaylogo: false, doubleClick: "reset", displayModeBar: false };
@@ -17,6 +17,7 @@ export const cards = (list) =>
             h("p", { class: "label" }, c.label, c.unit ? ` · ${c.unit}` : ""),
             h("p", { class: "value" }, c.start ? `${c.start} → ${c.value}` : c.value),
             h("p", { class: "more" }, c.note),
+            why(c.why, c.label),
           ),
         ),
       )
@@ -59,7 +60,7 @@ const tableOf = (t) =>
     "div",
     { style: { "margin-top": "10px" } },
     t.title ? h("h3", {}, t.title) : null,
-    table(t.head, t.rows, t.right),
+    table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right),
     t.note ? h("p", { class: "quiet small" }, t.note) : null,
   );
 

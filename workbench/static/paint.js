@@ -1,7 +1,7 @@
 // What a plot shows, on its canvas: axes, bands, lines, cursors.
 
 import { tell } from "./behind.js";
-import { fillBetween, isSorted, seen, ticks, tickText, tracePath, traceSorted } from "./scale.js";
+import { fillBetween, isSorted, seen, ticks, tickText, traceLoop, traceSorted } from "./scale.js";
 
 export const LEFT = 56,
   RIGHT = 12,
@@ -118,18 +118,16 @@ function drawLine(c, line, px, py, low, high) {
   c.globalAlpha = line.opacity ?? 1;
   c.setLineDash(line.dash ?? []);
   c.lineJoin = "bevel";
-  if (line.sorted && !line.stems) traceSorted(c, line, ...seen(line.x, low, high), px, py);
-  else {
+  if (line.stems) {
     c.beginPath();
-    if (line.stems)
-      for (let i = 0; i < line.x.length; i++) {
-        const x = px(line.x[i] + (line.shift ?? 0));
-        c.moveTo(x, py(0));
-        c.lineTo(x, py(line.y[i]));
-      }
-    else tracePath(c, line.x, line.y, px, py);
+    for (let i = 0; i < line.x.length; i++) {
+      const x = px(line.x[i] + (line.shift ?? 0));
+      c.moveTo(x, py(0));
+      c.lineTo(x, py(line.y[i]));
+    }
     c.stroke();
-  }
+  } else if (line.sorted) traceSorted(c, line, ...seen(line.x, low, high), px, py);
+  else traceLoop(c, line, low, high, px, py);
   if (line.dots) {
     c.beginPath();
     for (let i = 0; i < line.x.length; i++) {
@@ -144,7 +142,7 @@ function drawLine(c, line, px, py, low, high) {
   c.setLineDash([]);
 }
 
-// Between two lines; of a loop in small quadrilaterals, so that neither half stays empty.
+// Between two lines; of a loop column by column of pixels, what both ways reach joined, so that neither half stays empty or is twice as dark.
 function drawBand(c, band, px, py, from, to) {
   const { x, low, high } = band;
   c.fillStyle = inColour("--band");
@@ -156,18 +154,28 @@ function drawBand(c, band, px, py, from, to) {
     fillBetween(c, ...band.lines, ...seen(x, from, to), px, py);
     return;
   }
-  const step = Math.max(1, Math.floor(x.length / 2000));
-  c.beginPath();
+  const step = Math.max(1, Math.floor(x.length / 4000)),
+    columns = new Map();
+  const add = (column, top, bottom) => {
+    const parts = columns.get(column) ?? [];
+    const apart = parts.filter((p) => p[1] < top || p[0] > bottom),
+      touching = parts.filter((p) => !apart.includes(p));
+    apart.push([Math.min(top, ...touching.map((p) => p[0])), Math.max(bottom, ...touching.map((p) => p[1]))]);
+    columns.set(column, apart);
+  };
   for (let i = 0; i + step < x.length; i += step) {
-    const j = i + step,
-      [p, q] = px(x[j]) >= px(x[i]) ? [i, j] : [j, i];
-    c.moveTo(px(x[p]), py(high[p]));
-    c.lineTo(px(x[q]), py(high[q]));
-    c.lineTo(px(x[q]), py(low[q]));
-    c.lineTo(px(x[p]), py(low[p]));
-    c.closePath();
+    const j = i + step;
+    if ((x[i] < from && x[j] < from) || (x[i] > to && x[j] > to)) continue;
+    const here = px(x[i]),
+      there = px(x[j]),
+      first = Math.floor(Math.min(here, there)),
+      last = Math.floor(Math.max(here, there));
+    for (let column = Math.max(first, 0); column <= Math.min(last, c.canvas.width); column++) {
+      const share = there === here ? 0 : Math.max(0, Math.min(1, (column + 0.5 - here) / (there - here)));
+      add(column, py(high[i] + share * (high[j] - high[i])), py(low[i] + share * (low[j] - low[i])));
+    }
   }
-  c.fill("nonzero");
+  for (const [column, parts] of columns) for (const [top, bottom] of parts) c.fillRect(column, top, 1, bottom - top);
 }
 
 function drawCursors(plot, c, px, foot) {

@@ -164,12 +164,71 @@ export function fillBetween(context, lower, upper, from, to, px, py) {
   context.fill();
 }
 
-// A line that turns back, as a loop does: samples that fall on the last pixel are left out.
-export function tracePath(context, x, y, px, py) {
+// Extremes of each BLOCK samples of a long line that turns back, and of eight such blocks, and so on: [{size, left, right, low, high}, ...], finest first.
+function pyramid(line) {
+  if (line.pyramid) return line.pyramid;
+  const level = (size, count, of) => {
+    const made = { size, left: new Float32Array(count), right: new Float32Array(count), low: new Float32Array(count), high: new Float32Array(count) };
+    for (let b = 0; b < count; b++) [[made.left[b], made.right[b]], [made.low[b], made.high[b]]] = of(b);
+    return made;
+  };
+  const { x, y } = line,
+    first = level(BLOCK, Math.ceil(x.length / BLOCK), (b) => {
+      const to = Math.min(x.length, (b + 1) * BLOCK);
+      return [span(x, b * BLOCK, to), span(y, b * BLOCK, to)];
+    });
+  line.pyramid = [first];
+  for (let fine = first; fine.low.length > 8000; fine = line.pyramid.at(-1)) {
+    const part = (values, b) => span(values, 8 * b, Math.min(fine.low.length, 8 * b + 8));
+    line.pyramid.push(
+      level(8 * fine.size, Math.ceil(fine.low.length / 8), (b) => [
+        [part(fine.left, b)[0], part(fine.right, b)[1]],
+        [part(fine.low, b)[0], part(fine.high, b)[1]],
+      ]),
+    );
+  }
+  return line.pyramid;
+}
+
+// A line that turns back, as a loop does: sample by sample, or, of a long one, a box around as many neighbours as a pixel or two hold.
+export function traceLoop(context, line, from, to, px, py) {
+  const { x, y } = line;
+  if (x.length < LONG) {
+    context.beginPath();
+    tracePath(context, x, y, px, py);
+    context.stroke();
+    return;
+  }
+  const levels = pyramid(line),
+    finest = levels[0],
+    inside = (level, b) => level.right[b] >= from && level.left[b] <= to;
+  let count = 0;
+  for (let b = 0; b < finest.low.length; b++) if (inside(finest, b)) count++;
+  if (count * BLOCK < LONG) {
+    context.beginPath();
+    for (let b = 0; b < finest.low.length; b++) {
+      // One sample more at either side: the next run of blocks goes on from there.
+      if (inside(finest, b)) tracePath(context, x, y, px, py, Math.max(0, b * BLOCK - 1), Math.min(x.length, (b + 1) * BLOCK + 1));
+    }
+    context.stroke();
+    return;
+  }
+  const level = levels.findLast((l) => (count * BLOCK) / l.size > 2000) ?? finest,
+    thick = Math.max(1, context.lineWidth);
+  for (let b = 0; b < level.low.length; b++) {
+    if (!inside(level, b) || !(level.high[b] >= level.low[b])) continue;
+    const left = px(level.left[b]) - thick / 2,
+      top = py(level.high[b]) - thick / 2;
+    context.fillRect(left, top, px(level.right[b]) + thick / 2 - left, py(level.low[b]) + thick / 2 - top);
+  }
+}
+
+// Sample by sample: those that fall on the last pixel are left out.
+export function tracePath(context, x, y, px, py, from = 0, to = x.length) {
   let lastX = NaN,
     lastY = NaN,
     pen = false;
-  for (let i = 0; i < x.length; i++) {
+  for (let i = from; i < to; i++) {
     if (y[i] !== y[i]) {
       pen = false;
       continue;

@@ -34,7 +34,7 @@ class Estimate:
 
     def to_dict(self) -> dict[str, Any]:
         return {"value": self.value, "interval": list(self.interval), "unit": self.unit, "standard_deviation": self.deviation,
-                "at_bound": self.at_bound}
+                "degrees_of_freedom": self.dof, "at_bound": self.at_bound}
 
 
 @dataclass(frozen=True)

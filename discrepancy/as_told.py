@@ -1,0 +1,110 @@
+"""Results as JSON by the names and in the units that screen and page have; ``si`` beside says the same in SI units."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.inference.verdict import BaseError
+from discrepancy.key_figures import KeyFigure
+from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.scales import largest, of_axis, of_parameter, of_signal
+from fmu_src.table import Table
+from reducers.reducer import Reducer
+
+STIFFNESS = "torsional_stiffness"
+
+
+def told_name(name: str, tables: Sequence[Table]) -> str:
+    """What people call the variable (or an element of it) that kernels call so: ``mesh.stiffness``, ``effects.thermal_expansion.expansion``."""
+    base, bracket, rest = name.partition("[")
+    found = next((t.by_name[base] for t in tables if base in t.by_name), None)
+    return (found.path if found else base) + bracket + rest
+
+
+def tables_of(model: object) -> Sequence[Table]:
+    """Where the names of the variables of a model, or of a model file, stand."""
+    if isinstance(model, ModelFile) and isinstance(model.reducer, Reducer):
+        return model.reducer.plant, model.reducer.wear
+    return model.bench.tables if isinstance(model, PhysicalModel) else ()
+
+
+def effect_name(effect: str, parameter: str) -> str:
+    """``told_name`` of an effect's parameter, which needs no reducer."""
+    base, bracket, rest = parameter.partition("[")
+    known = every_effect()
+    path = next((p.variable.path for p in known[effect].parameters if p.variable.name == base), base) if effect in known else base
+    return path + bracket + rest
+
+
+def row(entry: Mapping[str, Any], signal: str, unit: str, keys: Sequence[str]) -> dict[str, Any]:
+    """An entry whose ``keys`` are differences or sizes of a signal [``unit``, SI]."""
+    scale = of_signal(STIFFNESS if unit == "N.m/rad" else signal, unit)
+    here = [key for key in keys if entry.get(key) is not None]
+    return {**entry, **{key: scale.number(entry[key]) for key in here}, "unit": scale.unit, "si": {key: entry[key] for key in here} | {"unit": unit}}
+
+
+def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
+    return [row(f.as_json(), f.signal, f.unit, ("measured", "model", "noise")) for f in found]
+
+
+def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """An estimate: value, interval and standard deviation in the field's unit."""
+    low, high = entry["interval"]
+    scale = of_parameter(largest(entry["value"], low, high), entry["unit"])
+    told = {"value": scale.number(entry["value"]), "interval": [scale.number(low), scale.number(high)], "unit": scale.unit}
+    if "standard_deviation" in entry:
+        told["standard_deviation"] = abs(scale.factor) * entry["standard_deviation"]
+    return {**entry, **told, "si": {key: entry[key] for key in told}}
+
+
+def parameters(entries: Mapping[str, Mapping[str, Any]], tables: Sequence[Table]) -> dict[str, dict[str, Any]]:
+    """Estimates by their structured names."""
+    return {told_name(name, tables): parameter(entry) for name, entry in entries.items()}
+
+
+def numbers(values: Mapping[str, float], units: Mapping[str, str], tables: Sequence[Table]) -> dict[str, dict[str, Any]]:
+    """Single values (nuisances, base numbers) by their structured names; ``units`` are SI."""
+    found = {}
+    for name, value in values.items():
+        unit = units.get(name, "1")
+        scale = of_parameter(abs(value), unit)
+        found[told_name(name, tables)] = {"value": scale.number(value), "unit": scale.unit, "si": {"value": value, "unit": unit}}
+    return found
+
+
+def added(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """A parameter as a model file has it: value and ends of its interval."""
+    ends = [entry[key] for key in ("value", "low", "high") if key in entry]
+    scale = of_parameter(largest(*ends), entry.get("unit", "1"))
+    told = {key: scale.number(entry[key]) for key in ("value", "low", "high") if key in entry} | {"unit": scale.unit}
+    return {**entry, **told, "si": dict(entry)}
+
+
+def base_error(e: BaseError, tables: Sequence[Table]) -> dict[str, Any]:
+    """What of the base model is off."""
+    scale = of_parameter(largest(e.value, *e.interval), e.unit)
+    told = {"value": scale.number(e.value), "interval": [scale.number(v) for v in e.interval], "assumed": scale.number(e.assumed),
+            "within": [scale.number(v) for v in e.within], "unit": scale.unit}  # fmt: skip
+    plain = e.to_dict()
+    return {**plain, **told, "name": told_name(e.name, tables), "si": {key: plain[key] for key in told}}
+
+
+def noises(streams: Mapping[str, Mapping[str, Any]], units: Mapping[str, str]) -> dict[str, dict[str, Any]]:
+    """Noise of each signal [``units``, SI]."""
+    found = {}
+    for signal, stream in streams.items():
+        if signal not in units:
+            found[signal] = dict(stream)
+            continue
+        told = row(stream, signal, units[signal], ("scale",))
+        factor = of_signal(signal, units[signal]).factor
+        told["si"]["between_runs"] = stream["between_runs"]
+        found[signal] = told | {"between_runs": {kind: factor * size for kind, size in stream["between_runs"].items()}}
+    return found
+
+
+def setting(name: str, value: float, campaign: Campaign) -> dict[str, Any]:
+    """What a bench would be set to."""
+    scale = of_axis(name, campaign)
+    return {"value": scale.number(value), "unit": scale.unit, "si": value}
