@@ -55,12 +55,17 @@ def show_figures(figures: list[KeyFigure], out: Console) -> None:
     if not worst:
         return
     table = dense("key figures, measured against the base model")
-    for name in ("signal", "figure", "condition", "measured", "noise", "model", "off by"):
-        left = name in ("signal", "figure", "condition")
-        table.add_column(name, justify="left" if left else "right", overflow="fold" if left else "ellipsis", no_wrap=not left)
-    for f in list(worst.values())[:LONGEST]:
-        measured, noise, model = (shown(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
-        table.add_row(f.signal.replace("[", "\n["), f.name, f.condition, measured, noise, model, f"{abs(f.off):.1f} noise")
+    rows = list(worst.values())[:LONGEST]
+    signals = [f.signal.replace("[", "\n[") for f in rows]
+    for name in ("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"):
+        left = name in ("signal", "figure", "condition", "")
+        # A signal's words stay whole; of the figure's there are many short ones.
+        least = max(len(line) for signal in signals for line in signal.split()) if name == "signal" else None
+        table.add_column(name, justify="left" if left else "right", overflow="fold" if left else "ellipsis", no_wrap=not left, min_width=least)
+    for signal, f in zip(signals, rows):
+        (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
+        noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
+        table.add_row(signal, f.name, f.condition, measured, noise, model, unit, f"{abs(f.off):.1f}")
     out.print(table)
     if len(figures) > min(len(worst), LONGEST):
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
