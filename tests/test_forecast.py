@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from benchmarks.forecasts import Life, summary, through_points
@@ -116,3 +117,15 @@ def test_noise_that_nobody_states_is_asked_for():
         object.__setattr__(r, "stated_noise", None)
     with pytest.raises(InputFault, match="--noise"):
         inspections(campaign, limit_of("lost_motion=1arcmin"))
+
+
+def test_a_forecast_is_exported_with_its_readings(capsys, tmp_path):
+    path = tmp_path / "life.csv"
+    assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--json", "--export", str(path)]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["units"]["rate"] == "arcmin/h"
+    written, readings = pd.read_csv(path), pd.read_csv(tmp_path / "life_readings.csv")
+    assert list(written["remaining [h]"]) == pytest.approx([f["remaining"]["middle"] for f in told["forecasts"]])
+    assert list(readings["used"]) == sorted(readings["used"], reverse=True)
+    unused = readings[~readings["used"]]
+    assert list(unused["expected_low [arcmin]"]) == pytest.approx([told["forecasts"][-1]["later"][f"{h}"]["low"] for h in unused["hours [h]"]])
