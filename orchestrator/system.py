@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -84,17 +85,23 @@ class System:
         if size > MOST_RECORDED:
             raise InputFault(f"{steps} steps of {len(buffers)} recorded variables take {size / 1e9:.3g} GB: record fewer (--record), or run shorter")
         rows = {path: np.zeros((steps + 1, buffer.size), buffer.dtype) for path, buffer in buffers.items()}
-        time = np.zeros(steps + 1)
-        for i in range(steps + 1):
-            if i > 0:
-                master.step()
-                if each_step is not None:
-                    each_step()
+        time, places = np.zeros(steps + 1), count()
+
+        def keep() -> None:
+            i = next(places)
             time[i] = master.time
             for read in readers:
                 read()
             for path, buffer in buffers.items():
                 rows[path][i] = buffer
+
+        def stepped() -> None:
+            if each_step is not None:
+                each_step()
+            keep()
+
+        keep()
+        master.run(steps, stepped)
         return {"time": time} | {path: rows[path].reshape(steps + 1, *signals[path][1].shape) for path in rows}
 
     def matching(self, pattern: str) -> list[tuple[str, str]]:

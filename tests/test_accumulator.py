@@ -213,7 +213,8 @@ def test_impossible_geometry_gives_its_fault(rv20e, fault, values):
 @pytest.mark.parametrize("name", ["crank_angle", "output_angle", "cage_angle"])
 def test_angles_that_are_none_or_not_of_one_reducer_are_a_fault(rv20e, name):
     for angle in (np.nan, 1e6, 4.0):
-        records = records_of(rv20e.wear)
+        # In the first step in which the cranks turn it is decided whether inputs are late: not by one that is refused.
+        records = records_of(rv20e.wear, crank_speed=1.0)
         assert accumulator.initialise(records) == 0
         before = records.tobytes()
         records[name] = angle

@@ -94,6 +94,8 @@ def test_command(capsys):
     (["--limit", "wear_depth=5um"], "no run of wear_depth; there is lost_motion"),
     (["--limit", "lost_motion=30arcsec"], "below the first reading"),
     (["--limit", "lost_motion=1arcmin", "--until", "10"], "at 1 number"),
+    (["--limit", "lost_motion=1arcmin", "--until", "nan"], "at 0 numbers of hours"),
+    (["--limit", "lost_motion=1arcmin", "--noise", "0 arcsec"], "--noise 0 arcsec: a standard deviation lies above 0"),
     (["--limit", "lost_motion=1arcmin", "--condition", "x"], "say which with --condition"),
 ])  # fmt: skip
 def test_refusals(options, says, capsys):

@@ -43,6 +43,25 @@ def test_coupling_error_is_of_first_order(make_lag, scheme):
     assert orders == pytest.approx([1.0, 1.0], abs=0.03)
 
 
+@pytest.mark.parametrize("scheme", ["gauss-seidel", "jacobi"])
+def test_many_steps_at_once_are_those_one_by_one(make_lag, scheme):
+    """``run`` calls what ``step`` comes to; units in metres and millimetres take the longer way."""
+    ends = []
+    for units in (("m", "m"), ("m", "mm")):
+        for at_once in (True, False):
+            a, b = make_lag("a", start=1.0), make_lag("b", units, start=0.0)
+            master = Master({"a": a, "b": b}, RING, 0.1, scheme=scheme)
+            master.initialise()
+            assert (master.plain_stages() is None) == (units[1] == "mm")
+            if at_once:
+                master.run(7)
+            else:
+                for _ in range(7):
+                    master.step()
+            ends.append((a.get("x"), b.get("x"), master.time))
+    assert ends[0] == ends[1] and ends[2] == ends[3]
+
+
 def test_jacobi_gives_all_units_the_values_of_the_step_start(make_lag):
     a, b = make_lag("a", start=1.0), make_lag("b", start=0.0)
     master = Master({"a": a, "b": b}, RING, 0.1, scheme="jacobi")

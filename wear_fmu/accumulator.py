@@ -216,13 +216,15 @@ def step(records, time, duration):
     if duration == 0.0:
         look_ahead(r, r.profile_lead, r.profile_reach)
         return 0
-    if r.lateness == UNDECIDED and r.crank_speed * duration != 0.0:
+    lateness = r.lateness
+    if lateness == UNDECIDED and r.crank_speed * duration != 0.0:
         # Who exchanges at the steps' beginning hands over in the first one what was there before it.
         moved = abs(r.crank_angle - r.crank_angle_before)
-        r.lateness = LATE if moved < 0.25 * abs(r.crank_speed) * duration else ON_TIME
+        lateness = LATE if moved < 0.25 * abs(r.crank_speed) * duration else ON_TIME
     fault = take_off(records, duration)
     if fault != 0:
         return fault
+    r.lateness = lateness
     turning = r.crank_speed * duration
     publish_profiles(r, turning if r.lateness == LATE else 0.0, r.crank_speed, turning)
     return 0

@@ -114,7 +114,7 @@ def through_c(bench: Bench, scheme: str) -> dict[str, float]:
             archive.extractall(folder / name)
     run(["cc", "-std=c99", f"-I{FMI_HEADERS}", ROOT / "examples" / "pair_master.c", "-o", "pair_master", "-ldl"], folder)
     said = run(["./pair_master", "plant", "wear", scheme, repr(STEP), str(STEPS), repr(ACCELERATION)], folder)
-    depths = {name: float(value) for name, value in re.findall(r"(wear\.\w+\[\d+\]) = (\S+) m", said)}
+    depths = {name: float(value) for name, value in re.findall(r"(wear\.[\w.]+\[\d+\]) = (\S+) m", said)}
     return {name: depths[name] for name in WATCHED if name in depths}
 
 

@@ -125,12 +125,15 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
         say_cautions(i);
         return status;
     }
+    /* What lies beyond the guarded cells, worn surfaces, is not put back. */
+    int is_lost = spoilt && unit.guarded_cells < unit.state_cells;
     if (code)
         report_fault(i, DISCARD, code, time);
     else
-        report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs", time, spoilt->name);
+        report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
+               is_lost ? "; the unit is terminated, reset it" : "");
     memcpy(i->cells, i->backup, GUARDED_BYTES);
-    if (spoilt && unit.guarded_cells < unit.state_cells)
+    if (is_lost)
         i->phase = TERMINATED;
     return i->last_step = DISCARD;
 }

@@ -71,13 +71,15 @@ static enum status resolve(struct instance *i, const struct call *call, size_t k
 static size_t resolve_span(struct instance *i, const struct call *call, size_t k, struct span *span)
 {
     const uint32_t *references = call->references + k;
-    size_t left = call->reference_count - k, count = 1;
+    size_t count = 1;
     if (resolve(i, call, k, span))
         return 0;
     if (call->whole_variables)
         return 1;
-    size_t most = span->variable->size - (span->cell - span->variable->first);
-    while (count < left && count < most && references[count] == references[0] + count)
+    size_t left = call->reference_count - k, most = span->variable->size - (span->cell - span->variable->first);
+    if (most > left)
+        most = left;
+    while (count < most && references[count] == references[0] + count)
         count++;
     span->size = (uint32_t)count;
     return count;
@@ -170,12 +172,6 @@ static enum status check_settable(struct instance *i, const struct call *call, c
     return OK;
 }
 
-static int is_within(const struct variable *v, union cell value)
-{
-    double number = v->is_integer ? (double)value.integer : value.real;
-    return number >= v->lowest && number <= v->highest; /* false for a NaN */
-}
-
 static enum status refuse_value(struct instance *i, const struct variable *v, uint32_t element, union cell value)
 {
     double number = v->is_integer ? (double)value.integer : value.real;
@@ -190,6 +186,19 @@ static enum status refuse_value(struct instance *i, const struct variable *v, ui
                   v->unit);
 }
 
+/* Number of the first value of a span that is out of its variable's range, or the span's size. */
+static uint32_t first_out_of_range(const struct call *call, const struct span *span, const void *values, size_t place)
+{
+    double lowest = span->variable->lowest, highest = span->variable->highest;
+    const double *reals = (const double *)values + place;
+    for (uint32_t e = 0; e < span->size; e++) {
+        double number = call->kind == REAL ? reals[e] : (double)value_at(call, values, place + e).integer;
+        if (!(number >= lowest && number <= highest)) /* true for a NaN */
+            return e;
+    }
+    return span->size;
+}
+
 /* All values are checked before the first is set. */
 enum status set_values(struct instance *i, const struct call *call, const void *values)
 {
@@ -202,17 +211,20 @@ enum status set_values(struct instance *i, const struct call *call, const void *
         k += resolve_span(i, call, k, &span);
         if (check_settable(i, call, &span))
             return ERROR;
-        for (uint32_t e = 0; e < span.size; e++, place++) {
-            union cell value = value_at(call, values, place);
-            if (!is_within(span.variable, value))
-                return refuse_value(i, span.variable, span.cell - span.variable->first + e, value);
-        }
+        uint32_t e = first_out_of_range(call, &span, values, place);
+        if (e < span.size)
+            return refuse_value(i, span.variable, span.cell - span.variable->first + e, value_at(call, values, place + e));
+        place += span.size;
     }
     span.variable = NULL;
     for (size_t k = 0, place = 0; k < call->reference_count;) {
         k += resolve_span(i, call, k, &span);
-        for (uint32_t e = 0; e < span.size; e++, place++)
-            i->cells[span.cell + e] = value_at(call, values, place);
+        if (call->kind == REAL)
+            memcpy(i->cells + span.cell, (const double *)values + place, span.size * sizeof *i->cells);
+        else
+            for (uint32_t e = 0; e < span.size; e++)
+                i->cells[span.cell + e] = value_at(call, values, place + e);
+        place += span.size;
     }
     i->is_stale = 1;
     return OK;
