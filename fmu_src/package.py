@@ -31,6 +31,7 @@ from fmu_src.manifest import with_manifest
 from fmu_src.native import host_triple, object_code, object_codes
 from fmu_src.presentation import files_for_people
 from fmu_src.project import project
+from fmu_src.reading import reading
 from fmu_src.slaves.kernel_slave import OBJECT_CODE
 from fmu_src.source_code import declare_sources, kernels_source, source_files
 from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, source_hash, user_effect_files
@@ -138,11 +139,12 @@ def build_source(
 
 def compile_sources(fmu: Path, target: Path) -> Path:
     """Write an FMU of sources with this machine's library besides, by the C compiler that is here."""
-    with zipfile.ZipFile(fmu) as archive:
-        files = {entry: archive.read(entry) for entry in archive.namelist()}
-    if "sources/all.c" not in files:
-        raise InputFault(f"{fmu} has no sources/all.c; build one that has: rvwear build --flavour source")
-    description = fmpy.read_model_description(str(fmu))
+    with reading(fmu, "an FMU"):
+        with zipfile.ZipFile(fmu) as archive:
+            files = {entry: archive.read(entry) for entry in archive.namelist()}
+        if "sources/all.c" not in files:
+            raise InputFault(f"{fmu} has no sources/all.c; build one that has: rvwear build --flavour source")
+        description = fmpy.read_model_description(str(fmu))
     name, here = description.coSimulation.modelIdentifier, host_platform()
     library = library_of_sources({Path(n).name: data for n, data in files.items() if n.startswith("sources/")}, name, here)
     folder = here.fmi2_folder if description.fmiVersion == "2.0" else here.name

@@ -18,6 +18,8 @@ from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
 from studies.solve import ARCMIN
 
+# More torques a quarter and more places of a turn tell nothing more, and take days (assumed).
+MOST_STEPS, MOST_ANGLES = 10_000, 1000
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
 # By these a held output's place depends on the way to it.
@@ -46,7 +48,9 @@ def torque_way(rated: float, steps: int) -> Floats:
 
 
 def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = 40, angles: int = 8) -> Hysteresis:
-    """The test at ``angles`` positions of the input spread over a crank turn, averaged."""
+    """The test at ``angles`` positions of the input spread over a crank turn, averaged; ``steps`` torques a quarter of the loop."""
+    if not (4 <= steps <= MOST_STEPS and 1 <= angles <= MOST_ANGLES):
+        raise InputFault(f"steps = {steps}, angles = {angles}: at least 4 and 1 are needed, at most {MOST_STEPS} and {MOST_ANGLES}")
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings, {"plant": plant})
     rated = abs(plant.number("load_torque"))

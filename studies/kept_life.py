@@ -22,6 +22,7 @@ from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
+from studies.solve import require_positions
 
 
 @dataclass(frozen=True)
@@ -38,8 +39,9 @@ class WantedLife:
     inputs: dict[str, Any] = field(init=False)
 
     def __post_init__(self) -> None:
-        """InputFault where the life sets what it chooses itself."""
+        """InputFault for numbers that make no life, and where the life sets what it chooses itself."""
         self.life.check()
+        require_positions(self.positions)
         if any(setting.name == "acceleration" for setting in self.settings):
             raise InputFault("acceleration is chosen by the life run itself; give hours and tolerance")
         object.__setattr__(self, "inputs", {

@@ -4,6 +4,7 @@ import json
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from cli.main import main
@@ -120,3 +121,15 @@ def test_what_a_file_lacks_is_said(tmp_path, columns, said, capsys):
 def test_one_way_alone_is_no_loop():
     with pytest.raises(InputFault, match="one way alone"):
         figures("lost-motion", {"output_torque": np.linspace(-100, 100, 50), "output_angle": np.zeros(50)})
+
+
+def test_figures_and_curves_are_exported_and_read_back(capsys, tmp_path):
+    path = tmp_path / "loop.csv"
+    assert main(["bench", "--standard", "stiffness", "--json", *RIGID, "--export", str(path)]) == 0
+    figures = json.loads(capsys.readouterr().out)["figures"]
+    written = pd.read_csv(path)
+    assert list(written["value"]) == pytest.approx([f["value"] for f in figures]) and list(written["unit"]) == [f["unit"] for f in figures]
+    columns = [f"--column={text}" for text in ("output_torque=output_torque [N.m]:N.m", "output_angle=output_angle [deg]:deg", "position=position")]
+    assert main(["bench", "--standard", "stiffness", "--json", *RIGID, "--measured", str(tmp_path / "loop_curves.csv"), *columns]) == 0
+    again = json.loads(capsys.readouterr().out)["figures"]
+    assert [f["value"] for f in again] == pytest.approx([f["value"] for f in figures], rel=1e-9)

@@ -72,7 +72,8 @@ def test_numbers_have_their_units_and_arrays_scatter_cell_by_cell(file):
 
 @pytest.mark.parametrize("change, words", [
     (("uniform", "normal"), "takes mean, deviation"), (("bearing_clearance", "bearing_clearence"), "did you mean"),
-    (('unit = "um"', 'unit = "N"'), "unit"), (("low = 2", "low = 7"), "low < high"), (("samples = 2", "samples = 3"), "power of two"),
+    (('unit = "um"', 'unit = "N"'), "unit"), (("low = 2", "low = 7"), "low < high"), (("low = 2", "low = nan"), r"parameters.bearing_clearance.low = nan: it should be a finite number"),
+    (("hours = 60", "hours = inf"), "hours = inf: it should be a finite number"), (("samples = 2", "samples = 3"), "power of two"),
     (("lost_motion_arcmin", "lost_motion"), "no such figure"), (("bearing_clearance", "duty_torque_factor"), "no duty"),
 ])
 def test_slips_in_the_file_are_told(file, change, words):

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from benchmarks.forecasts import Life, summary, through_points
@@ -93,6 +94,8 @@ def test_command(capsys):
     (["--limit", "wear_depth=5um"], "no run of wear_depth; there is lost_motion"),
     (["--limit", "lost_motion=30arcsec"], "below the first reading"),
     (["--limit", "lost_motion=1arcmin", "--until", "10"], "at 1 number"),
+    (["--limit", "lost_motion=1arcmin", "--until", "nan"], "at 0 numbers of hours"),
+    (["--limit", "lost_motion=1arcmin", "--noise", "0 arcsec"], "--noise 0 arcsec: a standard deviation lies above 0"),
     (["--limit", "lost_motion=1arcmin", "--condition", "x"], "say which with --condition"),
 ])  # fmt: skip
 def test_refusals(options, says, capsys):
@@ -114,3 +117,15 @@ def test_noise_that_nobody_states_is_asked_for():
         object.__setattr__(r, "stated_noise", None)
     with pytest.raises(InputFault, match="--noise"):
         inspections(campaign, limit_of("lost_motion=1arcmin"))
+
+
+def test_a_forecast_is_exported_with_its_readings(capsys, tmp_path):
+    path = tmp_path / "life.csv"
+    assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--json", "--export", str(path)]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["units"]["rate"] == "arcmin/h"
+    written, readings = pd.read_csv(path), pd.read_csv(tmp_path / "life_readings.csv")
+    assert list(written["remaining [h]"]) == pytest.approx([f["remaining"]["middle"] for f in told["forecasts"]])
+    assert list(readings["used"]) == sorted(readings["used"], reverse=True)
+    unused = readings[~readings["used"]]
+    assert list(unused["expected_low [arcmin]"]) == pytest.approx([told["forecasts"][-1]["later"][f"{h}"]["low"] for h in unused["hours [h]"]])

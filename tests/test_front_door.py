@@ -97,6 +97,11 @@ def test_what_is_wrong_is_an_input_fault():
         rvwear.solve(settings={"output.load_torqe": 3.0})
     with pytest.raises(rvwear.InputFault, match="figure 'x': this result has loop"):
         rvwear.figure(rvwear.hysteresis(steps=4, angles=1), "x")
+    for steps, angles in ((0, 8), (40, 0), (10**6, 8)):
+        with pytest.raises(rvwear.InputFault, match=f"steps = {steps}, angles = {angles}: at least 4 and 1 are needed"):
+            rvwear.hysteresis(steps=steps, angles=angles)
+    with pytest.raises(rvwear.InputFault, match="positions = 0: at least 8"):
+        rvwear.life(positions=0)
     with pytest.raises(rvwear.InputFault, match="acceleration is chosen by the life run itself"):
         rvwear.life(settings={"acceleration": 10.0})
     with pytest.raises(rvwear.InputFault, match="no picture of its own"):

@@ -14,6 +14,7 @@ from discrepancy.prediction.conditions import distinct_conditions, row_condition
 from discrepancy.prediction.curves import OverAngle, level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer
 from discrepancy.prediction.fineness import EVERY_SAMPLE, SOLVED, Fineness
+from discrepancy.prediction.observe import ripple_of_cages
 from discrepancy.problem import Record
 
 TURN = 2.0 * np.pi
@@ -109,3 +110,13 @@ def test_the_place_of_the_cages_counts_every_sample_that_a_mean_stands_for():
     within = float(np.var(misfit) - np.var(means(misfit)))
     share, sure = resultant(basis, misfit)
     assert resultant(means(basis), means(misfit), 10, within) == pytest.approx((share, sure), abs=0.02)
+
+
+def test_the_cages_ripple_is_computed_at_nodes_too(monkeypatch):
+    bench, record = Bench(load_model("RV20E-121-rigid").reducer, {}), curve(60_000, noise=1.5e-6)
+    bench.fineness = Fineness([record])
+    lengths = []
+    running = Bench.running_places
+    monkeypatch.setattr(Bench, "running_places", lambda self, c, v, angles, *a, **more: lengths.append(len(angles)) or running(self, c, v, angles, *a, **more))
+    ripple = ripple_of_cages(bench, record, {}, 0.3)
+    assert np.std(ripple) > 1e-8 and max(lengths) < 20_000

@@ -179,6 +179,13 @@ def test_page_shows_parts_numbers_and_influences(rig):
     assert len(page_of(rig, reducer_at(rig, {}), []).sections) == 2
 
 
+def test_a_name_of_two_lines_is_refused_like_any_that_no_reducer_has(tmp_path, capsys):
+    for name in ("a\nb", "x/y"):
+        assert main([*RIG, "--output", str(tmp_path / "rig.toml"), "--name", name]) == 2
+        assert f"reducer.name = {name!r}: String should match pattern" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
 def test_ranges_move_the_signals_that_they_must():
     found = {(one.dial, one.signal): one for one in influences(complete(Given(121, 40, 167.0)), ("gap", "wear.mesh_coefficient"))}
     lost, stiffness = "lost_motion_arcmin", "torsional_stiffness_Nm_per_arcmin"

@@ -173,3 +173,6 @@ def test_fmu_without_sources_is_refused(tmp_path):
         archive.writestr("modelDescription.xml", "")
     with pytest.raises(InputFault, match=r"has no sources/all\.c; build one that has: rvwear build --flavour source"):
         compile_sources(tmp_path / "empty.fmu", tmp_path / "made.fmu")
+    (tmp_path / "none.fmu").write_bytes(b"no archive")
+    with pytest.raises(InputFault, match="none.fmu: not readable as an FMU"):
+        compile_sources(tmp_path / "none.fmu", tmp_path / "made.fmu")

@@ -10,7 +10,7 @@ from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverAngle, cage_ripple
 from discrepancy.prediction.fineness import Fineness
-from discrepancy.prediction.twins import Twins
+from discrepancy.prediction.twins import Twins, corners
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from studies.coupled import COLUMNS
@@ -143,3 +143,26 @@ def test_forces_on_the_housing_repeat_but_for_unbalance(bench):
     for values, shared in (({"disc_ovality": 1e-6}, True), ({"unbalance": 1e-5}, False)):
         rated, slow = (bench.column("housing_force_x", c, values, ANGLES) for c in (COLD, SLOW))
         assert np.array_equal(rated, slow) is shared
+
+
+MANY = [replace(COLD, speed=speed, temperature=temperature) for speed in (50.0, 100.0, 150.0, 209.44) for temperature in (293.15, 313.15, 333.15)]
+
+
+def test_means_between_conditions_that_agree_are_theirs(bench):
+    bench.plan(MANY)
+    inner = replace(COLD, speed=100.0, temperature=313.15)
+    for values, computed in (({"disc_ovality": 2e-6}, 4), ({"seal_torque": 0.05}, 4), ({"friction_viscous": 0.3}, 12), ({"thermal_expansion": 2e-6}, 12)):
+        for condition in MANY:
+            bench.average("drive_torque", condition, values)
+        relevant = bench.relevant(values, False)
+        assert len({key[1] for key in bench.runs.found if key[0] == "means" and key[2] == relevant}) == computed, values
+        fresh = Bench(bench.reducer, {})
+        assert bench.average("drive_torque", inner, values) == pytest.approx(fresh.average("drive_torque", inner, values), rel=1e-7)
+
+
+def test_corners_are_those_of_the_same_load_around_a_condition():
+    inner = replace(COLD, speed=100.0, temperature=313.15)
+    assert {(c.speed, c.temperature) for c in corners(inner, [*MANY, LOADED])} == {(50.0, 293.15), (50.0, 333.15), (209.44, 293.15), (209.44, 333.15)}
+    for outside in (replace(inner, speed=300.0), replace(inner, load=120.0), replace(inner, hours=1.0), MANY[0]):
+        assert corners(outside, MANY) == []
+    assert corners(inner, MANY[:4]) == []

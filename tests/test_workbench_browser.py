@@ -171,6 +171,23 @@ def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench
 
 
 @pytest.mark.campaign
+def test_a_campaign_that_was_written_elsewhere_is_corrected_cell_by_cell(bench):
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    before, page = (bench.folder / "campaign.toml").read_text(encoding="utf-8"), bench.page
+    bench.view("in")
+    page.locator("#cells-conditions summary").click()
+    page.get_by_label("temperature of loop1").fill("11 degC")
+    page.keyboard.press("Tab")
+    page.wait_for_function("document.activeElement.id === 'cell-conditions-loop1-hours'")
+    page.locator("#cells-runs summary").click()
+    page.get_by_label("unit of value in loop1_loop_1").fill("arcmim")
+    page.keyboard.press("Tab")
+    page.get_by_text("unit 'arcmim' is not known").wait_for()
+    assert page.get_by_label("unit of value in loop1_loop_1").input_value() == "arcsec"
+    assert (bench.folder / "campaign.toml").read_text(encoding="utf-8") == before.replace('"10 degC"', '"11 degC"', 1)
+
+
+@pytest.mark.campaign
 def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     """Drop, look, diagnose, stop and go on, try, ask for the next run, add, build, live; by hand in the page alone."""
     page = bench.page

@@ -19,6 +19,7 @@ from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available
+from workbench.editing import cells
 from workbench.folder import Folder
 
 # Points of the little curve that shows what a column looks like, and columns of a file that are shown.
@@ -130,7 +131,7 @@ def view(folder: Folder) -> dict[str, Any]:
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
     }  # fmt: skip
     if found["saved"]:
-        found |= checked_campaign(folder)
+        found |= checked_campaign(folder) | cells_of(folder)
     if not files or (found["saved"] and not found["own"]):
         return found
     try:
@@ -146,6 +147,14 @@ def view(folder: Folder) -> dict[str, Any]:
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
     found["command"] = command(folder, given)
     return found
+
+
+def cells_of(folder: Folder) -> dict[str, Any]:
+    """What of campaign.toml can be corrected cell by cell; nothing where it is no TOML."""
+    try:
+        return {"cells": cells(folder)}
+    except InputFault:
+        return {}
 
 
 def checked_campaign(folder: Folder) -> dict[str, Any]:

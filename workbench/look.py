@@ -48,7 +48,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     """(all that is words and few numbers, the columns that it refers to)."""
     model = result.model
     speed = of_axis("speed", model.campaign)
-    space = result.diagnostician.space
+    space, place = result.diagnostician.space, result.diagnostician.localisation
     runs = runs_of(space, result.predictions, speed)
     ratios = {r["run"]: r["ratio"] for r in result.runs}
     columns = Columns()
@@ -58,7 +58,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings, "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
-        "places": [asdict(g) for g in result.diagnostician.localisation.findings],
+        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()

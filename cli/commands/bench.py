@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, add_reducer_options, settings_of
 from fmu_src.faults import InputFault, nearest
 from fmu_src.progress import task
@@ -22,6 +23,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     bench.add_argument("--column", action="append", default=[], metavar="NAME=HEADER:UNIT",
                        help="where the file has what: --column output_torque='T2:N.m'; position=HEADER tells curves apart")  # fmt: skip
     add_json(bench)
+    add_exports(bench, pictures=False)
     bench.set_defaults(run=bench_test)
 
 
@@ -30,7 +32,9 @@ def bench_test(options: argparse.Namespace) -> int:
     from reducers.reducer import load_reducer
     from studies.standard.evaluation import TESTS
     from studies.standard.procedures import OWN_FIGURES, PROCEDURES, rated_of, ratio_of
+    from studies.standard.tables import bench_tables
 
+    check_exports(options)
     reducer = load_reducer(options.reducer)
     settings, test = settings_of(options, reducer), TESTS[options.standard]
     rated, ratio = rated_of(reducer, settings)[0], ratio_of(reducer, settings)
@@ -49,6 +53,7 @@ def bench_test(options: argparse.Namespace) -> int:
     except InputFault as fault:
         raise InputFault(f"{options.measured}: {fault}" if options.measured else str(fault)) from None
     show_bench(reducer.name, test, found, rated, ratio, len(curves), options.measured, options.json)
+    write_exports(options, lambda: bench_tables(found, curves), list)
     return 0
 
 

@@ -3,6 +3,7 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     command.add_argument("--until", type=float, metavar="HOURS", help="use inspections up to these hours alone; the others are compared with")
     command.add_argument("--data", metavar="FOLDER", help="where the data files are (default: as campaign.toml says)")
     add_json(command)
+    add_exports(command, pictures=False)
     command.set_defaults(run=run_forecast)
 
 
@@ -27,7 +29,9 @@ def run_forecast(options: argparse.Namespace) -> int:
     from discrepancy.campaign.load import load_campaign
     from discrepancy.forecast.forecast import narrowing
     from discrepancy.forecast.readings import Inspections, inspections, limit_of
+    from discrepancy.forecast.tables import forecast_tables
 
+    check_exports(options)
     limit = limit_of(options.limit)
     found = inspections(load_campaign(options.campaign, options.data), limit, options.condition, options.noise)
     if options.until is not None:
@@ -38,8 +42,9 @@ def run_forecast(options: argparse.Namespace) -> int:
     if options.json:
         json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts],
                    "unused": [vars(r) for r in found.held_out], "units": units_of(limit)})
-        return 0
-    show(forecasts, found, limit)
+    else:
+        show(forecasts, found, limit)
+    write_exports(options, lambda: forecast_tables(forecasts, found, limit), list)
     return 0
 
 

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, add_reducer_options, chosen, settings_of
-from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -62,8 +61,6 @@ def hysteresis(options: argparse.Namespace) -> int:
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset, loop_figures
 
-    if options.steps < 4 or options.angles < 1:
-        raise InputFault(f"steps = {options.steps}, angles = {options.angles}: at least 4 and 1 are needed")
     check_exports(options)
     reducer = load_reducer(options.reducer)
     with task("loading torques at locked input"):

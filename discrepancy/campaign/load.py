@@ -22,15 +22,15 @@ from reducers.reducer import kernels_name
 DIRECTIONS = {"forward": 1, "reverse": -1, 1: 1, -1: -1}
 
 
-def load_campaign(folder: str | Path, data: str | Path | None = None) -> Campaign:
-    """Read a campaign; ``data`` is where its files are if not where the file says."""
+def load_campaign(folder: str | Path, data: str | Path | None = None, file: Path | None = None) -> Campaign:
+    """Read a campaign; ``data`` is where its files are if not where the file says, ``file`` what stands for its campaign.toml."""
     folder = Path(folder)
-    with reading(folder / FILE, "a campaign", REMEDY):
-        return campaign_of(folder, data)
+    path = file or folder / FILE
+    with reading(path, "a campaign", REMEDY):
+        return campaign_of(folder, data, path)
 
 
-def campaign_of(folder: Path, data: str | Path | None) -> Campaign:
-    path = folder / FILE
+def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
     content, text = read_campaign_file(path)
     scales = make_scales(content.campaign, folder, path)
     conditions = {

@@ -157,7 +157,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], float, Callable[[Bench, Condition
     "input torque": ("N m", ("rated", "no load", "load 10 %", "speed 10 %", "speed 200 %", "40 K warmer"), 1.0,
                      lambda b, c, v: observed(b, "input_torque", c, v)),
     "cage order": ("1", ("rated", "load 10 %"), 1.0, cage_order),
-    "temperature": ("K", ("rated", "speed 200 %"), 1.0, lambda b, c, v: b.averages(c, v)["reducer_temperature"]),
+    "temperature": ("K", ("rated", "speed 200 %"), 1.0, lambda b, c, v: b.average("reducer_temperature", c, v)),
 }  # fmt: skip
 SPECTRUM_AT = ("rated", "load 25 %")
 # Further conditions of effects of the measuring chain that only other speeds show.

@@ -98,13 +98,15 @@ def forecast(readings: Sequence[Reading], limit: float, rate: float | None = Non
 
 def narrowing(readings: Sequence[Reading], limit: float, rate: float | None = None, asked: Sequence[float] = ()) -> list[Forecast]:
     """Forecasts after each number of hours that has readings, from the second on."""
+    require_sound(readings, limit)
     hours = sorted({r.hours for r in readings})
-    return [forecast([r for r in readings if r.hours <= last], limit, rate, asked) for last in hours[1:] or hours]
+    return [forecast([r for r in readings if r.hours <= last], limit, rate, asked) for last in hours[1:]]
 
 
 def require_sound(readings: Sequence[Reading], limit: float) -> None:
-    if len({r.hours for r in readings}) < 2:
-        raise InputFault(f"readings at {len({r.hours for r in readings})} number of hours: a forecast needs at least two, better one when new")
+    count = len({r.hours for r in readings})
+    if count < 2:
+        raise InputFault(f"readings at {count} number{'' if count == 1 else 's'} of hours: a forecast needs at least two, better one when new")
     if min(r.hours for r in readings) < 0.0 or not all(r.noise > 0.0 for r in readings):
         raise InputFault("readings need hours from 0 on and a noise above 0")
     if limit <= min(r.value for r in readings):

@@ -62,6 +62,8 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     records = [r for r in records if without_hours(r, campaign) == chosen]
     factor = to_si(limit.unit, QUANTITIES[limit.quantity].unit, "")[0]
     stated = amount(noise, QUANTITIES[limit.quantity].unit, "--noise") if noise else None
+    if stated is not None and not stated > 0.0:
+        raise InputFault(f"--noise {noise}: a standard deviation lies above 0, for instance 0.3{limit.unit}")
     repeated = scatter([r for r in records if not r.held_out])
     found: dict[bool, list[Reading]] = {False: [], True: []}
     for r in records:

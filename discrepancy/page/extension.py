@@ -1,9 +1,9 @@
 """The pages of an extension and of a model with its ladder."""
 
-from typing import Any
 
 from discrepancy.as_told import effect_name
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
+from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from pages.content import Card, Page, Section, Table
@@ -14,17 +14,17 @@ TONES = {HELPED: "good", DID_NOT_HELP: "bad"}
 
 
 def extension_page(result: Extension) -> Page:
-    step = result.step
-    kept = "" if step.get("kept", True) else " The model stays as it was."
+    step = step_of(result.step)
+    kept = "" if step.kept else " The model stays as it was."
     finding = (
-        f"{ladder.label(step).capitalize()}: {result.verdict}. "
-        f"{step['reason'][:1].upper() + step['reason'][1:]}.{kept if 'stays' not in step['reason'] else ''}"
+        f"{step.label.capitalize()}: {result.verdict}. "
+        f"{step.reason[:1].upper() + step.reason[1:]}.{kept if 'stays' not in step.reason else ''}"
     )
-    warnings = [] if step.get("held_out_before") is not None else ["No run was held out: a lower error on fitted runs proves nothing."]
+    warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
     return Page(
         "An effect added to a model",
         result.file.name,
-        f"judged on campaign {step['campaign']}",
+        f"judged on campaign {step.campaign}",
         finding,
         cards(step),
         [signals_section(step), ladder_section(result.file), parameters(result.file)],
@@ -33,24 +33,23 @@ def extension_page(result: Extension) -> Page:
 
 
 def model_page(file: ModelFile) -> Page:
-    steps = file.steps
+    steps = steps_of(file.steps)
     if not steps:
         return Page("Ladder of a model", file.name, conditions(file), "No step yet: rvwear extend adds them.", [], [parameters(file)], [])
-    kept = [s for s in steps if s.get("kept", True)]
-    judged = [s for s in kept if s.get("held_out_before") is not None]
+    kept = [s for s in steps if s.kept]
+    judged = [s.held_out for s in kept if s.held_out]
     finding = f"{len(kept)} of {len(steps)} steps are part of the model."
     if judged:
         finding += (
-            f" The error on unused runs fell from {number(judged[0]['held_out_before'])} to {number(judged[-1]['held_out_after'])} times the noise."
-            if judged[-1]["held_out_after"] < judged[0]["held_out_before"]
+            f" The error on unused runs fell from {number(judged[0].before)} to {number(judged[-1].after)} times the noise."
+            if judged[-1].after < judged[0].before
             else (
-                f" The error on unused runs went from {number(judged[0]['held_out_before'])} to "
-                f"{number(judged[-1]['held_out_after'])} times the noise."
+                f" The error on unused runs went from {number(judged[0].before)} to {number(judged[-1].after)} times the noise."
             )
         )
     else:
         finding += " None of them was judged on unused runs."
-    failed = [ladder.label(s) for s in steps if s["verdict"] == DID_NOT_HELP]
+    failed = [s.label for s in steps if s.verdict == DID_NOT_HELP]
     if failed:
         finding += f" Did not help: {', '.join(failed)}."
     sections = [
@@ -59,7 +58,7 @@ def model_page(file: ModelFile) -> Page:
             "signals",
             "Signal by signal",
             "Every step, with the noise at 1.",
-            [signal_figure(s, k) for k, s in enumerate(steps, start=1) if s.get("signals")],
+            [signal_figure(s, k) for k, s in enumerate(steps, start=1) if s.signals],
         ),
         parameters(file),
     ]
@@ -71,32 +70,33 @@ def conditions(file: ModelFile) -> str:
     return f"Reducer {file.reducer.name} with {effects}"
 
 
-def cards(step: dict[str, Any]) -> list[Card]:
+def cards(step: Step) -> list[Card]:
     made = [
-        Card(ladder.label(step), step["verdict"], "kept" if step.get("kept", True) else "not kept", tone=TONES.get(step["verdict"], "fair"))
+        Card(step.label, step.verdict, "kept" if step.kept else "not kept", tone=TONES.get(step.verdict, "fair"))
     ]
     for key, text, note in (
         ("held_out", "Error on unused runs", "in the patterns that carry the misfit; what the verdict rests on"),
         ("training", "Error on fitted runs", "in the same patterns; any effect can lower it"),
     ):
-        before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
-        if before is not None and after is not None:
-            shown = key != "training" and step["verdict"] == HELPED
+        change = step.change(key)
+        if change:
+            before, after = change.before, change.after
+            shown = key != "training" and step.verdict == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone, whys.of_step(key, before, after, len(step.get("signals", [])))))
+            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone, whys.of_step(key, before, after, len(step.signals))))
     return made
 
 
-def signal_figure(step: dict[str, Any], place: int = 0) -> Figure:
-    rows = step["signals"]
-    ratio = {k: [r[k] / r["noise_floor"] if r["noise_floor"] > 0.0 else None for r in rows] for k in ("before", "after")}
+def signal_figure(step: Step, place: int = 0) -> Figure:
+    rows = step.signals
+    ratio = {k: [getattr(r, k) / r.noise_floor if r.noise_floor > 0.0 else None for r in rows] for k in ("before", "after")}
     before, after = (
-        [f"{amounts.text(r[k], r['unit'], r['signal'])}, noise {amounts.text(r['noise_floor'], r['unit'], r['signal'])}" for r in rows]
+        [f"{amounts.text(getattr(r, k), r.unit, r.signal)}, noise {amounts.text(r.noise_floor, r.unit, r.signal)}" for r in rows]
         for k in ("before", "after")
     )
-    title = f"Step {place}: {ladder.label(step)}" if place else "Error over noise per signal"
+    title = f"Step {place}: {step.label}" if place else "Error over noise per signal"
     caption = (
-        f"{step['verdict'][:1].upper() + step['verdict'][1:]}: {step['reason']}."
+        f"{step.verdict[:1].upper() + step.verdict[1:]}: {step.reason}."
         if place
         else "Root mean square of all samples over the noise of replicates."
     )
@@ -105,14 +105,14 @@ def signal_figure(step: dict[str, Any], place: int = 0) -> Figure:
     )
 
 
-def signals_section(step: dict[str, Any]) -> Section:
+def signals_section(step: Step) -> Section:
     rows = [
         [
-            amounts.signal_title(r["signal"]),
-            "held out" if r["held_out"] else "fitted",
-            *(amounts.text(r[k], r["unit"], r["signal"]) for k in ("before", "after", "noise_floor")),
+            amounts.signal_title(r.signal),
+            "held out" if r.held_out else "fitted",
+            *(amounts.text(value, r.unit, r.signal) for value in (r.before, r.after, r.noise_floor)),
         ]
-        for r in step["signals"]
+        for r in step.signals
     ]
     table = Table("", ["signal", "runs", "error before", "error after", "noise"], rows, (2, 3, 4))
     return Section(
@@ -125,33 +125,34 @@ def signals_section(step: dict[str, Any]) -> Section:
 
 
 def ladder_section(file: ModelFile) -> Section:
-    if not file.steps:
+    steps = steps_of(file.steps)
+    if not steps:
         return Section("ladder", "Ladder", "No step yet.")
     rows = [
         [
             str(k),
-            ladder.label(s),
-            s["campaign"],
+            s.label,
+            s.campaign,
             change(s, "training"),
             change(s, "held_out"),
-            s["verdict"] + ("" if s.get("kept", True) else ", not kept"),
-            s["reason"],
+            s.verdict + ("" if s.kept else ", not kept"),
+            s.reason,
         ]
-        for k, s in enumerate(file.steps, start=1)
+        for k, s in enumerate(steps, start=1)
     ]
     head = ["step", "effect", "campaign", "fitted runs", "unused runs", "verdict", "why"]
     return Section(
         "ladder",
         "Ladder",
         "Every attempt, those that did not help too. What counts are the unused runs; errors in the patterns that carry the misfit, over noise.",
-        [ladder.figure(file.steps)],
+        [ladder.figure(steps)],
         [Table("", head, rows, (3, 4))],
     )
 
 
-def change(step: dict[str, Any], key: str) -> str:
-    before, after = step.get(f"{key}_before"), step.get(f"{key}_after")
-    return "–" if before is None or after is None else f"{number(before)} → {number(after)}"
+def change(step: Step, key: str) -> str:
+    found = step.change(key)
+    return f"{number(found.before)} → {number(found.after)}" if found else "–"
 
 
 def parameters(file: ModelFile) -> Section:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from discrepancy.ladder_step import Change, Step
 from discrepancy.page.bars import noise_line
 from pages import look
 from pages.look import Figure, short
@@ -12,41 +13,33 @@ WIDE = 8.0
 KINDS = (("training", "fitted runs", look.START, 2.0), ("held_out", "unused runs", look.NOW, 3.0))
 
 
-def stairs(steps: Sequence[dict[str, Any]], kind: str) -> tuple[list[float | None], list[float | None]]:
+def stairs(steps: Sequence[Step], kind: str) -> tuple[list[float | None], list[float | None]]:
     """Corners of the line through the kept steps: step k falls at x = k."""
     x: list[float | None] = []
     y: list[float | None] = []
     for k, step in enumerate(steps, start=1):
-        before, after = step.get(f"{kind}_before"), step.get(f"{kind}_after")
-        if before is None or after is None:
+        change = step.change(kind)
+        if change is None:
             x.append(None)
             y.append(None)
             continue
         x += [k - 1 if k > 1 else 0.5, k]
-        y += [before, before]
-        if step.get("kept", True):
+        y += [change.before, change.before]
+        if step.kept:
             x.append(k)
-            y.append(after)
+            y.append(change.after)
     if y and y[-1] is not None:
         x.append(len(steps) + 0.5)
         y.append(y[-1])
     return x, y
 
 
-def attempts(steps: Sequence[dict[str, Any]], kind: str) -> list[tuple[int, float, float, dict[str, Any]]]:
-    """(place, before, after, step) of the steps that were not kept."""
-    return [
-        (k, s[f"{kind}_before"], s[f"{kind}_after"], s)
-        for k, s in enumerate(steps, start=1)
-        if not s.get("kept", True) and s.get(f"{kind}_before") is not None and s.get(f"{kind}_after") is not None
-    ]
+def attempts(steps: Sequence[Step], kind: str) -> list[tuple[int, Change, Step]]:
+    """(place, errors, step) of the steps that were not kept."""
+    return [(k, change, step) for k, step in enumerate(steps, start=1) if not step.kept and (change := step.change(kind)) is not None]
 
 
-def label(step: dict[str, Any]) -> str:
-    return " + ".join(name.replace("_", " ").replace(".", ": ") for name in step["effects"])
-
-
-def figure(steps: Sequence[dict[str, Any]], name: str = "ladder") -> Figure:
+def figure(steps: Sequence[Step], name: str = "ladder") -> Figure:
     traces, values = [], []
     for kind, title, colour, width in KINDS:
         x, y = stairs(steps, kind)
@@ -55,19 +48,20 @@ def figure(steps: Sequence[dict[str, Any]], name: str = "ladder") -> Figure:
             traces.append(look.line(x, clean(y), colour, width) | {"name": title})
             start = next(v for v in y if v is not None)
             traces.append(marks([x[y.index(start)]], [start], colour, "circle", [f"{title}, before: {start:.2f}"], kind == "held_out"))
-        kept = [(k, s) for k, s in enumerate(steps, start=1) if s.get("kept", True) and s.get(f"{kind}_after") is not None]
+        kept = [(k, change, s) for k, s in enumerate(steps, start=1) if s.kept and (change := s.change(kind)) is not None]
         if kept:
             traces.append(
                 marks(
-                    [k for k, _ in kept],
-                    [s[f"{kind}_after"] for _, s in kept],
+                    [k for k, _, _ in kept],
+                    [change.after for _, change, _ in kept],
                     colour,
                     "circle",
-                    [f"{label(s)}, {title}: {s[f'{kind}_before']:.2f} → {s[f'{kind}_after']:.2f}" for _, s in kept],
+                    [f"{s.label}, {title}: {change.before:.2f} → {change.after:.2f}" for _, change, s in kept],
                     kind == "held_out",
                 )
             )
-        for k, before, after, step in attempts(steps, kind):
+        for k, change, step in attempts(steps, kind):
+            before, after = change.before, change.after
             values.append(after)
             traces.append(look.line([k, k], clean([before, after]), colour, 1.2, "dot") | {"showlegend": False})
             traces.append(
@@ -76,7 +70,7 @@ def figure(steps: Sequence[dict[str, Any]], name: str = "ladder") -> Figure:
                     [after],
                     colour,
                     "x",
-                    [f"{label(step)}, not kept, {title}: {before:.2f} → {after:.2f}"],
+                    [f"{step.label}, not kept, {title}: {before:.2f} → {after:.2f}"],
                     kind == "held_out",
                     "top right" if after > before else "bottom right",
                 )
@@ -87,7 +81,7 @@ def figure(steps: Sequence[dict[str, Any]], name: str = "ladder") -> Figure:
         "tickvals": list(range(1, len(steps) + 1)),
         "range": [0.4, len(steps) + 0.6],
         "showgrid": False,
-        "ticktext": [f"{label(s)}<br><i>{s['verdict']}{'' if s.get('kept', True) else ', not kept'}</i>" for s in steps],
+        "ticktext": [f"{s.label}<br><i>{s.verdict}{'' if s.kept else ', not kept'}</i>" for s in steps],
     }
     limits = {"type": "log", "dtick": "D2"} if wide else {"rangemode": "tozero"}
     legend = {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom", "font": {"size": 11.5}}

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 from xml.sax.saxutils import escape
 
+from discrepancy.ladder_step import Change, Step, steps_of
 from discrepancy.model_file import ModelFile
-from discrepancy.page.ladder import KINDS, WIDE, attempts, label, stairs
+from discrepancy.page.ladder import KINDS, WIDE, attempts, stairs
 from fmu_src.checked_file import write_text
 from pages.look import FONT, GRID, INK, QUIET
 
@@ -21,7 +21,7 @@ TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 10
 def ladder_picture(file: ModelFile, path: Path) -> Path:
     """Write the picture; equal ladders give equal bytes."""
     path = Path(path)
-    write_text(path, svg(file.name, file.steps))
+    write_text(path, svg(file.name, steps_of(file.steps)))
     return path
 
 
@@ -50,10 +50,10 @@ class Scale:
         return [k * step for k in range(int(self.high / step) + 1)]
 
 
-def svg(name: str, steps: Sequence[dict[str, Any]]) -> str:
+def svg(name: str, steps: Sequence[Step]) -> str:
     drawn = {kind: stairs(steps, kind) for kind, *_ in KINDS}
     lost = {kind: attempts(steps, kind) for kind, *_ in KINDS}
-    values = [v for _, ys in drawn.values() for v in ys if v is not None] + [after for rows in lost.values() for _, _, after, _ in rows]
+    values = [v for _, ys in drawn.values() for v in ys if v is not None] + [change.after for rows in lost.values() for _, change, _ in rows]
     scale = Scale(values, len(steps))
     right = scale.x(max(len(steps), 1) + 0.6)
     width, height = right + RIGHT, TOP + HEIGHT + BOTTOM
@@ -98,9 +98,10 @@ def staircase(xs: Sequence[float | None], ys: Sequence[float | None], scale: Sca
     return found
 
 
-def failed(row: tuple[int, float, float, dict[str, Any]], scale: Scale, colour: str, labelled: bool) -> list[str]:
+def failed(row: tuple[int, Change, Step], scale: Scale, colour: str, labelled: bool) -> list[str]:
     """A dotted way to a cross."""
-    k, before, after, _ = row
+    k, change, _ = row
+    before, after = change.before, change.after
     x, y = scale.x(k), scale.y(after)
     found = [
         line(x, scale.y(before), x, y, colour, 1.2, "2 3"),
@@ -110,30 +111,30 @@ def failed(row: tuple[int, float, float, dict[str, Any]], scale: Scale, colour: 
     return found + ([text(x + 9, y + (-6 if after > before else 15), f"{after:.2f}", colour)] if labelled else [])
 
 
-def caption(k: int, step: dict[str, Any], scale: Scale) -> list[str]:
+def caption(k: int, step: Step, scale: Scale) -> list[str]:
     """Effect and verdict below, numbers at the corners of the unused runs."""
-    x, base, kept = scale.x(k), TOP + HEIGHT, step.get("kept", True)
-    verdict = step["verdict"] + ("" if kept else ", not kept")
-    found = [text(x, base + 24 + 16 * i, part, INK, "middle") for i, part in enumerate(wrapped(label(step)))]
+    x, base, kept = scale.x(k), TOP + HEIGHT, step.kept
+    verdict = step.verdict + ("" if kept else ", not kept")
+    found = [text(x, base + 24 + 16 * i, part, INK, "middle") for i, part in enumerate(wrapped(step.label))]
     found.append(
         text(
             x,
             base + 60,
             verdict,
-            HELPED if step["verdict"] == "helped" else POOR if step["verdict"] == "did not help" else QUIET,
+            HELPED if step.verdict == "helped" else POOR if step.verdict == "did not help" else QUIET,
             "middle",
             style="italic",
         )
     )
-    kind, colour = ("held_out", KINDS[1][2]) if step.get("held_out_after") is not None else ("training", QUIET)
-    if step.get(f"{kind}_after") is None:
+    change, colour = (step.held_out, KINDS[1][2]) if step.held_out else (step.training, QUIET)
+    if change is None:
         return found
     if k == 1:
-        found.append(text(scale.x(0.5), scale.y(step[f"{kind}_before"]) - 8, f"{step[f'{kind}_before']:.2f}", colour, weight=600))
+        found.append(text(scale.x(0.5), scale.y(change.before) - 8, f"{change.before:.2f}", colour, weight=600))
     if kept:
         found += [
-            f'<circle cx="{x:.1f}" cy="{scale.y(step[f"{kind}_after"]):.1f}" r="4.5" fill="{colour}"/>',
-            text(x + 9, scale.y(step[f"{kind}_after"]) - 8, f"{step[f'{kind}_after']:.2f}", colour, weight=600),
+            f'<circle cx="{x:.1f}" cy="{scale.y(change.after):.1f}" r="4.5" fill="{colour}"/>',
+            text(x + 9, scale.y(change.after) - 8, f"{change.after:.2f}", colour, weight=600),
         ]
     return found
 

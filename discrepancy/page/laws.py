@@ -7,6 +7,7 @@ from discrepancy.inference.law.recover import Recovered
 from discrepancy.inference.law.splines import Curve
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import slug
+from discrepancy.page.whys import of_form
 from discrepancy.scales import Scale
 from fmu_src.arrays import Floats
 from pages import look
@@ -143,5 +144,6 @@ def table(law: Recovered) -> Table:
         f"{in_unit(law.y_told[1])}; 95 % intervals. Errors are on points left out, in times the noise."
     )
     return Table(
-        f"Closed forms for {amounts.signal_title(law.signal)}", ["form", "law", "parameters", "error", "confidence"], rows, (3, 4), note
+        f"Closed forms for {amounts.signal_title(law.signal)}", ["form", "law", "parameters", "error", "confidence"], rows, (3, 4), note,
+        [of_form(form) for form in law.forms[:MOST_FORMS]],
     )

@@ -7,6 +7,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.extend import BETTER
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.law.closed_forms import Form
 from discrepancy.inference.next_experiment import ENOUGH, Proposal
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
@@ -158,6 +159,16 @@ def of_rival(rejected: dict[str, Any]) -> Why:
 def ratio_text(difference: float) -> str:
     """``20 to 1``, from a difference in chi-square."""
     return "more than a million to 1" if difference > 27.6 else f"{number(math.exp(0.5 * difference), 2)} to 1" if difference > 0.0 else "1 to 1"
+
+
+def of_form(form: Form) -> Why:
+    """A closed form of a law without a name."""
+    return Why(
+        "least squares through what is left of the misfit, each point in units of its noise; groups of points left out in turn",
+        "the points behind the curve above, of all conditions that show it",
+        f"left-out points are off by {number(form.error)} times the noise; {100.0 * form.confidence:.0f} % of the weight of all forms that were tried,"
+        " more parameters counting against one (as in BIC)",
+    )
 
 
 def of_proposal(p: Proposal, rivals: Sequence[str]) -> Why:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
-from discrepancy.prediction.twins import Twins, places_of, same
+from discrepancy.prediction.twins import OF_CHANGE, Twins, corners, places_of, same
 from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats, copied
@@ -162,13 +162,24 @@ class Bench(Lives):
 
         return whole(self.twins.of(("beside", relevant, before, angles.tobytes(), base_angles.tobytes(), cage), condition, repeats))
 
-    def averages(self, condition: Condition, values: Mapping[str, float]) -> dict[str, float]:
-        """Means over one turn of the cranks."""
-        means = self.means(condition, values, self.mean_positions)
-        if self.mean_positions < MEAN_POSITIONS:
-            # What the values change, seen from fewer positions.
-            means = means - self.means(condition, {}, self.mean_positions) + self.means(condition, {}, MEAN_POSITIONS)
-        return dict(zip(coupled.COLUMNS, means))
+    def average(self, name: str, condition: Condition, values: Mapping[str, float]) -> float:
+        """Mean of a column of ``running`` over one turn of the cranks."""
+        k = coupled.COLUMNS.index(name)
+        whole = float(self.means(condition, {}, MEAN_POSITIONS)[k])
+        if not self.relevant(values, condition.hours > 0.0):
+            return whole
+
+        def change(setting: Condition) -> float:
+            # What the values change, roughly seen from fewer positions.
+            return float(self.means(setting, values, self.mean_positions)[k] - self.means(setting, {}, self.mean_positions)[k])
+
+        extremes = self.kept(("corners", condition), lambda: corners(condition, self.planned))
+        if extremes:
+            changes = np.array([change(c) for c in extremes])
+            if float(np.ptp(changes)) <= OF_CHANGE * float(np.abs(changes).max()) + TOLERANCE * abs(whole):
+                # At all speeds and temperatures between them, too.
+                return whole + float(changes[0])
+        return whole + change(condition)
 
     def means(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
         """Mean of each column over ``positions`` of a turn of the cranks."""

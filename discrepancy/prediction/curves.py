@@ -275,7 +275,8 @@ def cage_ripple(bench: Bench, record: Record, values: Values, cage: float) -> Fl
         return np.zeros(len(record.values))
     if curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
         nodes = nodes_of(plain, values)
-        at, beyond = plain.anchored(values)
+        # Where samples have nodes, their own angles are not to be computed: there may be a million.
+        at, beyond = plain.anchored(values) if nodes is None else (values, 0.0)
         anchor, place = as_turned(bench, record, at)
         angles = anchor if nodes is None else nodes.angles
         ahead, there = (bench.error_beside(curve.condition, values, angles, values, angles, c) for c in (cage, 0.0))

@@ -122,7 +122,7 @@ def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
 def input_torque(bench: Bench, record: Record, values: Values) -> Floats:
     if "angle" in record.axes or "time" in record.axes:
         return np.abs(signal(OverAngle(bench, record, "drive_torque"), values))
-    return np.array([abs(bench.averages(c, values)["drive_torque"]) for c in row_conditions(bench, record)])
+    return np.array([abs(bench.average("drive_torque", c, values)) for c in row_conditions(bench, record)])
 
 
 def no_load_torque(bench: Bench, record: Record, values: Values) -> Floats:
@@ -133,7 +133,7 @@ def no_load_torque(bench: Bench, record: Record, values: Values) -> Floats:
 def efficiency(bench: Bench, record: Record, values: Values) -> Floats:
     found = []
     for c in row_conditions(bench, record):
-        torque = abs(bench.averages(c, values)["drive_torque"])
+        torque = abs(bench.average("drive_torque", c, values))
         found.append(abs(c.load) / (abs(bench.ratio) * torque))
     return np.array(found)
 
@@ -163,7 +163,7 @@ def vibration_order(bench: Bench, record: Record, values: Values) -> Floats:
 
 def temperature(bench: Bench, record: Record, values: Values) -> Floats:
     condition = condition_of(bench, record)
-    steady = bench.averages(condition, {**values, "thermal_time": 0.0})["reducer_temperature"]
+    steady = bench.average("reducer_temperature", condition, {**values, "thermal_time": 0.0})
     constant = values.get("thermal_time", 0.0)
     time = np.asarray(record.axes["time"], np.float64)
     rise = 1.0 - np.exp(-(time - time[0]) / constant) if constant > 0.0 else np.ones(len(time))
@@ -171,7 +171,7 @@ def temperature(bench: Bench, record: Record, values: Values) -> Floats:
 
 
 def cage_speed(bench: Bench, record: Record, values: Values) -> Floats:
-    return np.array([abs(bench.averages(c, values)["cage_speed"]) for c in row_conditions(bench, record)])
+    return np.array([abs(bench.average("cage_speed", c, values)) for c in row_conditions(bench, record)])
 
 
 def worn_difference(measure: Callable[..., Floats]) -> Callable[[Bench, Record, Values], Floats]:

@@ -5,7 +5,7 @@ in a run is seen at a few of its places: where these repeat another condition's 
 """
 
 import threading
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +20,8 @@ PLACES, HARDLY_MORE = 5, 12
 OF_CHANGE, OF_CURVE = 1e-6, 1e-6
 # So many other conditions are looked at.
 MOST = 3
+# Of fewer conditions than these all are computed.
+HARDLY_MORE_CONDITIONS = 4
 
 
 class Twins:
@@ -75,3 +77,19 @@ def same(seen: Floats, known: Floats, curve: Floats, base: Floats, left: float =
     """
     allowed = left + OF_CHANGE * float(np.abs(curve - base).max()) + OF_CURVE * float(np.ptp(base))
     return bool(np.abs(seen - known).max() <= allowed)
+
+
+def corners(condition: Condition, others: Iterable[Condition]) -> list[Condition]:
+    """Of the new reducer's conditions with this load those furthest out in speed and temperature, if ``condition`` lies between them and is none.
+
+    What they have in common all between them have: nothing that depends on speed or temperature is the same slow and fast, cold and warm.
+    Empty where there are hardly more.
+    """
+    group = list({c for c in others if c.hours == condition.hours == 0.0 and (c.load, c.direction) == (condition.load, condition.direction)})
+    if len(group) <= HARDLY_MORE_CONDITIONS:
+        return []
+    speeds, temperatures = (np.array([getattr(c, name) for c in group]) for name in ("speed", "temperature"))
+    inside = speeds.min() <= condition.speed <= speeds.max() and temperatures.min() <= condition.temperature <= temperatures.max()
+    wide, warm = max(float(np.ptp(speeds)), 1e-9), max(float(np.ptp(temperatures)), 1e-9)
+    found = [group[int(np.argmax(a * speeds / wide + b * temperatures / warm))] for a, b in ((-1, -1), (-1, 1), (1, -1), (1, 1))]
+    return sorted(set(found), key=lambda c: (c.speed, c.temperature)) if inside and condition not in found else []

@@ -14,7 +14,7 @@ def text_of(completion: Completion, name: str) -> str:
     """The file; it is read and checked as any other by ``reducers.reducer.reducer_of``."""
     given = completion.given
     lines = [
-        f"# {name}: completed from ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m rated"
+        f"# {' '.join(name.split())}: completed from ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m rated"
         + (f" and {given.diameter:g} mm outer diameter" if given.diameter is not None else "") + ".",
         '# Every number: value, unit, source. "completed": by a design rule, with the range that the rules leave; "given": known.',
         "# Replace what you measure by value and \"measured\" as source, or complete again with --known.",

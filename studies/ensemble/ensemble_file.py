@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import ConfigDict, Field, field_validator
 
 from fmu_src.faults import InputFault
 from fmu_src.names import dotted, found_by_name
@@ -44,7 +44,13 @@ NUMBERS = {
 }  # fmt: skip
 
 
-class Entry(Strict):
+class Finite(Strict):
+    """Nothing scatters about infinity."""
+
+    model_config = ConfigDict(allow_inf_nan=False)
+
+
+class Entry(Finite):
     distribution: Literal["normal", "uniform", "triangular", "lognormal"]
     unit: str
     mean: float | None = None
@@ -56,7 +62,7 @@ class Entry(Strict):
     factor: float | None = Field(None, gt=1.0)
 
 
-class Content(Strict):
+class Content(Finite):
     reducer: str
     parameters: dict[str, Entry] = Field(min_length=1)
     limits: dict[str, float] = {}

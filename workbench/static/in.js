@@ -1,6 +1,7 @@
 // In: drop files, look at what they are taken for and why, correct it by a click, save the campaign.
 
 import { choose, clear, command, h, note, table, words } from "./dom.js";
+import { cells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs } from "./in_runs.js";
 import { drop, get, post, put } from "./net.js";
@@ -72,6 +73,23 @@ export function show(root, context) {
     // What was refused is shown as it was.
     draw();
   }
+  // A cell of campaign.toml itself; what is refused is shown as it was.
+  async function correct(place, value) {
+    const found = await context.act(post("in/edit", { of: data.cells.of, place, value }), faults);
+    if (found) {
+      const own = data.own;
+      clear(faults);
+      data = found;
+      // The cells stay: another of them may be in the hand by now.
+      if (!own) {
+        clear(document.getElementById("there"), elsewhere());
+        clear(document.getElementById("findings"), findings());
+        return;
+      }
+    }
+    draw();
+    if (!found) faults.scrollIntoView({ block: "center" });
+  }
   const bag = {
     get data() {
       return data;
@@ -98,7 +116,11 @@ export function show(root, context) {
       return;
     }
     if (data.saved && !data.own) {
-      clear(body, data.fault ? note(data.fault, "bad") : null, elsewhere(), found());
+      const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
+        held = document.activeElement?.id;
+      clear(body, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, correct) : null, h("div", { id: "findings" }, findings()));
+      for (const id of open) if (id) document.getElementById(id)?.setAttribute("open", "");
+      if (held) document.getElementById(held)?.focus();
       return;
     }
     const held = document.activeElement?.id;
@@ -118,7 +140,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [questions(bag), runs(bag), conditions(bag), saved(), found(), textOf()] : files(),
+      data.proposal ? [questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, correct) : null, findings(), textOf()] : files(),
     );
     if (held) document.getElementById(held)?.focus();
   }
@@ -128,8 +150,9 @@ export function show(root, context) {
     h(
       "div",
       { class: "panel" },
+      data.fault ? note(data.fault, "bad") : null,
       h("h1", {}, data.campaign ? `Campaign ${data.campaign.name}` : "campaign.toml"),
-      h("p", { class: "quiet" }, "campaign.toml was written by hand or by the command line: it is used as it stands, and corrected there."),
+      h("p", { class: "quiet" }, "campaign.toml was written by hand or by the command line: it is used as it stands. What is corrected here changes that alone; comments and all else stay."),
       data.campaign
         ? table(
             ["quantity", "runs", "held out", "conditions", "repetitions"],
@@ -154,7 +177,7 @@ export function show(root, context) {
         ),
       ),
     );
-  const found = () =>
+  const findings = () =>
     data.findings?.length
       ? h(
           "details",

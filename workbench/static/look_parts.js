@@ -165,17 +165,17 @@ export const fails = (result, context) =>
           "div",
           { class: "panel" },
           table(
-            ["signal", "what", "depends on", "share of the misfit", "p"],
+            ["signal", "what", "depends on", "share of the misfit", ""],
             result.places
               .slice(0, 20)
               .map((p) => [
                 result.signals.find((s) => s.signal === p.signal)?.title ?? words(p.signal),
                 p.feature,
                 words(p.dependence),
-                `${Math.round(100 * p.share)} %`,
-                p.p.toExponential(0),
+                `${Math.round(100 * p.share)} %, p = ${p.p.toExponential(0)}`,
+                why(p.why, `${words(p.signal)}, ${p.feature}`),
               ]),
-            [3, 4],
+            [3],
           ),
         ),
         h(
@@ -198,7 +198,7 @@ export const notes = (result) =>
   h(
     "details",
     { open: result.warnings.length > 0 && result.warnings.length < 4 },
-    h("summary", {}, `${result.warnings.length} notes${result.calibrated.length ? `, ${result.calibrated.length} calibrated` : ""}`),
+    h("summary", {}, `${result.warnings.length || "no"} note${result.warnings.length === 1 ? "" : "s"}${result.calibrated.length ? `, ${result.calibrated.length} calibrated` : ""}`),
     result.warnings.map((t) => note(t)),
     result.calibrated.length
       ? table(

@@ -1,0 +1,64 @@
+"""A step of a model's ladder as what shows it needs it: what was tried, what became of it, errors before and after."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Change:
+    """An error over the noise before and after a step."""
+
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class SignalChange:
+    """Root mean square errors of a signal [``unit``, SI] before and after a step, and its noise."""
+
+    signal: str
+    held_out: bool
+    unit: str
+    before: float
+    after: float
+    noise_floor: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """``training`` and ``held_out``: errors in the patterns that carry the misfit; None where they were not judged."""
+
+    campaign: str
+    effects: tuple[str, ...]
+    verdict: str
+    reason: str
+    kept: bool
+    training: Change | None
+    held_out: Change | None
+    signals: tuple[SignalChange, ...]
+
+    @property
+    def label(self) -> str:
+        return " + ".join(name.replace("_", " ").replace(".", ": ") for name in self.effects)
+
+    def change(self, kind: str) -> Change | None:
+        """Of the ``training`` or the ``held_out`` runs."""
+        return self.held_out if kind == "held_out" else self.training
+
+
+def steps_of(entries: Sequence[Mapping[str, Any]]) -> list[Step]:
+    """The steps as a model file holds them, which were checked when it was read; one written by hand may lack most of it."""
+    return [step_of(entry) for entry in entries]
+
+
+def step_of(entry: Mapping[str, Any]) -> Step:
+    def change(kind: str) -> Change | None:
+        before, after = entry.get(f"{kind}_before"), entry.get(f"{kind}_after")
+        return None if before is None or after is None else Change(float(before), float(after))
+
+    signals = tuple(
+        SignalChange(s["signal"], s["held_out"], s["unit"], s["before"], s["after"], s["noise_floor"]) for s in entry.get("signals") or []
+    )
+    return Step(entry.get("campaign", ""), tuple(entry["effects"]), entry.get("verdict", ""), entry.get("reason", ""), entry.get("kept", True),
+                change("training"), change("held_out"), signals)  # fmt: skip

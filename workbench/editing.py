@@ -1,0 +1,105 @@
+"""A campaign.toml as it stands, corrected cell by cell: everything else in it, comments included, stays as it was written."""
+
+import hashlib
+from collections.abc import Mapping
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
+from discrepancy.campaign.file_format import ConditionEntry
+from discrepancy.campaign.load import load_campaign
+from fmu_src.checked_file import replacing
+from fmu_src.faults import InputFault
+from workbench.folder import Folder
+
+# Of a condition what is one word; of a run's column what says how it is read.
+CONDITION = tuple(name for name in ConditionEntry.model_fields if name not in ("interventions", "notes"))
+COLUMN = ("column", "unit", "scale")
+
+
+def cells(folder: Folder) -> dict[str, Any]:
+    """What can be corrected: conditions by name, runs with the columns that each file is read by; ``of`` is the text that they stand in."""
+    content = folder.campaign.read_bytes()
+    document = parsed(content)
+    conditions = {
+        str(name): {key: entry[key] for key in CONDITION if key in entry}
+        for name, entry in table(document.get("conditions")).items() if isinstance(entry, Mapping)
+    }  # fmt: skip
+    runs = [
+        {"id": str(run.get("id", number + 1)), "file": str(run.get("file", "")), "quantity": str(run.get("quantity", "")), "condition": run.get("condition"),
+         "columns": {str(role): {key: entry[key] for key in COLUMN if key in entry}
+                     for role, entry in table(run.get("columns")).items() if isinstance(entry, Mapping)}}
+        for number, run in enumerate(document.get("runs") or []) if isinstance(run, Mapping)
+    ]  # fmt: skip
+    keys = [key for key in CONDITION if key == "held_out" or any(key in c for c in conditions.values())]
+    return {"of": told(content), "keys": keys, "conditions": conditions, "runs": runs}
+
+
+def edit(folder: Folder, given: Mapping[str, Any]) -> None:
+    """Put one ``value`` at a ``place``; InputFault, and nothing is changed, where the campaign could not be read any more.
+
+    ``place``: ["conditions", name, key], ["runs", number, "condition"] or ["runs", number, "columns", role, key].  An empty value takes the key away.
+    """
+    content = folder.campaign.read_bytes()
+    if given.get("of") != told(content):
+        raise InputFault("campaign.toml was changed since this page read it; it is shown anew, correct it again")
+    document = parsed(content)
+    holder, key = found(document, given.get("place"))
+    value = fitting(holder.get(key), key, given.get("value"))
+    if value is None:
+        holder.pop(key, None)
+    else:
+        holder[key] = value
+    with replacing(folder.campaign) as partial:
+        partial.write_bytes(tomlkit.dumps(document).encode("utf-8"))
+        try:
+            load_campaign(folder.root, file=partial)
+        except InputFault as fault:
+            raise InputFault(str(fault).replace(str(partial), "campaign.toml").replace(f"{folder.root}/", "")) from None
+
+
+def found(document: Any, place: Any) -> tuple[Any, str]:
+    """The table that holds what is meant, and its key there."""
+    try:
+        match place:
+            case ["conditions", str(name), str(key)] if key in CONDITION:
+                return document["conditions"][name], key
+            case ["runs", int(number), "condition"] if number >= 0:
+                return document["runs"][number], "condition"
+            case ["runs", int(number), "columns", str(role), str(key)] if number >= 0 and key in COLUMN:
+                return document["runs"][number]["columns"][role], key
+    except (KeyError, IndexError, TypeError):
+        pass
+    raise InputFault(f"{place!r} is no place of campaign.toml that can be corrected here")
+
+
+def fitting(before: Any, key: str, value: Any) -> Any:
+    """The value as the file has such: a number where a number stood, true or false for what is held out; None to take it away."""
+    if key == "held_out":
+        return True if value in (True, "true", "yes") else None
+    text = str(value if value is not None else "").strip()
+    if not text:
+        return None
+    if key == "scale" or (isinstance(before, (int, float)) and not isinstance(before, bool)):
+        try:
+            number = float(text)
+        except ValueError:
+            return text
+        return int(number) if isinstance(before, int) and number.is_integer() else number
+    return text
+
+
+def parsed(content: bytes) -> Any:
+    try:
+        return tomlkit.parse(content.decode("utf-8"))
+    except (UnicodeDecodeError, TOMLKitError) as fault:
+        raise InputFault(f"campaign.toml cannot be read: {fault}") from None
+
+
+def table(given: Any) -> Mapping[Any, Any]:
+    return given if isinstance(given, Mapping) else {}
+
+
+def told(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

@@ -1,0 +1,52 @@
+// A campaign.toml as it stands, corrected cell by cell: conditions, and the columns by which each file is read.
+
+import { choose, h, table, words } from "./dom.js";
+
+// ``put(place, value)`` sends a correction; what is refused is shown as it was.
+export function cells(found, put) {
+  const field = (place, value, label, size = 12) =>
+    h("input", {
+      type: "text",
+      value: value ?? "",
+      size,
+      id: `cell-${place.join("-")}`,
+      "aria-label": label,
+      style: { width: `${Math.max(size, String(value ?? "").length + 2)}ch` },
+      onchange: (event) => put(place, event.target.value),
+    });
+  const tick = (place, value, label) =>
+    h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
+  const names = Object.keys(found.conditions);
+  const condition = (name) => [
+    h("b", {}, name),
+    ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
+  ];
+  const run = (r, i) => [
+    h("b", {}, r.id),
+    r.file,
+    words(r.quantity),
+    names.includes(r.condition) ? choose(names, r.condition, (value) => put(["runs", i, "condition"], value), { "aria-label": `condition of ${r.id}` }) : String(r.condition),
+    h(
+      "div",
+      {},
+      Object.entries(r.columns).map(([role, c]) =>
+        h(
+          "div",
+          { class: "row small" },
+          h("span", { class: "quiet" }, words(role)),
+          field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
+          field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
+        ),
+      ),
+    ),
+  ];
+  return [
+    h("details", { class: "panel", id: "cells-conditions" }, h("summary", {}, h("b", {}, "Correct conditions")), table(["condition", ...found.keys.map(words)], names.map(condition))),
+    h(
+      "details",
+      { class: "panel", id: "cells-runs" },
+      h("summary", {}, h("b", {}, "Correct the columns of single files")),
+      table(["run", "file", "quantity", "condition", "columns and units"], found.runs.map(run)),
+    ),
+  ];
+}
