@@ -44,12 +44,11 @@ def noise_from(space: Workspace, signal: str) -> str:
 
 
 def of_key_figure(f: KeyFigure) -> Why:
-    named = "torsional_stiffness" if f.unit == "N.m/rad" else f.signal
     noise = f"what its {f.runs} repetitions differ by, over the root of their number" if f.repeated else f"{DRAWS} draws of the noise of its samples"
     return Why(
         "read in one way from the measured curve and from the model at the same samples; their difference over its noise",
         f"{counted(f.runs, 'run')} at {f.condition}; the noise is {noise}",
-        f"{amounts.text(abs(f.measured - f.model), f.unit, named)} apart, {number(abs(f.off))} times {amounts.text(f.noise, f.unit, named)};"
+        f"{amounts.text(abs(f.measured - f.model), f.unit, f.told_as)} apart, {number(abs(f.off))} times {amounts.text(f.noise, f.unit, f.told_as)};"
         f" {CLEARLY:g} times and more is clear",
     )
 
