@@ -9,6 +9,7 @@ from discrepancy.inference.refit.profile import Profile, profiles
 from discrepancy.page.amounts import effect_title, pretty
 from discrepancy.scales import of_parameter
 from discrepancy.verdict import Answer
+from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Section
 
@@ -28,6 +29,14 @@ def section(answer: Answer) -> Section:
     return Section("profiles", "How well each parameter is known", lead if figures else "No parameter has an interval.", figures)
 
 
+def between(p: Profile, best: float, at: Floats) -> Floats:
+    """The profile ``at`` values between those computed: its root, with the sign of the side, is straight where a parabola fits."""
+    order = np.argsort(p.values)
+    root = np.sign(p.values - best) * np.sqrt(np.maximum(p.chi2, 0.0))
+    found: Floats = np.interp(at, p.values[order], root[order]) ** 2
+    return found
+
+
 def figure(place: int, p: Profile, name: str) -> look.Figure:
     scale = of_parameter(float(np.abs(p.values).max()), p.unit)
     x = scale.factor * p.values + scale.offset
@@ -37,11 +46,12 @@ def figure(place: int, p: Profile, name: str) -> look.Figure:
     unit = pretty(scale.unit)
     data = [
         look.line(look.short(scale.factor * fine + scale.offset, 5), parabola, look.QUIET, 1.2, "dot", name="parabola"),
-        look.line(look.short(x, 5), look.short(p.chi2), look.NOW, 2.0, mode="lines+markers", name="profile"),
+        look.line(look.short(scale.factor * fine + scale.offset, 5), look.short(between(p, best, fine)), look.NOW, 2.0, name="profile"),
+        look.line(look.short(x, 5), look.short(p.chi2), look.NOW, 2.0, mode="markers", name="computed"),
     ]
     limit = {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": LIMIT, "y1": LIMIT, "line": {"color": look.QUIET, "width": 1}}
     layout = look.layout(
-        xaxis=look.axis(f"{name}{f' [{unit}]' if unit else ''}"),
+        xaxis=look.axis(f"{name}{f' [{unit}]' if unit else ''}", exponentformat="power"),
         yaxis=look.axis("chi-square above the best", range=[-0.5, HIGHEST]),
         shapes=[limit],
         annotations=[{"xref": "paper", "x": 1, "y": LIMIT, "text": "95 %", "showarrow": False, "xanchor": "right", "yanchor": "bottom"}],
