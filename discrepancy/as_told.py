@@ -12,8 +12,6 @@ from discrepancy.scales import largest, of_axis, of_parameter, of_signal
 from fmu_src.table import Table
 from reducers.reducer import Reducer
 
-STIFFNESS = "torsional_stiffness"
-
 
 def told_name(name: str, tables: Sequence[Table]) -> str:
     """What people call the variable (or an element of it) that kernels call so: ``mesh.stiffness``, ``effects.thermal_expansion.expansion``."""
@@ -39,13 +37,13 @@ def effect_name(effect: str, parameter: str) -> str:
 
 def row(entry: Mapping[str, Any], signal: str, unit: str, keys: Sequence[str]) -> dict[str, Any]:
     """An entry whose ``keys`` are differences or sizes of a signal [``unit``, SI]."""
-    scale = of_signal(STIFFNESS if unit == "N.m/rad" else signal, unit)
+    scale = of_signal(signal, unit)
     here = [key for key in keys if entry.get(key) is not None]
     return {**entry, **{key: scale.number(entry[key]) for key in here}, "unit": scale.unit, "si": {key: entry[key] for key in here} | {"unit": unit}}
 
 
 def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
-    return [row(f.as_json(), f.signal, f.unit, ("measured", "model", "noise")) for f in found]
+    return [row(f.as_json(), f.told_as, f.unit, ("measured", "model", "noise")) for f in found]
 
 
 def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from discrepancy.model_file import SignalEntry
+
 
 @dataclass(frozen=True)
 class Change:
@@ -11,18 +13,6 @@ class Change:
 
     before: float
     after: float
-
-
-@dataclass(frozen=True)
-class SignalChange:
-    """Root mean square errors of a signal [``unit``, SI] before and after a step, and its noise."""
-
-    signal: str
-    held_out: bool
-    unit: str
-    before: float
-    after: float
-    noise_floor: float
 
 
 @dataclass(frozen=True)
@@ -36,7 +26,7 @@ class Step:
     kept: bool
     training: Change | None
     held_out: Change | None
-    signals: tuple[SignalChange, ...]
+    signals: tuple[SignalEntry, ...]
 
     @property
     def label(self) -> str:
@@ -57,8 +47,6 @@ def step_of(entry: Mapping[str, Any]) -> Step:
         before, after = entry.get(f"{kind}_before"), entry.get(f"{kind}_after")
         return None if before is None or after is None else Change(float(before), float(after))
 
-    signals = tuple(
-        SignalChange(s["signal"], s["held_out"], s["unit"], s["before"], s["after"], s["noise_floor"]) for s in entry.get("signals") or []
-    )
+    signals = tuple(SignalEntry(**s) for s in entry.get("signals") or [])
     return Step(entry.get("campaign", ""), tuple(entry["effects"]), entry.get("verdict", ""), entry.get("reason", ""), entry.get("kept", True),
                 change("training"), change("held_out"), signals)  # fmt: skip

@@ -59,6 +59,8 @@ class Number(Strict):
 
 
 class SignalEntry(Strict):
+    """Root mean square errors of a signal [``unit``, SI] before and after a step, and its noise."""
+
     signal: str
     held_out: bool
     unit: str

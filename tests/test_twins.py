@@ -10,7 +10,7 @@ from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverAngle, cage_ripple
 from discrepancy.prediction.fineness import Fineness
-from discrepancy.prediction.twins import Twins, corners
+from discrepancy.prediction.twins import Twins, corners, places_of
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from studies.coupled import COLUMNS
@@ -90,7 +90,7 @@ def test_worn_reducers_have_no_twins():
     twins = Twins()
     for condition in (COLD, WARM):
         old = replace(condition, hours=3.6e6)
-        assert twins.of("run", old, lambda other: asked.append(other) or True) == old
+        assert twins.of("run", old, places_of(100), lambda other, places: asked.append(other) or True) == old
     assert not asked
 
 

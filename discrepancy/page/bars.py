@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from discrepancy.ladder_step import SignalChange
+from discrepancy.model_file import SignalEntry
 from discrepancy.page.amounts import signal_title
 from pages import look
 from pages.look import Figure, short
@@ -104,6 +104,6 @@ def single(
     return Figure(name, title, caption, data, layout, columns, 80 + 30 * max(len(groups), 2))
 
 
-def signal_rows(rows: Sequence[SignalChange]) -> list[str]:
+def signal_rows(rows: Sequence[SignalEntry]) -> list[str]:
     """Names of signals, held-out ones marked."""
     return [signal_title(r.signal) + (", held out" if r.held_out else ", fitted") for r in rows]

@@ -8,11 +8,10 @@ import math
 from collections.abc import Callable, Hashable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
-from discrepancy.prediction.twins import OF_CHANGE, Twins, corners, places_of, same
+from discrepancy.prediction.twins import OF_CHANGE, Places, Twins, corners, places_of, same
 from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats, copied
@@ -83,10 +82,7 @@ class Bench(Lives):
         """One column of ``running``, which may be that of another condition under which it is the same."""
         k = coupled.COLUMNS.index(name)
 
-        def repeats(other: Condition) -> bool:
-            chosen = places_of(len(angles))
-            if chosen is None:
-                return False
+        def repeats(other: Condition, chosen: Places) -> bool:
             known, places = self.running_places(other, values, angles, cage)
             plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=LARGEST_CRANK_STEP, z=places[0])
             seen, durations = np.zeros((len(chosen), len(coupled.COLUMNS))), self.durations(condition, angles[chosen])
@@ -98,7 +94,7 @@ class Bench(Lives):
             return same(seen[:, k], known[chosen, k], known[:, k], base[:, k], left)
 
         run = ("running", k, self.relevant(values, condition.hours > 0.0), angles.tobytes(), cage)
-        return self.running(self.twins.of(run, condition, repeats), values, angles, cage)[:, k]
+        return self.running(self.twins.of(run, condition, places_of(len(angles)), repeats), values, angles, cage)[:, k]
 
     def durations(self, condition: Condition, angles: Floats) -> Floats:
         """Times [s] in which the output turns to each of its ``angles`` from the one before."""
@@ -142,7 +138,7 @@ class Bench(Lives):
         """Transmission error [rad] of a new reducer with ``values`` and cages ``cage`` ahead, to first order beside the run with ``base``."""
         relevant, before = self.relevant(values, False), self.relevant(base, False)
 
-        def beside(setting: Condition, chosen: slice | npt.NDArray[np.intp], similar: Floats) -> Floats:
+        def beside(setting: Condition, chosen: slice | Places, similar: Floats) -> Floats:
             plants = self.new_plant(setting, values, float(angles[0]), cage, z=similar[0])
             errors = np.zeros(len(similar))
             self.check((coupled.sweep_beside(plants, self.durations(setting, angles[chosen]), errors, similar), 0), plants, self.templates[1])
@@ -152,15 +148,13 @@ class Bench(Lives):
             key = ("beside", setting, relevant, before, angles.tobytes(), base_angles.tobytes(), cage)
             return self.kept(key, lambda: beside(setting, slice(None), self.running_places(setting, base, base_angles)[1]))
 
-        def repeats(other: Condition) -> bool:
-            chosen = places_of(len(angles))
-            if chosen is None:
-                return False
+        def repeats(other: Condition, chosen: Places) -> bool:
             series, places = self.running_places(other, base, base_angles)
             known = whole(other)
             return same(beside(condition, chosen, places[chosen]), known[chosen], known, series[:, coupled.COLUMNS.index("transmission_error")])
 
-        return whole(self.twins.of(("beside", relevant, before, angles.tobytes(), base_angles.tobytes(), cage), condition, repeats))
+        run = ("beside", relevant, before, angles.tobytes(), base_angles.tobytes(), cage)
+        return whole(self.twins.of(run, condition, places_of(len(angles)), repeats))
 
     def average(self, name: str, condition: Condition, values: Mapping[str, float]) -> float:
         """Mean of a column of ``running`` over one turn of the cranks."""
@@ -208,29 +202,27 @@ class Bench(Lives):
     def held_mean(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
         """``held`` from so many positions, which may be that of another condition under which it is the same."""
 
-        def repeats(other: Condition) -> bool:
-            # A way that leaves its mark is gone again whole, from one position.
-            chosen = np.arange(len(torques)) if self.remembers(values) else places_of(len(torques))
-            if chosen is None or positions < LEAST_POSITIONS:
-                return False
+        guessed = not self.remembers(values)
+
+        def repeats(other: Condition, chosen: Places) -> bool:
             known, places = self.held_places(other, values, torques, positions, turns)
             seen, found = np.zeros(len(chosen)), np.zeros((len(chosen), places.shape[2]))
-            guessed = not self.remembers(values)
-            plants = self.new_held(condition, values, 0.0, torques, places[0][0] if guessed else None)
+            plants = self.new_held(condition, values, 0.0, torques, places[0][0] if guessed else np.zeros(places.shape[2]))
             self.check((coupled.torque_sweep(plants, torques[chosen], seen, found, places[0][chosen], guessed), 0), plants, self.templates[1])
             base = self.held_places(other, {}, torques, positions, turns)[0] if self.relevant(values, False) else known
             return same(seen, known[0][chosen], known[0], base[0])
 
         run = ("held", self.relevant(values, condition.hours > 0.0), torques.tobytes(), positions, turns)
-        turning = self.held_places(self.twins.of(run, condition, repeats), values, torques, positions, turns)[0]
+        # A way that leaves its mark is gone again whole, from one position.
+        chosen = places_of(len(torques)) if guessed else np.arange(len(torques))
+        twin = self.twins.of(run, condition, chosen if positions >= LEAST_POSITIONS else None, repeats)
+        turning = self.held_places(twin, values, torques, positions, turns)[0]
         found: Floats = (turning / positions).sum(axis=0)
         return found
 
-    def new_held(self, condition: Condition, values: Mapping[str, float], angle: float, torques: Floats, z: Floats | None) -> np.ndarray:
-        """A plant with its input held at an output angle [rad] under the first of ``torques``, its bodies at ``z`` if given."""
-        if z is None:
-            return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]))
-        return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), z=z, advance_before=0.0)
+    def new_held(self, condition: Condition, values: Mapping[str, float], angle: float, torques: Floats, z: Floats) -> np.ndarray:
+        """A plant with its input held at an output angle [rad] under the first of ``torques``; its equilibrium is looked for from ``z`` on."""
+        return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), z=z)
 
     def held_places(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> tuple[Floats, Floats]:
         """(turning, equilibria), each by crank position: those of the base model are where others start."""
@@ -247,8 +239,8 @@ class Bench(Lives):
             surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
             plants = None
             for k, angle in enumerate(self.held_at(positions)):
-                z = similar[k][0] if guessed else None
-                if plants is None or z is None:
+                z = similar[k][0] if guessed else np.zeros(places.shape[2])
+                if plants is None or not guessed:
                     plants = self.new_held(condition, values, angle, torques, z)
                 else:
                     self.place(plants, angle, z=z, advance_before=0.0)
@@ -268,9 +260,9 @@ class Bench(Lives):
         """``held`` of a new reducer with ``values`` to first order beside the run with ``base``; neither may remember its way."""
         positions, relevant, before = self.held_angles, self.relevant(values, False), self.relevant(base, False)
 
-        def beside(setting: Condition, angle: float, chosen: slice | npt.NDArray[np.intp], similar: Floats) -> Floats:
+        def beside(setting: Condition, angle: float, chosen: slice | Places, similar: Floats) -> Floats:
             applied, turning = torques[chosen], np.zeros(len(similar))
-            plants = self.new_plant(setting, values, angle, input_speed=0.0, load_torque=float(applied[0]), z=similar[0])
+            plants = self.new_held(setting, values, angle, applied, similar[0])
             self.check((coupled.torque_sweep_beside(plants, applied, turning, similar), 0), plants, self.templates[1])
             return turning
 
@@ -281,16 +273,13 @@ class Bench(Lives):
 
             return self.kept(("held beside", setting, relevant, before, torques.tobytes(), positions), run)
 
-        def repeats(other: Condition) -> bool:
-            chosen = places_of(len(torques))
-            if chosen is None:
-                return False
+        def repeats(other: Condition, chosen: Places) -> bool:
             turning, places = self.held_places(other, base, torques, positions, SHORT_CYCLE)
             known = whole(other)[0]
             return same(beside(condition, 0.0, chosen, places[0][chosen]), known[chosen], known, turning[0])
 
         run = ("held beside", relevant, before, torques.tobytes(), positions)
-        found: Floats = (whole(self.twins.of(run, condition, repeats)) / positions).sum(axis=0)
+        found: Floats = (whole(self.twins.of(run, condition, places_of(len(torques)), repeats)) / positions).sum(axis=0)
         return found
 
     def put_wear(self, wears: np.ndarray, plants: np.ndarray) -> None:

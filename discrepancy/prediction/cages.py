@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.conditions import angles_of
+from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import ripple_of_cages, transmission_error
@@ -59,7 +59,7 @@ class Cages:
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
-        few = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
+        few = fewer(record, turns_of(self.bench, record))
         if few is record:
             there = transmission_error(self.bench, record, own)
             quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)

@@ -61,6 +61,11 @@ def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
     return condition.direction * condition.speed / abs(bench.ratio) * (time - float(time[0])) + zero
 
 
+def turns_of(bench: Bench, record: Record) -> float:
+    """Turns of the output that the samples span."""
+    return float(np.ptp(angles_of(bench, record, 0.0))) / (2.0 * np.pi)
+
+
 def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
     """The record's angles in the order in which they are passed, and the place of each sample among them."""
     angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))

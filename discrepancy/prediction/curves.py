@@ -100,9 +100,22 @@ class OverAngle:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
     def directly(self, values: Values) -> Floats:
+        angles, samples = self.support(None, values)
+        return samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
+
+    def support(self, nodes: AngleNodes | None, values: Values) -> tuple[Floats, Callable[[Floats], Floats]]:
+        """Angles [rad] at which to compute, and how the record's samples follow from there: ``nodes``, else the samples' own, near their anchor."""
+        if nodes is not None:
+            places = self.places(values)
+            return nodes.angles, lambda series: nodes.samples(series, places)
         at, beyond = self.anchored(values)
         angles, place = as_turned(self.bench, self.record, at)
-        return moved(angles, self.bench.column(self.name, self.condition, values, angles, self.cage), beyond)[place]
+        return angles, lambda series: moved(angles, series, beyond)[place]
+
+    def beside(self, values: Values, base: Values, angles: Floats) -> Floats:
+        """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
+        high, low = (self.bench.error_beside(self.condition, v, angles, base, angles) for v in (values, base))
+        return high - low
 
     def anchored(self, values: Values) -> tuple[Values, float]:
         """The values with the record's angle 0 at one of few places, and how far [rad] it is from there: runs are shared by all zeros near one."""
@@ -118,7 +131,8 @@ class OverAngle:
             return 0.0
 
         def found() -> float:
-            series = self.bench.column(self.name, self.condition, {}, angles, self.cage)
+            # Wherever the cages stand: whoever asks first, all have the same.
+            series = self.bench.column(self.name, self.condition, {}, angles)
             spacing = float(np.median(np.abs(np.diff(angles))))
             error = SplineNodes(angles).error(series)
             share = FIRMLY * self.bench.allowed(self.record) / error if error > 0.0 else 1.0
@@ -244,25 +258,17 @@ def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> E
 def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
     """What ``values`` change in the transmission error [rad] next to ``base``, to first order; None where that is not cheaper."""
     curve = OverAngle(bench, record, "transmission_error")
-    condition = curve.condition
-    if condition.hours > 0.0:
+    if curve.condition.hours > 0.0:
         return None
-
-    def between(nodes: AngleNodes) -> Floats:
-        high, low = (bench.error_beside(condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
-        return high - low
-
-    nodes = nodes_of_slopes(curve, values, base, between)
-    if nodes is None:
-        at, beyond = curve.anchored(base)
-        anchor, place = as_turned(bench, record, at)
-        if values.get(angle_zero(record), 0.0) == base.get(angle_zero(record), 0.0):
-            high, low = (bench.error_beside(condition, v, anchor, base, anchor) for v in (values, base))
-            return moved(anchor, high - low, beyond)[place]
-        high, low = (bench.error_beside(condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
+    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
+    turned = values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0)
+    if nodes is None and turned:
+        anchor, place = as_turned(bench, record, curve.anchored(base)[0])
+        high, low = (bench.error_beside(curve.condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
         return (high - low)[place]
-    change = nodes.samples(between(nodes), curve.places(values))
-    if values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0):
+    angles, samples = curve.support(nodes, values)
+    change = samples(curve.beside(values, base, angles))
+    if turned:
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, angle_zero(record): values[angle_zero(record)]}) - signal(curve, base)
     return change
@@ -274,15 +280,11 @@ def cage_ripple(bench: Bench, record: Record, values: Values, cage: float) -> Fl
     if cage == 0.0:
         return np.zeros(len(record.values))
     if curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
-        nodes = nodes_of(plain, values)
-        # Where samples have nodes, their own angles are not to be computed: there may be a million.
-        at, beyond = plain.anchored(values) if nodes is None else (values, 0.0)
-        anchor, place = as_turned(bench, record, at)
-        angles = anchor if nodes is None else nodes.angles
+        angles, samples = plain.support(nodes_of(plain, values), values)
         ahead, there = (bench.error_beside(curve.condition, values, angles, values, angles, c) for c in (cage, 0.0))
         change = ahead - there
         if OF_RIPPLE * float(np.std(change)) <= HARDLY_SEEN * bench.allowed(record):
-            return moved(anchor, change, beyond)[place] if nodes is None else nodes.samples(change, plain.places(values))
+            return samples(change)
     return signal(curve, values) - signal(plain, values)
 
 
@@ -298,11 +300,7 @@ def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, f
     curve = OverAngle(bench, record, "transmission_error")
     nodes = curve.nodes(COARSEST)
     assert nodes is not None
-    if first_order:
-        high, low = (bench.error_beside(curve.condition, v, nodes.angles, base, nodes.angles) for v in (values, base))
-    else:
-        high, low = curve.run(values, nodes), curve.run(base, nodes)
-    return high - low
+    return curve.beside(values, base, nodes.angles) if first_order else curve.run(values, nodes) - curve.run(base, nodes)
 
 
 def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:

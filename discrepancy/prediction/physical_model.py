@@ -14,7 +14,7 @@ from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, distinct_conditions, identity
+from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, distinct_conditions, identity, turns_of
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
@@ -124,7 +124,7 @@ class PhysicalModel:
             # One record tells; the pattern hardly depends on the condition.
             record = self.records[indices[0]]
             if record.quantity == ERROR:
-                record = fewer(record, float(np.ptp(angles_of(self.bench, record, 0.0))) / (2.0 * np.pi))
+                record = fewer(record, turns_of(self.bench, record))
             own = self.for_record(record, self.standing())
             found = shifted_errors(self.bench, curve_of(record), own, shifts)
             if record.quantity == ORDERS:

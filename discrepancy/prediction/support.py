@@ -61,7 +61,6 @@ class AngleNodes(ABC):
     def error(self, values: Floats) -> float:
         """Error of interpolated ``values``, root mean square."""
 
-
     def beginning(self: "Angles") -> "Angles":
         """Those of the first turns, by which an error is judged."""
         within = np.abs(self.angles - self.angles[0]) <= JUDGED * 2.0 * np.pi

@@ -14,6 +14,8 @@ import numpy.typing as npt
 from discrepancy.prediction.units import Condition
 from fmu_src.arrays import Floats
 
+# Where in a run.
+Places = npt.NDArray[np.intp]
 # A run is compared at so many of its places; one of hardly more is made.
 PLACES, HARDLY_MORE = 5, 12
 # What counts as the same: of what values change in it, and of how far the curve goes at all (its equilibria are as good).
@@ -39,12 +41,12 @@ class Twins:
     def __setstate__(self, state: dict[str, object]) -> None:
         self.__init__()  # type: ignore[misc]
 
-    def of(self, run: Hashable, condition: Condition, repeats: Callable[[Condition], bool]) -> Condition:
-        """The condition whose ``run`` is to be taken for that of ``condition``: its own, or one of which ``repeats`` says so.
+    def of(self, run: Hashable, condition: Condition, places: Places | None, repeats: Callable[[Condition, Places], bool]) -> Condition:
+        """The condition whose ``run`` is to be taken for that of ``condition``: its own, or one that it ``repeats`` at some ``places``.
 
         Only new reducers have such: a life under other conditions is another one.
         """
-        if condition.hours > 0.0:
+        if condition.hours > 0.0 or places is None:
             return condition
         asked = (run, condition)
         if asked in self.found:
@@ -57,7 +59,7 @@ class Twins:
                 self.found[asked] = condition
                 return condition
             known = others[:MOST]
-        twin = next((other for other in known if other == condition or repeats(other)), condition)
+        twin = next((other for other in known if other == condition or repeats(other, places)), condition)
         with self.lock:
             if twin == condition and condition not in others:
                 others.append(condition)
@@ -65,7 +67,7 @@ class Twins:
         return twin
 
 
-def places_of(count: int) -> npt.NDArray[np.intp] | None:
+def places_of(count: int) -> Places | None:
     """Of ``count`` places those at which a run is compared, the first among them; None where that is hardly cheaper than all of it."""
     return None if count < HARDLY_MORE else np.linspace(0, count - 1, PLACES).astype(np.intp)
 
