@@ -18,13 +18,14 @@ from wear_fmu.variables import Resolution
 POSITIONS = 72
 # Hours that count as none [s].
 NOTHING = 1e-6 * HOUR
-# Longest and first stretch of hours that one wear cycle stands for.
-LONGEST_JUMP, FIRST_JUMP = 1000.0 * HOUR, 50.0 * HOUR
 # Turns of the cranks in a wear cycle.  The base model's wear is run through full meshing cycles, once;
 # how it changes in proportion through shorter ones of fewer positions, which err by 1 to 3 % of the change by a law of wear.
-SHORT_CYCLE, SHORT_POSITIONS = 3, 18
-# For searches still shorter cycles that stand for more hours at first: 2 to 5 % of the change.
-ROUGH_CYCLE, ROUGH_JUMP = 2, 200.0 * HOUR
+SHORT_CYCLE, SHORT_POSITIONS = 2, 18
+# For searches still shorter ones: 2 to 5 % of the change.
+ROUGH_CYCLE = 1
+# First and longest stretch of hours that one wear cycle stands for, by its turns.
+JUMPS = {SHORT_CYCLE: (100.0 * HOUR, 1000.0 * HOUR), ROUGH_CYCLE: (200.0 * HOUR, 2000.0 * HOUR)}
+FULL_JUMPS = (50.0 * HOUR, 1000.0 * HOUR)
 # Out-of-balance force over load while surfaces wear: depths within 1e-6.
 LIFE_TOLERANCE = 1e-6
 # A contact may sweep a whole step at once [rad], but on a standing pin, where it turns back (its print: 9 % instead of 3).
@@ -53,7 +54,7 @@ class Lives(Units):
 
     def wear_steps(self, condition: Condition, turns: int) -> tuple[float, int]:
         """Communication step [s] and their number in a wear cycle of ``turns``."""
-        positions = SHORT_POSITIONS if turns in (SHORT_CYCLE, ROUGH_CYCLE) else POSITIONS
+        positions = SHORT_POSITIONS if turns in JUMPS else POSITIONS
         return self.turning_time(condition) / positions, turns * positions
 
     def cycle(self, condition: Condition, turns: int) -> tuple[float, Floats]:
@@ -122,14 +123,14 @@ class Lives(Units):
 
 def stretches(inspections: list[float], turns: int) -> Iterator[tuple[float, float, float]]:
     """What the wear cycles of a life stand for: (time before, length, inspection it leads to) [s], growing in length."""
-    done, jump = 0.0, ROUGH_JUMP if turns == ROUGH_CYCLE else FIRST_JUMP
+    done, (jump, longest) = 0.0, JUMPS.get(turns, FULL_JUMPS)
     for target in sorted(set(inspections)):
         while target - done > NOTHING:
             left = target - done
             stretch = left / max(1, math.ceil(left / jump - 1e-9))
             yield done, stretch, target
             done += stretch
-            jump = min(LONGEST_JUMP, 2.0 * jump)
+            jump = min(longest, 2.0 * jump)
 
 
 def fresh(condition: Condition) -> Condition:

@@ -1,20 +1,20 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from discrepancy.campaign.model import Campaign, Nuisance
-from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
 from discrepancy.model_file import ModelFile, every_effect
-from discrepancy.prediction import model_error
+from discrepancy.prediction import chain, model_error
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
-from discrepancy.prediction.conditions import Values, angle_zero, at_rest, condition_of, distinct_conditions, identity, turns_of
+from discrepancy.prediction.chain import Chain
+from discrepancy.prediction.conditions import Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
@@ -45,6 +45,15 @@ FLOATING = 0.01
 PREDICTED = {*OBSERVED, ORDERS}
 
 
+@dataclass(frozen=True)
+class Asked:
+    """Values of everything for which is predicted: ``of_reducer`` what a reducer knows of, ``acting`` the effects of the measuring chain."""
+
+    values: Values
+    of_reducer: dict[str, float]
+    acting: list[str]
+
+
 class PhysicalModel:
     """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
@@ -69,7 +78,7 @@ class PhysicalModel:
         if not any(r.tags.get("surface") == "pin" for r in self.records):
             self.bench.largest_sweep = WHOLE_SWEEP
         self.rough_bench = self.bench.roughly()
-        self.chain_values = {n: v for n, v in present.items() if n.partition("[")[0] in CHAIN_PARAMETERS}
+        self.chain = Chain(self.bench, present)
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         if ORDERS in self.sizes:
             self.sizes.setdefault(ERROR, self.sizes[ORDERS])
@@ -143,19 +152,19 @@ class PhysicalModel:
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
-        return self.shared(range(len(self.records)) if which is None else which, (self.standing() | dict(values), None, False))
+        return self.shared(range(len(self.records)) if which is None else which, self.asked(values))
 
     def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], roughly: bool = False) -> list[Floats]:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
-        return self.shared(which, (self.standing() | dict(values), self.standing() | dict(base), roughly))
+        return self.shared(which, self.asked(values), self.asked(base), roughly)
 
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""
-        return self.shared(which, (self.standing() | dict(values), None, True))
+        return self.shared(which, self.asked(values), rough=True)
 
     def glimpse(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> Floats:
         """See ``problem.Glimpsing``: a transmission error at some angles, all else at its samples, under most and least load."""
-        high, low = self.standing() | dict(values), self.standing() | dict(base)
+        high, low = self.asked(values), self.asked(base)
         chosen: dict[str, Record] = {}
         for record in sorted((self.records[i] for i in which), key=lambda r: r.factors.get("load", 0.0)):
             chosen.setdefault(f"{record.quantity} least", record)
@@ -164,9 +173,9 @@ class PhysicalModel:
         few = {(r.quantity, r.condition, r.mounting): r for r in chosen.values()}
         return np.concatenate(self.threads.map(lambda record: self.glimpsed(record, high, low, first_order), few.values()))
 
-    def glimpsed(self, record: Record, high: Mapping[str, float], low: Mapping[str, float], first_order: bool) -> Floats:
+    def glimpsed(self, record: Record, high: Asked, low: Asked, first_order: bool) -> Floats:
         """``glimpse`` of one record."""
-        own, beside = self.for_record(record, high), self.for_record(record, low)
+        own, beside = self.own(record, high), self.own(record, low)
         places = glimpsed_angles(self.rough_bench, record) if record.quantity == "transmission_error" else None
         found = None
         if places is not None and self.bench.relevant(own, True) != self.bench.relevant(beside, True):
@@ -176,7 +185,7 @@ class PhysicalModel:
                 # Left to the whole prediction, which says so.
                 found = None
         if found is None:
-            found = self.one(record, high, low if first_order else None, True) - self.one(record, low, low if first_order else None, True)
+            found = self.predicted(record, high, low if first_order else None, True) - self.predicted(record, low, low if first_order else None, True)
             if places is not None:
                 found = found[np.linspace(0, len(found) - 1, len(places)).astype(np.intp)]
         if record.free_zero:
@@ -188,41 +197,39 @@ class PhysicalModel:
         """Nuisances where they start."""
         return {**self.zeros, **{p.name: p.off for p in self.declared}}
 
-    def shared(self, which: Sequence[int], arguments: tuple[Mapping[str, float], Mapping[str, float] | None, bool]) -> list[Floats]:
-        """Predictions on all threads."""
-        return self.threads.map(lambda i: self.one(self.records[i], *arguments), which)
+    def asked(self, values: Mapping[str, float]) -> Asked:
+        """``values`` beside the nuisances where they start."""
+        every = self.standing() | dict(values)
+        return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every))
 
-    def one(self, record: Record, values: Mapping[str, float], beside: Mapping[str, float] | None = None,
-            rough: bool = False) -> Floats:
+    def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False) -> list[Floats]:
+        """Predictions on all threads."""
+        return self.threads.map(lambda i: self.predicted(self.records[i], asked, beside, rough), which)
+
+    def one(self, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:
+        """Prediction of a record, which need not be one of the campaign's."""
+        return self.predicted(record, self.asked(values), None, rough)
+
+    def predicted(self, measured: Record, asked: Asked, beside: Asked | None, rough: bool) -> Floats:
+        """``one`` of values that are made ready; next to those ``beside`` to first order."""
         self.threads.check()
-        asked, record = record, curve_of(record)
-        own = self.for_record(record, values)
+        record = curve_of(measured)
         try:
-            predicted = self.observed(record, own, None if beside is None else self.for_record(record, beside), rough)
+            predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough)
         except RunFault:
-            if not self.bench.relevant(values, True):
+            if not self.bench.relevant(asked.values, True):
                 raise
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
-            signs = np.where(np.arange(len(asked.values)) % 2 == 0, 1.0, -1.0)
-            return asked.values + IMPOSSIBLE * self.sizes.get(asked.quantity, 1.0) * signs
-        predicted = with_error(predicted, record, values)
-        for module in MODULES.values():
-            places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
-            place = places[module.PER]
-
-            def at(parameter: str, place: str = place) -> float:
-                if parameter == OUTPUT_SPEED:
-                    return condition_of(self.bench, record).speed / abs(self.bench.ratio)
-                key = f"{parameter}[{place}]" if place else parameter
-                return values.get(key, self.chain_values.get(key, STARTS[parameter]))
-
-            if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
-                predicted = module.change(predicted, record, at, self.sizes.get(record.quantity) or size_of(predicted))
-        ripple = self.cages.ripple(record, values)
+            signs = np.where(np.arange(len(measured.values)) % 2 == 0, 1.0, -1.0)
+            return measured.values + IMPOSSIBLE * self.sizes.get(measured.quantity, 1.0) * signs
+        predicted = with_error(predicted, record, asked.values)
+        if asked.acting:
+            predicted = self.chain.changed(predicted, record, asked.values, asked.acting, self.sizes.get(record.quantity) or size_of(predicted))
+        ripple = self.cages.ripple(record, asked.values)
         if ripple is not None:
             predicted = predicted + ripple
-        if asked is not record:
-            return orders_shown(asked, predicted)
+        if measured is not record:
+            return orders_shown(measured, predicted)
         if record.free_zero:
             # The mean of the prediction is that of the measurement.
             predicted = predicted - float(predicted.mean()) + float(record.values.mean())
@@ -243,13 +250,14 @@ class PhysicalModel:
         return found
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
-        """Values with those of this record's mounting, condition or run under the plain name."""
-        own = {name: value for name, value in values.items() if not model_error.is_error(name)}
-        for name, per in self.per.items():
-            place = {"mounting": record.mounting, "condition": record.condition, "run": record.name}.get(per)
-            if place is not None and f"{name}[{place}]" in values:
-                own[name] = values[f"{name}[{place}]"]
-        return own
+        """What a reducer knows of ``values``, with those of this record's mounting, condition or run under the plain name."""
+        return self.own(record, self.asked(values))
+
+    def own(self, record: Record, asked: Asked) -> dict[str, float]:
+        """``for_record`` of values that are made ready."""
+        places = {"mounting": record.mounting, "condition": record.condition, "run": record.name}
+        own = {n: asked.values[f"{n}[{places[per]}]"] for n, per in self.per.items() if per in places and f"{n}[{places[per]}]" in asked.values}
+        return asked.of_reducer | own if own else asked.of_reducer
 
 
 def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None) -> Bench:
@@ -293,16 +301,13 @@ def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:
     return [replace(p, name=f"{p.name}[{place}]") for place in dict.fromkeys(places)] or [p]
 
 
-CHAIN_PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
-
-
 def require_known(folder: Path, nuisances: Sequence[Nuisance], tables: Sequence[Table]) -> None:
     """InputFault for a nuisance that is no parameter of the model."""
     scalars = {v.name for table in tables for v in table.of_role("parameter", "input") if not v.shape}
     for name in (n.parameter.name for n in nuisances):
-        if name not in scalars | {HOUSING_MASS, ENCODER_PHASE} and name.partition("[")[0] not in CHAIN_PARAMETERS:
+        if name not in scalars | {HOUSING_MASS, ENCODER_PHASE} and name.partition("[")[0] not in chain.PARAMETERS:
             raise InputFault(
-                f"{folder}: nuisances.{name}: the model has no such parameter{nearest(name, scalars | CHAIN_PARAMETERS, 2)}; docs/variables.md lists"
-                f" those of the reducer; of the measuring chain there are {', '.join(sorted(CHAIN_PARAMETERS))} (with the quantity or"
+                f"{folder}: nuisances.{name}: the model has no such parameter{nearest(name, scalars | chain.PARAMETERS, 2)}; docs/variables.md lists"
+                f" those of the reducer; of the measuring chain there are {', '.join(sorted(chain.PARAMETERS))} (with the quantity or"
                 f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
             )

@@ -20,7 +20,7 @@ from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
 from discrepancy.problem import ORDERS, Record
 from discrepancy.repetitions import outlying
-from discrepancy.rounding import noise_of
+from discrepancy.rounding import noise_of, step_of
 from fmu_src.arrays import Floats, Mask
 
 SHORT = 8
@@ -76,7 +76,7 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
             if records[i].name in counts:
                 weights[i] = weights.get(i, np.ones(int(masks[i].sum()))) * counts[records[i].name]
                 warnings.append(f"{key}: run {records[i].name} stands out of its repetitions and counts for {100.0 * counts[records[i].name]:.0f} % of one")
-            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i))
+            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i, short))
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:
             warnings.append(f"{key}: stuck or missing samples left out in {', '.join(lost[:6])}{' ...' if len(lost) > 6 else ''}")
@@ -255,10 +255,17 @@ def _weights(
     return weights
 
 
-def _rounded(records: Sequence[Record], indices: Sequence[int], i: int) -> float:
-    """Noise of rounding of a run; runs that repeat each other and were rounded alike are off alike, and say what one says."""
-    alike = sum(records[j].condition == records[i].condition for j in indices)
-    return noise_of(np.asarray(records[i].values, float)) * float(np.sqrt(alike))
+def _rounded(records: Sequence[Record], indices: Sequence[int], i: int, short: bool) -> float:
+    """Noise of rounding of a run; runs that repeat each other and were rounded alike are off alike, and say what one says.
+
+    Single numbers are too few to show their step: all runs together do.
+    """
+    alike = sum(records[j].condition == records[i].condition and stream_of(records[j]) == stream_of(records[i]) for j in indices)
+    if short:
+        noise = step_of(np.concatenate([np.asarray(records[j].values, float) for j in indices])) / float(np.sqrt(12.0))
+    else:
+        noise = noise_of(np.asarray(records[i].values, float))
+    return noise * float(np.sqrt(alike))
 
 
 def _whitener(
@@ -269,7 +276,7 @@ def _whitener(
     level = stream.scales.get(record.condition, stream.scale)
     scale = np.full(rows, max(level, rounded))
     if stream.proportional:
-        scale = level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300))
+        scale = np.maximum(level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300)), rounded)
     names = list(stream.patterns)
     patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
     variances = np.array([stream.patterns[n] for n in names]) if patterns.shape[1] else np.zeros(0)

@@ -27,6 +27,8 @@ EXACT_EVERY = 3
 MOST_DAMPED = 6
 # A fit that is reported is renewed so often, until its chi-square stands still by this.
 RENEWALS, STILL = 4, 2e-3
+# A search stands still by this already.
+ROUGHLY_STILL = 0.1
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
 OTHERS, PROMISING = 2, 0.1
 # Rounds of polishing a fit that is searched for, and one that is reported.
@@ -336,7 +338,7 @@ def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[s
             promised = float(2.0 * gradient @ move - move @ normal @ move)
             damping *= 0.4 if gain > 0.75 * promised else 3.0 if gain < 0.25 * promised else 1.0
             x, cost, r = trial, new, new_r
-        if gain < STILL:
+        if gain < (ROUGHLY_STILL if space.predictions.rough else STILL):
             if secants.exact:
                 converged = True
                 break

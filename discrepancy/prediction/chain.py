@@ -1,0 +1,44 @@
+"""What rig and sensors make of what the reducer does, for one campaign: the effects of ``discrepancy.effects`` at a record's own values."""
+
+from collections.abc import Mapping
+from itertools import chain
+
+from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.conditions import Values, condition_of
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+
+PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
+# By the parameter without which it does nothing, the effect.
+OWNERS = {p.variable.name: name for name, m in MODULES.items() for p in m.EFFECT.amplitudes()}
+
+
+class Chain:
+    """The measuring chain; ``present`` are values of the model that is extended."""
+
+    def __init__(self, bench: Bench, present: Values):
+        self.bench = bench
+        self.present = {n: v for n, v in present.items() if n.partition("[")[0] in PARAMETERS}
+
+    def acting(self, values: Values) -> list[str]:
+        """Effects that may change some record, in the order in which they act."""
+        on = {OWNERS.get(n.partition("[")[0]) for n, v in chain(self.present.items(), values.items()) if v != 0.0}
+        return [name for name in MODULES if name in on]
+
+    def changed(self, predicted: Floats, record: Record, values: Mapping[str, float], acting: list[str], size: float) -> Floats:
+        """``predicted`` as the chain of ``acting`` effects shows it; ``size`` is that of the quantity."""
+        places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
+        for name in acting:
+            module = MODULES[name]
+            place = places[module.PER]
+
+            def at(parameter: str, place: str = place) -> float:
+                if parameter == OUTPUT_SPEED:
+                    return condition_of(self.bench, record).speed / abs(self.bench.ratio)
+                key = f"{parameter}[{place}]" if place else parameter
+                return values.get(key, self.present.get(key, STARTS[parameter]))
+
+            if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
+                predicted = module.change(predicted, record, at, size)
+        return predicted
