@@ -81,6 +81,8 @@ class Once:
     def __init__(self, most: int):
         self.most = most
         self.found: dict[object, Future[object]] = {}
+        # What is done is asked for a hundred times as often as it is made: without a lock.
+        self.made: dict[object, object] = {}
         self.lock = threading.Lock()
 
     def __len__(self) -> int:
@@ -95,21 +97,28 @@ class Once:
 
     def peek(self, key: object) -> object | None:
         """What has been made under ``key``; None if nothing has."""
-        with self.lock:
-            future = self.found.get(key)
-        return None if future is None or not future.done() or future.exception() else future.result()
+        return self.made.get(key)
 
     def get(self, key: object, make: Callable[[], Result]) -> Result:
+        try:
+            return self.made[key]  # type: ignore[return-value]
+        except KeyError:
+            pass
         with self.lock:
             future = self.found.get(key)
             own = future is None
             if future is None:
                 if len(self.found) > self.most:
                     self.found.clear()
+                    self.made.clear()
                 future = self.found[key] = Future()
         if own:
             try:
-                future.set_result(make())
+                result = make()
+                with self.lock:
+                    if self.found.get(key) is future:
+                        self.made[key] = result
+                future.set_result(result)
             except BaseException as problem:
                 with self.lock:
                     self.found.pop(key, None)

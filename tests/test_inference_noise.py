@@ -95,6 +95,26 @@ def test_numbers_with_proportional_noise_are_recognised():
     assert stream.proportional and 0.02 < stream.scale < 0.1 and stream.dof["main"] == pytest.approx(10)
 
 
+def test_numbers_on_a_coarse_display_keep_its_step_as_noise():
+    """Repetitions shown by a coarse display are the same number: that is no sign of its being exact."""
+    rng = np.random.default_rng(12)
+    records, residuals, predictions = [], [], []
+    step = 0.25
+    for c in range(12):
+        truth = np.array([0.4, 0.9, 1.5]) * (1.0 + 0.2 * c)
+        for k in range(3):
+            shown = step * np.round((truth * (1.0 + 0.01 * rng.standard_normal(3))) / step)
+            records.append(Record(f"r{c}_{k}", "wear_depth", "um", f"c{c}", k, shown, {"duration": np.arange(3.0)}, {}))
+            residuals.append(shown - truth)
+            predictions.append(truth)
+    noise = estimate(records, residuals, predictions)
+    scales = np.concatenate([w.scale for w in noise.whiteners])
+    # What repeats itself says as little as one of the three.
+    assert np.all(scales >= step * np.sqrt(3.0 / 12.0))
+    weighed = np.concatenate([w(e) for w, e in zip(noise.whiteners, residuals)])
+    assert np.mean(weighed**2) < 1.0
+
+
 def test_repetition_that_stands_out_makes_no_noise_and_counts_less():
     rng = np.random.default_rng(5)
     torque = np.concatenate([np.linspace(-1.0, 1.0, 60), np.linspace(1.0, -1.0, 60)])

@@ -54,9 +54,9 @@ def identity(record: Record) -> tuple[Hashable, ...]:
 
 def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
     """Output angles [rad] of the samples."""
-    condition = condition_of(bench, record)
     if "angle" in record.axes:
         return np.asarray(record.axes["angle"], np.float64) + zero
+    condition = condition_of(bench, record)
     time = np.asarray(record.axes["time"], np.float64)
     return condition.direction * condition.speed / abs(bench.ratio) * (time - float(time[0])) + zero
 

@@ -5,6 +5,7 @@ A prediction is the base model's, at fine nodes and once, and what the values ch
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -77,7 +78,7 @@ class OverAngle:
     name: str
     cage: float = 0.0
 
-    @property
+    @cached_property
     def condition(self) -> Condition:
         return condition_of(self.bench, self.record)
 

@@ -7,6 +7,7 @@ known from thousands of samples, its offset from run to run only from the few re
 from collections import defaultdict
 
 import numpy as np
+from scipy.linalg.lapack import dpstrf
 
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -84,15 +85,17 @@ def simulate(space: Workspace, grams: dict[Component, Floats], draws: int, rng: 
         # In units of each column: sizes differ by many powers of ten, and rounding goes with the largest.
         size = np.sqrt(np.maximum(np.diag(gram), 0.0))
         inverse = np.divide(1.0, size, out=np.zeros(width), where=size > 0.0)
-        values, vectors = np.linalg.eigh(gram * np.outer(inverse, inverse))
-        keep = values > 1e-12 * max(values.max(), 1e-300)
-        if not keep.any():
+        # A pivoted Cholesky factor is a root as good as any, and ends where the rank does.
+        lower, pivots, rank, _ = dpstrf(gram * np.outer(inverse, inverse), lower=1, tol=1e-12)
+        if rank == 0:
             continue
-        root = size[:, None] * vectors[:, keep] * np.sqrt(values[keep])
+        root = np.zeros((width, rank))
+        root[pivots - 1] = np.tril(lower)[:, :rank]
+        root *= size[:, None]
         dof = space.noise.dof(component)
         inflation: Floats = np.sqrt(dof / rng.chisquare(dof, draws)) if dof < 1e4 else np.ones(draws)
         inflation *= np.sqrt(factors.get(component, 1.0))
-        scores += inflation[:, None] * (rng.standard_normal((draws, keep.sum())) @ root.T)
+        scores += inflation[:, None] * (rng.standard_normal((draws, rank)) @ root.T)
     return scores
 
 
