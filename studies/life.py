@@ -241,10 +241,10 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
     while True:
         try:
             run_through(pair, life, progress, keep)
-        except RunFault:
-            # Too much wear in one position; a fault that many jumps do not cure is the reducer's.
-            if life.jumps >= MANY_JUMPS:
-                raise
+        except RunFault as fault:
+            # Too much wear in one position; a fault that as many jumps as there may be do not cure is the reducer's.
+            if 2 * life.jumps > MOST_JUMPS:
+                raise worn_through(life, fault) from None
             life.coarse = []
             begin(pair, life, 2 * life.jumps, keep)
             continue
@@ -253,6 +253,14 @@ def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callabl
             return life
         life.coarse = life.watched()
         begin(pair, life, factor * life.jumps, keep)
+
+
+def worn_through(life: Life, fault: RunFault) -> RunFault:
+    """The fault with when it came, and how deep the surfaces were worn by then."""
+    reached, deepest = life.hours[-1], max(life.figures[-1][name] for name in WATCHED)
+    if reached == 0.0:
+        return fault
+    return RunFault(f"after {reached:.0f} of {life.settings.hours:g} h, worn by up to {deepest:.3g} um: {fault}; up to these hours the life can be had")
 
 
 def begin(pair: Pair, life: Life, jumps: int, keep: Callable[[Life], None]) -> None:

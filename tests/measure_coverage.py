@@ -25,6 +25,8 @@ REASONS = {
     "rv_reducer": "as rv_plant: the tests of the unit of both run it as machine code",
     "studies/coupled.py": "as rv_plant: loops of coupled units, run as machine code",
     "fmu_src/slaves": "runs inside of editable FMUs, whose Python is embedded: coverage does not see it",
+    "fmu_src/wasm": "the WebAssembly units are run by the tests marked platforms",
+    "workbench": "its whole loop is gone through in Chromium by the tests marked campaign; the default ones drive its parts and the first views",
     "reproduce": "the claims that need a life of 10,000 h are run by the tests marked campaign",
 }
 HEAD = """# What the tests reach

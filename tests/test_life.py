@@ -99,6 +99,20 @@ def test_fault_of_long_jumps_is_cured_by_shorter_ones(rv20e):
     assert life.jumps >= 16 and life.hours[-1] == pytest.approx(400.0)
 
 
+def test_a_reducer_that_is_worn_through_says_after_how_many_hours(rv20e):
+    pair = make_coarse(rv20e)
+    steps = pair.master.run
+
+    def run(count):
+        if pair.wear.get("operating_time") > 4.0 * HOUR:
+            raise RunFault("no equilibrium")
+        steps(count)
+
+    pair.master.run = run
+    with pytest.raises(RunFault, match=r"after 4\b.* of 1000 h, worn by up to .* um: no equilibrium"):
+        live(pair, Life(LifeSettings(hours=1000.0, tolerance=0.1)), nothing, nothing)
+
+
 def test_measuring_leaves_the_pair_as_it_was(rv20e):
     pair = make_coarse(rv20e)
     run_cycle(pair, 100.0)

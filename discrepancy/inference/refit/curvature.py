@@ -21,13 +21,13 @@ ROUNDS = 2
 LEAST, MOST = 1e-3, 1.0
 
 
-def covariance_by_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Floats:
-    """Covariance (p, p) of all parameters, the sensitivities of the effects' own taken over a standard deviation."""
+def by_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> tuple[Floats, Floats]:
+    """Sensitivities (N, p) of a fit, those to the effects' own parameters taken over a standard deviation, and the covariance (p, p) by them."""
     own = [p for c in candidates for p in c.parameters]
     places = [fit.names.index(p.name) for p in own]
     box, part = Box(fit.parameters), Box(own)
     x, units = box.array(fit.values), np.outer(box.scale, box.scale)
-    covariance = np.linalg.pinv(fit.normal * units, rcond=1e-11, hermitian=True)
+    columns, covariance = fit.jacobian, np.linalg.pinv(fit.normal * units, rcond=1e-11, hermitian=True)
     for _ in range(ROUNDS if own else 0):
         variances, axes = np.linalg.eigh(covariance[np.ix_(places, places)])
         steps = axes * np.clip(np.sqrt(np.maximum(variances, 0.0)), LEAST, MOST)
@@ -36,8 +36,7 @@ def covariance_by_secants(space: Workspace, fit: Fit, candidates: Sequence[Candi
         columns[:, places] = along @ np.linalg.inv(steps) / part.scale
         normal = columns.T @ columns + np.diag(box.precision)
         covariance = np.linalg.pinv(normal * units, rcond=1e-11, hermitian=True)
-    found: Floats = covariance * units
-    return found
+    return columns, covariance * units
 
 
 def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequence[int], step: np.ndarray) -> np.ndarray:

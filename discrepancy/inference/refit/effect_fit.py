@@ -80,6 +80,11 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
     return fit
 
 
+def settled(space: Workspace, fit: Fit, columns: Floats) -> Fit:
+    """The same fit after steps by ``columns`` (N, p), sensitivities over a standard deviation: over kinks, at which those of a point stand still."""
+    return _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2)
+
+
 def _promised(fit: Fit) -> float:
     """What another step would gain in chi-square if all were linear."""
     box = Box(fit.parameters)
