@@ -10,7 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.starts import MOST_AMPLITUDES, along_valley, halved, other_starts
+from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
 
@@ -31,8 +31,8 @@ RENEWALS, STILL = 4, 2e-3
 ROUGHLY_STILL = 0.1
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
 OTHERS, PROMISING = 2, 0.1
-# Rounds of polishing a fit that is searched for, and one that is reported.
-ROUGH_ROUNDS, ROUNDS = 1, 8
+# Rounds of polishing a fit that is searched for, by the sensitivities that it has, and one that is reported.
+ROUGH_ROUNDS, ROUNDS = 4, 8
 # A descent that would not reach what it must even if it gained this many times what its slopes promise is given up.
 HOPE = 3.0
 
@@ -174,15 +174,18 @@ def _search(
         # Worse than no effect at all: the start lay where the effect runs away, and slopes there lead nowhere.
         found += [_descend(frozen, start) for start in halved([p for c in candidates for p in c.amplitudes], starts[0], cost, frozen.space.base.chi2)]
     amplitudes = candidates[0].amplitudes if len(candidates) == 1 else ()
-    if widely and (1 < len(amplitudes) <= MOST_AMPLITUDES or any(p.sign for p in amplitudes)):
-        # An optimum may lie behind a ridge, further along a valley, or beyond a threshold.
+    if widely and amplitudes:
+        # An optimum may lie behind a ridge, further along a valley, beyond a threshold, or by another harmonic.
         best = min(found, key=lambda f: cost(f[0]))
         others = other_starts(amplitudes, best[0])
-        if len(amplitudes) > 1:
+        if 1 < len(amplitudes) <= MOST_AMPLITUDES:
             others += along_valley(frozen.own, best[0], _information(frozen, best[2]))
         by_cost, least = frozen.space.threads.map(cost, others), cost(best[0])
         promising = least + PROMISING * max(frozen.space.base.chi2 - least, 0.0)
         chosen = [others[k] for k in np.argsort(by_cost)[:OTHERS] if by_cost[k] < promising]
+        if len(amplitudes) > MOST_AMPLITUDES:
+            of_each = [min(zip(frozen.space.threads.map(cost, starts), range(len(starts)), starts)) for starts in alone(amplitudes, best[0])]
+            chosen += [start for gained, _, start in sorted(of_each)[:OTHERS] if gained < frozen.space.base.chi2]
         found += [_descend(frozen, start) for start in chosen]
     return min(found, key=lambda f: cost(f[0]))
 
@@ -252,7 +255,8 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
         return _cost(space, box, box.named(z))
 
     cost, r = cost_of(x)
-    for _ in range(ROUGH_ROUNDS if space.predictions.rough else ROUNDS):
+    rough = space.predictions.rough
+    for _ in range(ROUGH_ROUNDS if rough else ROUNDS):
         normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
         normal += 1e-10 * np.diag(np.diag(normal) + 1e-300)
         step = box.step(x, normal, box.scale * (columns.T @ r - box.prior_gradient(x)))
@@ -267,7 +271,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
             x, r, cost = trial, new_r, new
         if gain < (STILL if fresh else 0.05):
             # done, unless frozen sensitivities left it above what the partly linear fit promised
-            if fresh or (cost < expected + 0.5 and cost < space.base.chi2):
+            if fresh or rough or (cost < expected + 0.5 and cost < space.base.chi2):
                 break
             columns = space.columns(parameters, box.named(x))
             fresh = True

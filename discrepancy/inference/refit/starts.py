@@ -16,6 +16,8 @@ from fmu_src.arrays import Floats
 FACTORS, SIZES = (0.25, 4.0), (0.5, 2.0)
 # More amplitudes than these have too many quadrants; they are harmonics of one pattern, and linear.
 MOST_AMPLITUDES = 3
+# A harmonic's phases [rad]; with the sign turned it shows as much.
+PHASES = (0.0, 0.25 * np.pi, 0.5 * np.pi, 0.75 * np.pi)
 # So often a start that is worse than no effect is halved.
 HALVINGS = 6
 # Steps along the valley in its own standard deviations.
@@ -32,6 +34,20 @@ def other_starts(amplitudes: Sequence[Parameter], start: Mapping[str, float]) ->
             if all(p.sign in (0, sign) for p, sign in zip(amplitudes, signs)):
                 moved = {p.name: _inside(p, p.off + sign * size * p.scale) for p, sign in zip(amplitudes, signs)}
                 found.append({**start, **moved})
+    return found
+
+
+def alone(amplitudes: Sequence[Parameter], start: Mapping[str, float]) -> list[list[dict[str, float]]]:
+    """By each two of many amplitudes that follow each other (a harmonic's cosine and sine) starts at which they stand alone, at some phases.
+
+    What shows alike with either sign has an optimum by each harmonic that may be taken for another.
+    """
+    off = {**start, **{p.name: p.off for p in amplitudes}}
+    found = []
+    for first, second in zip(amplitudes[::2], amplitudes[1::2]):
+        waves = [(size * np.cos(phase), size * np.sin(phase)) for size in SIZES for phase in PHASES]
+        places = [(_inside(first, first.off + a * first.scale), _inside(second, second.off + b * second.scale)) for a, b in waves]
+        found.append([{**off, first.name: a, second.name: b} for a, b in places])
     return found
 
 
