@@ -3,6 +3,7 @@
 import argparse
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,8 @@ from orchestrator.schemes import SCHEMES
 from reducers.library import available
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestrator.settings import Setting
     from reducers.reducer import Reducer
 
@@ -81,17 +84,48 @@ def settings_of(options: argparse.Namespace, reducer: "Reducer") -> list["Settin
     return found + [parse_setting(text, tables) for text in options.set]
 
 
+def reducer_of(name: str) -> "Reducer":
+    """A reducer of the library, of a reducer file, or of a model file with all that it adds."""
+    from reducers.reducer import is_model_file, load_reducer
+
+    if not is_model_file(Path(name)):
+        return load_reducer(name)
+    # Here: what reads models takes its time to load.
+    from discrepancy.model_file import extended_reducer, load_model
+
+    model = load_model(name)
+    return replace(extended_reducer(model), name=model.name)
+
+
 def chosen(options: argparse.Namespace) -> tuple["Reducer", list["Setting"], int]:
     """The reducer, its settings and the positions of a crank turn that the options of ``add_reducer_options`` name.
 
     InputFault if one of them is none that there is.
     """
-    from reducers.reducer import load_reducer
     from studies.solve import require_positions
 
     positions = require_positions(options.positions)
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     return reducer, settings_of(options, reducer), positions
+
+
+def number_in(unit: str) -> "Callable[[str], float]":
+    """What argparse makes of a number in ``unit``, alone or with a unit of its own: 1600, 1600Nm, 1.6kNm."""
+
+    def parsed(text: str) -> float:
+        from fmu_src.units import UnitError, conversion
+        from orchestrator.settings import NUMBER
+
+        match = NUMBER.fullmatch(text)
+        if match is None:
+            raise argparse.ArgumentTypeError(f"{text!r} is no number; give it in {unit}, or with its unit")
+        try:
+            factor, offset = conversion(match[2] or unit, unit)
+        except UnitError as fault:
+            raise argparse.ArgumentTypeError(f"{text}: {fault}") from None
+        return factor * float(match[1]) + offset
+
+    return parsed
 
 
 def folder(text: str | None) -> Path | None:

@@ -124,8 +124,7 @@ def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, 
     source = sources.get(record.name, {}).get(VALUE, Source("", "", q.usual_unit, conversion(q.unit, q.usual_unit)[0] ** -1))
     low, high = NEAR.get(record.quantity, NEAR_OTHERS)
     fits = fitting(times, source.unit, q.unit, math.sqrt(low * high))
-    best = fits[0] if fits else None
-    near = best is not None and low <= best.times <= high
+    near = [fit for fit in fits if low <= fit.times <= high]
     if off < LOOKED_AT or not (near or off >= (HARDLY_KNOWN if record.quantity in LOOSE else DOUBTED)):
         return None
     what = "varies by" if record.free_zero else "is about"
@@ -135,7 +134,7 @@ def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, 
         f"run {record.name}: {record.quantity} {what} {stated} {source.unit}{place}, {ratio(times)} what the model"
         f" predicts, {expected} {source.unit}"
     )
-    return Finding(WARNING, "implausible scale", text, remedy_of(best if near else None, fits, source.unit, q.unit))
+    return Finding(WARNING, "implausible scale", text, remedy_of(near[:2], fits, source.unit, q.unit))
 
 
 def size_of(values: Floats, free_zero: bool) -> float:
@@ -163,10 +162,11 @@ def ratio(times: float) -> str:
     return f"{readable(times)} times" if times >= 1.0 else f"1/{readable(1.0 / times)} of"
 
 
-def remedy_of(best: Fit | None, fits: Sequence[Fit], stated: str, si: str) -> str:
-    if best is None:
+def remedy_of(near: Sequence[Fit], fits: Sequence[Fit], stated: str, si: str) -> str:
+    if not near:
         nearest = ", ".join(f"in {f.unit} it would be {ratio(f.times)} the prediction" for f in fits[:2])
         return "look at unit and scale of the column" + (f" ({nearest})" if nearest else "")
-    factor = conversion(stated, si)[0] / conversion(best.unit, si)[0]
-    factor = max(factor, 1.0 / factor)
-    return f'{factor:.6g} is the factor between {stated} and {best.unit}: state unit = "{best.unit}" if that is what was written'
+    factors = [conversion(stated, si)[0] / conversion(f.unit, si)[0] for f in near]
+    between = ", ".join(f"{max(factor, 1.0 / factor):.6g} is the factor between {stated} and {f.unit}" for factor, f in zip(factors, near))
+    named = " or ".join(f'"{f.unit}"' for f in near)
+    return f"{between}: state unit = {named} if that is what was written"

@@ -9,6 +9,7 @@ A number may have a ``range = [low, high]`` in its unit, in which it is held to 
 ``assumed`` has a tenth to either side where none is given.
 """
 
+import re
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -33,6 +34,7 @@ from rv_reducer.variables import reducer_table
 from wear_fmu.variables import Resolution, wear_table
 
 REMEDY = "the reducers of the library, in the folder reducers, show what one holds"
+OF_A_MODEL = "give the one that its [model] names, or build its units with `rvwear build --reducer`"
 
 
 class Entry(Strict):
@@ -129,6 +131,11 @@ def kernels_name(written: str, place: str) -> str:
     return found[0][1].name if found else written
 
 
+def is_model_file(path: Path) -> bool:
+    """Whether a file is a reducer with what was added to it, which ``discrepancy.model_file`` reads."""
+    return path.suffix == ".toml" and path.is_file() and re.search(rb"(?m)^\s*\[model\]", path.read_bytes()) is not None
+
+
 def load_reducer(name_or_path: str | Path) -> Reducer:
     """A reducer by its name in the library or by the path of its file."""
     path = Path(name_or_path)
@@ -144,6 +151,8 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
 
 def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
     """The reducer of a file's content."""
+    if "model" in content and "reducer" not in content:
+        raise InputFault(f"{path} is a model file (a reducer with what was added to it), and a reducer file is wanted here: {OF_A_MODEL}")
     head = checked(Head, content.pop("reducer", None), path, "reducer")
     counts = checked(Counts, content.pop("topology", None), path, "topology")
     if counts.pins != counts.lobes + 1:

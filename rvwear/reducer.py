@@ -8,7 +8,7 @@ import xarray as xr
 
 from orchestrator import netcdf
 from orchestrator.settings import Setting, parse_setting
-from reducers.reducer import Reducer, load_reducer
+from reducers.reducer import Reducer, is_model_file, load_reducer
 
 # A variable of the units by its structured name, and its value: a number in SI, a choice's name, or a text with a unit.
 Settings = Mapping[str, float | str]
@@ -16,7 +16,13 @@ ReducerLike = Reducer | str | Path
 
 
 def reducer_of(reducer: ReducerLike) -> Reducer:
-    return reducer if isinstance(reducer, Reducer) else load_reducer(reducer)
+    if isinstance(reducer, Reducer):
+        return reducer
+    if not is_model_file(Path(reducer)):
+        return load_reducer(reducer)
+    from discrepancy.model_file import extended_reducer, load_model
+
+    return extended_reducer(load_model(reducer))
 
 
 def settings_of(reducer: Reducer, settings: Settings) -> list[Setting]:
@@ -26,7 +32,7 @@ def settings_of(reducer: Reducer, settings: Settings) -> list[Setting]:
 def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, positions: int = 72) -> xr.Dataset:
     """Forces, pressure, errors and stiffness over one crank turn, without wear.
 
-    ``reducer``: a name of the library, a reducer file, or what ``load_reducer`` gave.  ``settings``: any parameter or input, as
+    ``reducer``: a name of the library, a reducer or model file, or what ``load_reducer`` gave.  ``settings``: any parameter or input, as
     ``{"output.load_torque": "150 N.m", "errors.pin.radius[3]": "2 um"}``; a number alone is in SI units (docs/variables.md).
     ``positions``: equilibria per crank turn, at least 8.
 

@@ -31,7 +31,7 @@ def doubts(folder, run):
 def test_unit_that_the_model_cannot_believe_is_named_with_the_one_that_fits(tmp_path, stated, fits, factor):
     (found,) = doubts(tmp_path, loop_file(tmp_path, unit=stated))
     assert found.level == "warning" and f"loop.csv, column phi [{stated}]" in found.text and f" {stated}" in found.text
-    assert f'state unit = "{fits}"' in found.remedy and found.remedy.startswith(f"{factor} is the factor between {stated} and {fits}")
+    assert f'"{fits}"' in found.remedy.partition("state unit = ")[2] and f"{factor} is the factor between {stated} and {fits}" in found.remedy
 
 
 def test_right_units_and_softer_drives_are_believed(tmp_path):

@@ -294,3 +294,15 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
 ])  # fmt: skip
 def test_names_that_differ_by_a_number_behind_letters_are_asked_about(patterns, found):
     assert suggested(patterns, "load") == found
+
+
+def test_unit_of_a_column_that_no_file_has_is_refused(tmp_path):
+    (tmp_path / "loop.csv").write_text("torque [N.m],turning [arcmin]\n" + "".join(f"{t},{0.02 * t}\n" for t in range(-100, 101, 10)), encoding="utf-8")
+    with pytest.raises(InputFault, match=r"--unit turnin=deg: no file has a column 'turnin' .*did you mean turning"):
+        propose([tmp_path / "loop.csv"], Wishes("RV20E-121", units={"turnin": "deg"}))
+
+
+def test_condition_that_a_file_says_otherwise_is_kept_and_said(tmp_path):
+    (tmp_path / "te_28degC.csv").write_text("angle [deg],te [arcsec]\n" + "".join(f"{a},{a % 7}\n" for a in range(0, 360, 3)), encoding="utf-8")
+    proposal = propose([tmp_path / "te_28degC.csv"], Wishes("RV20E-121", conditions={"temperature": "20 degC"}))
+    assert any("28 degC, which is kept, not 20 degC" in doubt.text for doubt in proposal.doubts)

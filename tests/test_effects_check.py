@@ -165,6 +165,8 @@ def test_the_example_of_the_documentation_passes(tmp_path):
     ('"my_state"', '"my_size"', 10, "the effect itself has a parameter my_size already"),
     ("(2,), ", "(2,), minimum=None, axes=", 10, "variable my_state: minimum = None is no number; leave it out for the usual one"),
     ('"state", 0.0', '"state", "zero"', 10, "variable my_state: start = 'zero' is no number"),
+    ('"my_size", "1"', '"my_size", "Nmm"', 9, "my_size: Nmm is no SI unit, and kernels get the number as it stands; declare the SI unit"),
+    ('"my_size", "1"', '"my_size", "arcmin"', 9, "my_size: arcmin is no SI unit"),
     ("0.0, 1.0)", "0.0, None)", 9, "variable my_size: maximum = None is no number"),
     ("EFFECT =", "EFECT =", 1, "no EFFECT"),
     ("EFFECT = Effect(", "EFFECT = print(", 7, "TypeError"),

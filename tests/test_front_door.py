@@ -13,7 +13,10 @@ import pytest
 import xarray as xr
 
 import rvwear
+from cli.main import main
+from fmu_src.faults import InputFault
 from fmu_src.project import project
+from reducers.reducer import load_reducer
 
 ROOT = Path(__file__).resolve().parents[1]
 # Seconds that the import may take; it takes some milliseconds.
@@ -111,3 +114,14 @@ def test_what_is_wrong_is_an_input_fault():
 def test_a_plotly_picture():
     found = rvwear.figure(rvwear.hysteresis(steps=4, angles=1), plotly=True)
     assert found.data[0].type == "scatter" and found.layout.xaxis.title.text == "torque [N·m]"
+
+
+def test_a_model_file_stands_for_a_reducer_with_all_that_it_adds(tmp_path):
+    path = tmp_path / "warm.toml"
+    path.write_text('[model]\nname = "warm"\nreducer = "RV20E-121"\n[effects.thermal_expansion]\nexpansion = { value = 5e-6, unit = "1/K" }\n', encoding="utf-8")
+    hot = {"heat.ambient_temperature": "50 degC"}
+    plain, warm = (rvwear.hysteresis(r, settings=hot, steps=8, angles=1)["lost_motion_arcmin"].item() for r in ("RV20E-121", path))
+    assert warm > 1.5 * plain
+    assert main(["hysteresis", "--reducer", str(path), "--set", "heat.ambient_temperature=50degC", "--steps", "8", "--angles", "1"]) == 0
+    with pytest.raises(InputFault, match=r"warm\.toml is a model file"):
+        load_reducer(path)

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import add_json, add_reducer_options, settings_of
+from cli.options import add_json, add_reducer_options, reducer_of, settings_of
 from fmu_src.faults import InputFault, nearest
 from fmu_src.progress import task
 
@@ -29,13 +29,12 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def bench_test(options: argparse.Namespace) -> int:
     from cli.show.bench import show_bench
-    from reducers.reducer import load_reducer
     from studies.standard.evaluation import TESTS
     from studies.standard.procedures import OWN_FIGURES, PROCEDURES, rated_of, ratio_of
     from studies.standard.tables import bench_tables
 
     check_exports(options)
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     settings, test = settings_of(options, reducer), TESTS[options.standard]
     rated, ratio = rated_of(reducer, settings)[0], ratio_of(reducer, settings)
     curves: dict[str, Curve]

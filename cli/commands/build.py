@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from cli.options import add_json, add_reducer
+from cli.options import add_json, add_reducer, reducer_of
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -28,10 +28,9 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def build(options: argparse.Namespace) -> int:
     """``rvwear build``: FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     from cli import screen
-    from reducers.reducer import load_reducer
     from studies.building import Wanted, build_units
 
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     if options.worn is not None:
         from fmu_src.progress import task
         from studies.worn import hours_of, worn_reducer

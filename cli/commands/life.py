@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from cli.ending import exit_code
 from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
-from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path, settings_of
+from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, reducer_of, result_path, settings_of
 from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
@@ -148,11 +148,10 @@ def dynamics_wear(options: argparse.Namespace) -> int:
     """``rvwear dynamics-wear``: wear of both fidelities, and where they differ."""
     from cli import screen
     from cli.show.dynamics import show_dynamics
-    from reducers.reducer import load_reducer
     from studies.dynamics_wear import as_json, compare
     from studies.report.dynamics import write_dynamics_page
 
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     page = Path(options.output or f"results/{reducer.name}_dynamics.html")
     found = compare(reducer, settings_of(options, reducer), options.speeds, options.hours, options.cycles, options.limit,
                     lambda text: print(text, file=sys.stderr, flush=True))  # fmt: skip

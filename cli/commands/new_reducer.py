@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cli.commands import check_reducer
 from cli.completion import completed_by, reducer_completions
-from cli.options import add_json
+from cli.options import add_json, number_in
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -26,13 +26,13 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
     new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
     new.add_argument("--pins", type=int, required=True, help="pins in the ring: one more than a disc has lobes")
-    new.add_argument("--rated", type=float, required=True, metavar="NM", help="rated output torque [N m]")
+    new.add_argument("--rated", type=number_in("N.m"), required=True, metavar="NM", help="rated output torque [N m]")
     new.add_argument("--lobes", type=int, help="lobes of a disc, where somebody counted them: one less than pins")
-    new.add_argument("--diameter", type=float, metavar="MM", help="outer diameter of the housing [mm] (default: the ring follows from the torque)")
-    new.add_argument("--speed", type=float, default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues of RV reducers)")
+    new.add_argument("--diameter", type=number_in("mm"), metavar="MM", help="outer diameter of the housing [mm] (default: the ring follows from the torque)")
+    new.add_argument("--speed", type=number_in("rpm"), default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues)")
     new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
-    new.add_argument("--lost-motion", type=float, default=1.0, metavar="ARCMIN", help="lost motion of the catalogue [arcmin] (default 1)")
+    new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN", help="lost motion of the catalogue [arcmin] (default 1)")
     new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
         help="a number that was measured, with its unit: --known pin.radius=3mm; what hangs on it follows",

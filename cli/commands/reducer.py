@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import add_json, add_reducer_options, chosen, settings_of
+from cli.options import add_json, add_reducer_options, chosen, reducer_of, settings_of
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -57,12 +57,11 @@ def solve(options: argparse.Namespace) -> int:
 def hysteresis(options: argparse.Namespace) -> int:
     """``rvwear hysteresis``: the standard stiffness test."""
     from cli import screen
-    from reducers.reducer import load_reducer
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset, loop_figures
 
     check_exports(options)
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     with task("loading torques at locked input"):
         loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles)
     figures = loop_figures(loop)
@@ -91,11 +90,10 @@ def modes(options: argparse.Namespace) -> int:
     from cli import screen
     from cli.show.modes import show_modes
     from orchestrator.settings import parse_setting
-    from reducers.reducer import load_reducer
     from studies.modes import modes as natural_modes
 
     check_exports(options)
-    reducer = load_reducer(options.reducer)
+    reducer = reducer_of(options.reducer)
     settings = settings_of(options, reducer)
     cases = [(held, loaded) for held in (True, False) for loaded in (True, False)] if options.every else [(not options.free, True)]
     unloaded = parse_setting("output.load_torque=0", [reducer.plant, reducer.wear])

@@ -16,6 +16,8 @@ from discrepancy.verdict import Answer
 from discrepancy.wording import base_texts, error_text, left_text, share_text
 
 LONGEST = 12
+# Figures further off than so many times the noise need no decimals.
+WHOLE = 100.0
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
@@ -57,15 +59,18 @@ def show_figures(figures: list[KeyFigure], out: Console) -> None:
     table = dense("key figures, measured against the base model")
     rows = list(worst.values())[:LONGEST]
     signals = [f.signal.replace("[", "\n[") for f in rows]
-    for name in ("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"):
-        left = name in ("signal", "figure", "condition", "")
-        # A signal's words stay whole; of the figure's there are many short ones.
-        least = max(len(line) for signal in signals for line in signal.split()) if name == "signal" else None
-        table.add_column(name, justify="left" if left else "right", overflow="fold" if left else "ellipsis", no_wrap=not left, min_width=least)
+    cells = []
     for signal, f in zip(signals, rows):
         (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
         noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
-        table.add_row(signal, f.name, f.condition, measured, noise, model, unit, f"{abs(f.off):.1f}")
+        cells.append((signal, f.name, f.condition, measured, noise, model, unit, f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"))
+    for name, column in zip(("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"), zip(*cells)):
+        left = name in ("signal", "figure", "condition", "")
+        # A signal's words stay whole, and numbers; of the figure's words there are many short ones.
+        whole = [line for cell in column for line in cell.split()] if name == "signal" else [name, *column] if not left else []
+        table.add_column(name, justify="left" if left else "right", overflow="fold", no_wrap=not left, min_width=max(map(len, whole), default=None))
+    for row in cells:
+        table.add_row(*row)
     out.print(table)
     if len(figures) > min(len(worst), LONGEST):
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")

@@ -206,7 +206,8 @@ class CampaignFile(Strict):
 
 def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
     """The checked content of the file, and its text."""
-    text = read_text(path, "campaign file", "rvwear campaign template FOLDER writes one")
+    remedy = f"rvwear campaign from {path.parent} --reducer ... makes one of measured files, rvwear campaign template FOLDER an empty one"
+    text = read_text(path, "campaign file", remedy)
     content = parse_toml(text, path, REMEDY)
     lay_out(content, path)
     return validated(CampaignFile, content, path, REMEDY), text

@@ -41,7 +41,7 @@ STAGES = {
     "advance": "at the end of a step of `duration` [s]: own states",
     "heat": "after that: the temperature reached",
     "factor": "for every contact, if any effect added 1 to `effects_on`: returns the factor on the wear coefficient, 1.0 where it is off;"
-    " for the surfaces that EFFECT`_surfaces` chooses, a parameter that every effect with a factor gets",
+    " for the surfaces that `NAME_surfaces` (NAME: the effect's file) chooses, a parameter that every effect with a factor gets",
 }
 OWN = """## Your own effect
 

@@ -12,6 +12,7 @@ from discrepancy.campaign.guess.conditions import State, held_out, named_conditi
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
+from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for
 from discrepancy.campaign.readers import kind_of
@@ -73,6 +74,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     if wishes.reducer:
         load_reducer(wishes.reducer)
     guessed = with_one_unit([guessed_run(path, wishes) for path in paths])
+    require_columns(guessed, wishes)
     states = [state_of(run, wishes) for run in guessed]
     names = named_conditions(states)
     conditions: dict[str, dict[str, str]] = {}
@@ -86,7 +88,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         measured[run.condition].append(run.guessed.quantity.value)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), tuple(merged([d for run in guessed for d in run.doubts])), needs_of(runs, conditions, wishes),
+        tuple(runs), tuple(merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))])), needs_of(runs, conditions, wishes),
     )  # fmt: skip
 
 
@@ -103,6 +105,24 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+
+
+def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
+    """InputFault for a unit of a column that no file has."""
+    known = sorted({header for run in runs for header in run.headers})
+    for key, unit in wishes.units.items():
+        header = name_of(key.rpartition(":")[2])
+        if header not in known:
+            raise InputFault(f"--unit {key}={unit}: no file has a column {header!r} of numbers; there are {', '.join(known)}{nearest(header, known)}")
+
+
+def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
+    """Conditions that are given for all files, where this one says something else."""
+    said = {key: guess.value for key, guess in run.factors.items()}
+    return [
+        Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
+        for key, text in wishes.conditions.items() if key in said and said[key].replace(" ", "") != text.replace(" ", "")
+    ]
 
 
 def given_for_one(conditions: dict[str, dict[str, str]], wishes: Wishes) -> None:

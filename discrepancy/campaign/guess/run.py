@@ -13,7 +13,7 @@ from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.table import Table, table_of
-from discrepancy.campaign.guess.unit_words import COUNTS
+from discrepancy.campaign.guess.unit_words import COUNTS, name_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from fmu_src.faults import InputFault
@@ -40,7 +40,8 @@ class Entry:
 
 @dataclass(frozen=True)
 class GuessedRun:
-    """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers."""
+    """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
+    ``headers``: of every column that holds numbers, without units."""
 
     path: Path
     quantity: Guess[str]
@@ -51,6 +52,7 @@ class GuessedRun:
     factors: dict[str, Guess[str]]
     repeated: tuple[str, tuple[int, ...]] | None
     doubts: tuple[Doubt, ...]
+    headers: tuple[str, ...]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -84,8 +86,9 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
     tags, more_doubts = tags_of(quantity.value, f"{path.parent.name} {speaking} {' '.join(table.above)}", speaking, wishes, path)
     factors, speed_doubts = factors_of(name, table, path)
+    headers = tuple(name_of(table.headers.get(c.name, c.name)) for c in columns)
     return GuessedRun(
-        path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts)
+        path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts), headers
     )
 
 

@@ -90,6 +90,9 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
                 continue
             solution = _fit(function, best.x, x[~out], y[~out] / scale, deviation[~out] / scale)
             losses[out] = ((y[out] / scale - function(x[out], *solution.x)) * scale / deviation[out]) ** 2
+        if not np.isfinite(best.jac).all():
+            # Its constants ran to where nothing can be told.
+            continue
         loss = float(np.nanmean(np.minimum(losses, 1e6)))
         dof = max(y.size - len(names), 1)
         # Constants of x^2 and of 1 differ by many decades: in their own sizes, or the small ones would seem known exactly.
