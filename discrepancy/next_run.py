@@ -101,7 +101,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     unexplained = answer.verdict in (INCOMPLETE, UNKNOWN)
     left = open_questions(answer, campaign) if unexplained else []
     known = " and ".join(names) if fits.members else ""
-    start = f"{f'beside {known} ' if known else ''}something is left that no effect of the catalogue explains" if unexplained else ""
+    start = f"{f'beside {known} ' if known else ''}something is left {answer.left_over}" if unexplained else ""
     if answer.verdict == BASE_OFF and len(names) < 2:
         off = ", ".join(as_told.told_name(e.name, as_told.tables_of(answer.model)) for e in answer.diagnosis.base_off)
         text = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance, then ask again"

@@ -39,6 +39,14 @@ class Answer:
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
 
+    @property
+    def left_over(self) -> str:
+        """What is said of a misfit that is left, as the end of a sentence."""
+        most, members = self.doctor.settings.most_effects, self.diagnosis.fits.members
+        if members and len(members[0].candidates) >= most:
+            return f"beyond the {most} effects that are looked for at once: add what is named and diagnose again"
+        return f"that no {'further ' if members else ''}effect of the catalogue explains"
+
     def in_si(self) -> dict[str, Any]:
         """Everything in SI units and by the names that kernels have: what programs of this project go on with."""
         plain = self.diagnosis.to_dict()

@@ -158,12 +158,29 @@ def run_diagnose(options: argparse.Namespace) -> int:
         json_text(answer.as_json() | {"draft": str(draft) if draft else None})
     else:
         show_answer(answer)
+        if not stopped and (line := line_after(options, answer)):
+            print(f"\nnext  {line}")
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
     export(options, answer)
     if stopped:
         print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
     return stopped
+
+
+def line_after(options: argparse.Namespace, answer: "Answer") -> str:
+    """The command with which one goes on from a diagnosis; empty where nothing is missing."""
+    from discrepancy.inference.verdict import BASE_OFF, NONE, SET, UNKNOWN
+
+    data = ["--data", options.data] if options.data else []
+    if answer.verdict == NONE:
+        return ""
+    if answer.verdict == SET:
+        return shlex.join(["rvwear", "next", options.model, options.campaign, *data]) + "    # the measurement that tells them apart"
+    if answer.verdict == UNKNOWN:
+        return shlex.join(["rvwear", "extend", options.model, options.campaign, *data, "--draft", "effects"]) + "    # makes an effect of what is recovered"
+    what = "# corrects the base model" if answer.verdict == BASE_OFF else "# adds it, and judges it on runs that were not used"
+    return shlex.join(["rvwear", "extend", options.model, options.campaign, *data, "--output", "better.toml"]) + f"    {what}"
 
 
 def run_extend(options: argparse.Namespace) -> int:

@@ -64,7 +64,7 @@ def sentence(answer: Answer) -> str:
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: (
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
-            f"that no effect of the catalogue explains{f': {left}' if left else ''}."
+            f"{answer.left_over}{f': {left}' if left else ''}."
         ),
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",

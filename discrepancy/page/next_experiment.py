@@ -27,7 +27,7 @@ def page(run: NextRun) -> Page:
     )
     if run.open:
         rows = [[readable(text)] for text in run.open]
-        lead = "No effect of the catalogue explains what is left: measure where it would show its law."
+        lead = f"Something is left {run.answer.left_over}. Where it would show its law:"
         sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", ["measure"], rows)]))
     rivals = listed([effect_title(r) for r in run.rivals])
     verdict = readable(run.verdict) if run.result else effect_title(run.verdict)
