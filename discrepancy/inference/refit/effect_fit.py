@@ -10,6 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.frozen import Frozen
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
@@ -33,8 +34,6 @@ ROUGHLY_STILL = 0.1
 OTHERS, PROMISING = 2, 0.1
 # Rounds of polishing a fit that is searched for, by the sensitivities that it has, and one that is reported.
 ROUGH_ROUNDS, ROUNDS = 4, 8
-# A descent that would not reach what it must even if it gained this many times what its slopes promise is given up.
-HOPE = 3.0
 
 
 def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False,
@@ -43,7 +42,7 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
 
     What will not come below the chi-square ``least`` is left where that became clear.
     """
-    frozen = _Frozen(space, candidates, least)
+    frozen = Frozen(space, candidates, least)
     own, nuisances = frozen.own, space.model.nuisances
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
     values, converged, columns = _search(frozen, candidates, [
@@ -93,76 +92,8 @@ def _promised(fit: Fit) -> float:
     return float(2.0 * gradient @ step - step @ normal @ step)
 
 
-class _Frozen:
-    """Chi-square of effects with the nuisances projected out, priors included, at the base fit's sensitivities."""
-
-    def __init__(self, space: Workspace, candidates: Sequence[Candidate], least: float):
-        self.space, self.least = space, least
-        self.own = tuple(p for c in candidates for p in c.parameters)
-        self.part = Box(self.own)
-        self.shows = {p.name: [i for i in space.touched(c) if i in space.rows] for c in candidates for p in c.parameters}
-        self.which = sorted({i for indices in self.shows.values() for i in indices})
-        self.theta = dict(space.base.values)
-        self.jacobian = space.base.jacobian
-        self.box = Box(space.model.nuisances)
-        self.pull = self.box.prior_gradient(self.box.array(self.theta))
-        # A nuisance that the base model hardly shows stays where it is, rather than running to its bounds.
-        width = 50.0 * (self.box.upper - self.box.lower)
-        self.inverse = np.linalg.pinv(space.base.normal + np.diag(width**-2.0), hermitian=True)
-        self.base = dict(zip(space.training, space.predictions(self.theta, space.training)))
-
-    def residual(self, values: Mapping[str, float]) -> Floats:
-        """Whitened residual with the base fit's nuisances."""
-        ys = self.space.predictions({**self.theta, **values}, self.which)
-        return self.space.base.residual - self.space.whiten({i: y - self.base[i] for i, y in zip(self.which, ys)})
-
-    def nuisance_gradient(self, residual: Floats) -> Floats:
-        return self.jacobian.T @ residual - self.pull
-
-    def cost(self, values: Mapping[str, float]) -> tuple[float, Floats]:
-        """Generalised least squares: chi-square at the best nuisances, and the residual before they follow."""
-        r = self.residual(values)
-        g = self.nuisance_gradient(r)
-        return float(r @ r - g @ self.inverse @ g), r
-
-    def columns(self, values: Mapping[str, float]) -> Floats:
-        space, at = self.space, {**self.theta, **values}
-        return np.column_stack(space.threads.map(lambda p: space.whiten(space.column(at, p, self.shows[p.name])), self.own))
-
-    def total(self, values: Floats) -> tuple[float, Floats]:
-        """``cost`` of the effects' own parameters (p,) with their priors."""
-        cost, r = self.cost(self.part.named(values))
-        return cost + self.part.prior_cost(values), r
-
-    def information(self, columns: Floats, cross: Floats) -> Floats:
-        """What ``columns`` (N, p) of the effects' own parameters tell, nuisances projected out; ``cross`` are their products with these."""
-        found: Floats = columns.T @ columns - cross.T @ self.inverse @ cross
-        return found
-
-    def equations(self, values: Floats, residual: Floats, columns: Floats) -> tuple[Floats, Floats]:
-        """Normal matrix (p, p) of the effects' own parameters, nuisances projected out and priors included, from ``columns`` (N, p), and its
-        right side (p,) at ``values`` (p,)."""
-        cross = self.jacobian.T @ columns
-        normal = self.information(columns, cross) + np.diag(self.part.precision)
-        pull = self.part.prior_gradient(values)
-        return normal, columns.T @ residual - cross.T @ self.inverse @ self.nuisance_gradient(residual) - pull
-
-    def hopeless(self, cost: float, normal: Floats, gradient: Floats) -> bool:
-        """Whether a descent that stands where these equations hold will not come below what it must."""
-        if not np.isfinite(self.least):
-            return False
-        scale = self.part.scale
-        promised = (scale * gradient) @ np.linalg.pinv(normal * np.outer(scale, scale), rcond=1e-11, hermitian=True) @ (scale * gradient)
-        return bool(cost - HOPE * promised > self.least)
-
-    def nuisances_with(self, residual: Floats) -> dict[str, float]:
-        """The nuisances that go with what the effects leave."""
-        shift = self.inverse @ self.nuisance_gradient(residual)
-        return self.box.named(np.clip(self.box.array(self.theta) + shift, self.box.lower, self.box.upper))
-
-
 def _search(
-    frozen: _Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]], widely: bool
+    frozen: Frozen, candidates: Sequence[Candidate], starts: Sequence[dict[str, float]], widely: bool
 ) -> tuple[dict[str, float], bool, Floats]:  # fmt: skip
     """The best optimum (values, whether it converged, columns) from ``starts``; ``widely`` also from other sizes and along its valley."""
 
@@ -190,13 +121,13 @@ def _search(
     return min(found, key=lambda f: cost(f[0]))
 
 
-def _information(frozen: _Frozen, columns: Floats) -> Floats:
+def _information(frozen: Frozen, columns: Floats) -> Floats:
     """Information about the effect's own parameters, nuisances projected out, in units of their scale."""
     part = frozen.part
     return frozen.information(columns, frozen.jacobian.T @ columns) * np.outer(part.scale, part.scale)
 
 
-def _descend(frozen: _Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:
+def _descend(frozen: Frozen, values: Mapping[str, float], iterations: int = 12) -> tuple[dict[str, float], bool, Floats]:
     """Levenberg-Marquardt within bounds over the effects' parameters: values, whether it converged, columns (N, p)."""
     box = frozen.part
     x = box.array(values)
