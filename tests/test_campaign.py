@@ -262,5 +262,5 @@ def test_shares_and_output_speeds_need_a_reducer(tmp_path):
 
 
 def test_no_campaign(tmp_path):
-    with pytest.raises(InputFault, match="no campaign file at .*; rvwear campaign template"):
+    with pytest.raises(InputFault, match="no campaign file at .*; rvwear campaign from .* makes one of measured files, rvwear campaign template"):
         load_campaign(tmp_path)
