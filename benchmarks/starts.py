@@ -117,7 +117,7 @@ def page(found: Sequence[Tried]) -> str:
         "# Fits from other starts", "",
         "Made by `python -m benchmarks.starts --publish`; do not edit.", "",
         f"{len(judged)} fits ({len({t.law for t in judged})} laws of the blind trial, d' of {', '.join(f'{s:g}' for s in STRENGTHS)}, small campaigns):"
-        f" {len(defects)} are beaten by one of {STARTS} other starts by more than their own noise (in chi-square the number of their parameters),"
+        f" {len(defects)} of them beaten by one of {STARTS} other starts by more than their own noise (in chi-square the number of their parameters),"
         f" {sum(t.beaten > 1.0 for t in judged)} by more than 1. Of the {STARTS * len(judged)} starts, drawn within the parameters' ranges and at"
         f" {SMALLEST:g} to {LARGEST:g} times their typical sizes, {sum(o <= t.reported + 1.0 for t in judged for o in t.others)} end within 1 of the"
         " reported fit or below; the others end higher. A chi-square is computed to about 1: a transmission error has kinks, and what interpolation"
