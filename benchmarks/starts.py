@@ -14,6 +14,7 @@ import sys
 import tempfile
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -21,12 +22,12 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
+from benchmarks.blind_trial.results import end_line
 from benchmarks.blind_trial.tool import MODEL
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.refit.curvature import by_secants
-from discrepancy.inference.refit.effect_fit import fit_effects, renew, settled
+from discrepancy.inference.refit.effect_fit import fit_effects, in_earnest
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Candidate, Parameter
@@ -106,8 +107,7 @@ def from_there(doctor: Diagnostician, candidate: Candidate, start: dict[str, flo
     """The fit of a candidate from a place, as one that is reported."""
     with doctor.space.predictions.roughly():
         fit = fit_effects(doctor.space, [candidate], [start])
-    fit = renew(doctor.space, fit, [candidate])
-    return settled(doctor.space, fit, by_secants(doctor.space, fit, [candidate])[0])
+    return in_earnest(doctor.space, fit, [candidate])[0]
 
 
 def page(found: Sequence[Tried]) -> str:
@@ -136,7 +136,11 @@ def page(found: Sequence[Tried]) -> str:
 def kept(path: Path) -> dict[tuple[str, float], Tried]:
     if not path.is_file():
         return {}
-    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    rows = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        # A last line that was cut off is made again.
+        with suppress(json.JSONDecodeError):
+            rows.append(json.loads(line))
     return {(r["law"], r["strength"]): Tried(**(r | {"others": tuple(r["others"])})) for r in rows}
 
 
@@ -152,6 +156,7 @@ def main() -> int:
         os.environ.setdefault(variable, "1")
     options.folder.mkdir(parents=True, exist_ok=True)
     results = options.folder / "results.jsonl"
+    end_line(results)
     found = kept(results)
     cases = [(law.name, s) for s in STRENGTHS for law in CATALOGUE if not options.laws or any(word in law.name for word in options.laws)]
     missing = [case for case in cases if case not in found]

@@ -3,7 +3,6 @@
 import argparse
 import os
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -85,16 +84,10 @@ def settings_of(options: argparse.Namespace, reducer: "Reducer") -> list["Settin
 
 
 def reducer_of(name: str) -> "Reducer":
-    """A reducer of the library, of a reducer file, or of a model file with all that it adds."""
-    from reducers.reducer import is_model_file, load_reducer
+    """The reducer that ``--reducer`` names."""
+    from discrepancy.named_reducer import named_reducer
 
-    if not is_model_file(Path(name)):
-        return load_reducer(name)
-    # Here: what reads models takes its time to load.
-    from discrepancy.model_file import extended_reducer, load_model
-
-    model = load_model(name)
-    return replace(extended_reducer(model), name=model.name)
+    return named_reducer(name)
 
 
 def chosen(options: argparse.Namespace) -> tuple["Reducer", list["Setting"], int]:
@@ -113,17 +106,12 @@ def number_in(unit: str) -> "Callable[[str], float]":
     """What argparse makes of a number in ``unit``, alone or with a unit of its own: 1600, 1600Nm, 1.6kNm."""
 
     def parsed(text: str) -> float:
-        from fmu_src.units import UnitError, conversion
-        from orchestrator.settings import NUMBER
+        from discrepancy.campaign.amount import amount
 
-        match = NUMBER.fullmatch(text)
-        if match is None:
-            raise argparse.ArgumentTypeError(f"{text!r} is no number; give it in {unit}, or with its unit")
         try:
-            factor, offset = conversion(match[2] or unit, unit)
-        except UnitError as fault:
-            raise argparse.ArgumentTypeError(f"{text}: {fault}") from None
-        return factor * float(match[1]) + offset
+            return amount(f"{text} {unit}" if PLAIN.fullmatch(text) else text, unit, "the number")
+        except InputFault as fault:
+            raise argparse.ArgumentTypeError(str(fault)) from None
 
     return parsed
 

@@ -9,7 +9,6 @@ A number may have a ``range = [low, high]`` in its unit, in which it is held to 
 ``assumed`` has a tenth to either side where none is given.
 """
 
-import re
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -133,7 +132,10 @@ def kernels_name(written: str, place: str) -> str:
 
 def is_model_file(path: Path) -> bool:
     """Whether a file is a reducer with what was added to it, which ``discrepancy.model_file`` reads."""
-    return path.suffix == ".toml" and path.is_file() and re.search(rb"(?m)^\s*\[model\]", path.read_bytes()) is not None
+    if path.suffix != ".toml" or not path.is_file():
+        return False
+    with reading(path, "a reducer file", REMEDY):
+        return "model" in read_toml(path, "reducer file", REMEDY)
 
 
 def load_reducer(name_or_path: str | Path) -> Reducer:

@@ -6,9 +6,10 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
+from discrepancy.named_reducer import named_reducer
 from orchestrator import netcdf
 from orchestrator.settings import Setting, parse_setting
-from reducers.reducer import Reducer, is_model_file, load_reducer
+from reducers.reducer import Reducer
 
 # A variable of the units by its structured name, and its value: a number in SI, a choice's name, or a text with a unit.
 Settings = Mapping[str, float | str]
@@ -16,13 +17,7 @@ ReducerLike = Reducer | str | Path
 
 
 def reducer_of(reducer: ReducerLike) -> Reducer:
-    if isinstance(reducer, Reducer):
-        return reducer
-    if not is_model_file(Path(reducer)):
-        return load_reducer(reducer)
-    from discrepancy.model_file import extended_reducer, load_model
-
-    return extended_reducer(load_model(reducer))
+    return reducer if isinstance(reducer, Reducer) else named_reducer(reducer)
 
 
 def settings_of(reducer: Reducer, settings: Settings) -> list[Setting]:

@@ -172,15 +172,15 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     """The command with which one goes on from a diagnosis; empty where nothing is missing."""
     from discrepancy.inference.verdict import BASE_OFF, NONE, SET, UNKNOWN
 
-    data = ["--data", options.data] if options.data else []
     if answer.verdict == NONE:
         return ""
-    if answer.verdict == SET:
-        return shlex.join(["rvwear", "next", options.model, options.campaign, *data]) + "    # the measurement that tells them apart"
-    if answer.verdict == UNKNOWN:
-        return shlex.join(["rvwear", "extend", options.model, options.campaign, *data, "--draft", "effects"]) + "    # makes an effect of what is recovered"
-    what = "# corrects the base model" if answer.verdict == BASE_OFF else "# adds it, and judges it on runs that were not used"
-    return shlex.join(["rvwear", "extend", options.model, options.campaign, *data, "--output", "better.toml"]) + f"    {what}"
+    command, more, what = {
+        SET: ("next", [], "the measurement that tells them apart"),
+        UNKNOWN: ("extend", ["--draft", "effects"], "makes an effect of what is recovered"),
+        BASE_OFF: ("extend", ["--output", "better.toml"], "corrects the base model"),
+    }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
+    data = ["--data", options.data] if options.data else []
+    return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
 
 def run_extend(options: argparse.Namespace) -> int:

@@ -86,7 +86,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
     tags, more_doubts = tags_of(quantity.value, f"{path.parent.name} {speaking} {' '.join(table.above)}", speaking, wishes, path)
     factors, speed_doubts = factors_of(name, table, path)
-    headers = tuple(name_of(table.headers.get(c.name, c.name)) for c in columns)
+    headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
     return GuessedRun(
         path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts), headers
     )

@@ -81,7 +81,8 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
         if name == "periodic":
             starts = _frequencies(x, y / scale, deviation / scale, levels)
         best = min((_fit(function, s, x, y / scale, deviation / scale) for s in starts), key=lambda r: r.cost)
-        if not np.isfinite(best.cost):
+        if not np.isfinite(best.cost) or not np.isfinite(best.jac).all():
+            # Its constants ran to where nothing can be told.
             continue
         losses = np.full(y.size, np.nan)
         for part in parts:
@@ -90,9 +91,6 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
                 continue
             solution = _fit(function, best.x, x[~out], y[~out] / scale, deviation[~out] / scale)
             losses[out] = ((y[out] / scale - function(x[out], *solution.x)) * scale / deviation[out]) ** 2
-        if not np.isfinite(best.jac).all():
-            # Its constants ran to where nothing can be told.
-            continue
         loss = float(np.nanmean(np.minimum(losses, 1e6)))
         dof = max(y.size - len(names), 1)
         # Constants of x^2 and of 1 differ by many decades: in their own sizes, or the small ones would seem known exactly.

@@ -72,11 +72,13 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
         if held and not short:
             repeated = [i for i in held if records[i].name not in counts]
             weights.update(_weights(stream, deviations_of(records, residuals, masks, repeated), records, residuals, masks, held))
+        # Single numbers are too few to show the step in which they were rounded: all runs together do.
+        step = step_of(np.concatenate([np.asarray(records[i].values, float) for i in indices])) if short else None
         for i in indices:
             if records[i].name in counts:
                 weights[i] = weights.get(i, np.ones(int(masks[i].sum()))) * counts[records[i].name]
                 warnings.append(f"{key}: run {records[i].name} stands out of its repetitions and counts for {100.0 * counts[records[i].name]:.0f} % of one")
-            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i, short))
+            whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i, step))
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:
             warnings.append(f"{key}: stuck or missing samples left out in {', '.join(lost[:6])}{' ...' if len(lost) > 6 else ''}")
@@ -255,16 +257,11 @@ def _weights(
     return weights
 
 
-def _rounded(records: Sequence[Record], indices: Sequence[int], i: int, short: bool) -> float:
-    """Noise of rounding of a run; runs that repeat each other and were rounded alike are off alike, and say what one says.
-
-    Single numbers are too few to show their step: all runs together do.
-    """
+def _rounded(records: Sequence[Record], indices: Sequence[int], i: int, step: float | None) -> float:
+    """Noise of rounding of a run, in steps of ``step`` where that is known; runs that repeat each other and were rounded alike are off alike,
+    and say what one says."""
     alike = sum(records[j].condition == records[i].condition and stream_of(records[j]) == stream_of(records[i]) for j in indices)
-    if short:
-        noise = step_of(np.concatenate([np.asarray(records[j].values, float) for j in indices])) / float(np.sqrt(12.0))
-    else:
-        noise = noise_of(np.asarray(records[i].values, float))
+    noise = noise_of(np.asarray(records[i].values, float)) if step is None else step / float(np.sqrt(12.0))
     return noise * float(np.sqrt(alike))
 
 

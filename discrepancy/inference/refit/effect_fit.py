@@ -5,11 +5,13 @@ sensitivities frozen, and the result is then polished with full predictions.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from operator import itemgetter
 
 import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.curvature import by_secants
 from discrepancy.inference.refit.frozen import Frozen
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, near
@@ -79,9 +81,14 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
     return fit
 
 
-def settled(space: Workspace, fit: Fit, columns: Floats) -> Fit:
-    """The same fit after steps by ``columns`` (N, p), sensitivities over a standard deviation: over kinks, at which those of a point stand still."""
-    return _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2)
+def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> tuple[Fit, Floats]:
+    """The fit as it is reported and the covariance (p, p) of its parameters.
+
+    Last steps go by sensitivities over a standard deviation: over kinks, at which those of a point stand still.
+    """
+    fit = renew(space, fit, candidates)
+    columns, covariance = by_secants(space, fit, candidates)
+    return _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2), covariance
 
 
 def _promised(fit: Fit) -> float:
@@ -115,8 +122,9 @@ def _search(
         promising = least + PROMISING * max(frozen.space.base.chi2 - least, 0.0)
         chosen = [others[k] for k in np.argsort(by_cost)[:OTHERS] if by_cost[k] < promising]
         if len(amplitudes) > MOST_AMPLITUDES:
-            of_each = [min(zip(frozen.space.threads.map(cost, starts), range(len(starts)), starts)) for starts in alone(amplitudes, best[0])]
-            chosen += [start for gained, _, start in sorted(of_each)[:OTHERS] if gained < frozen.space.base.chi2]
+            best_of_each = sorted((min(zip(frozen.space.threads.map(cost, starts), starts), key=itemgetter(0)) for starts in alone(amplitudes, best[0])),
+                                  key=itemgetter(0))  # fmt: skip
+            chosen += [start for left, start in best_of_each[:OTHERS] if left < frozen.space.base.chi2]
         found += [_descend(frozen, start) for start in chosen]
     return min(found, key=lambda f: cost(f[0]))
 

@@ -5,8 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.curvature import by_secants
-from discrepancy.inference.refit.effect_fit import renew, settled
+from discrepancy.inference.refit.effect_fit import in_earnest
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate
@@ -56,8 +55,6 @@ class Refits:
         if key in self.final_fits:
             return self.final_fits[key]
         self.space.predictions.settle(result.fit.values)
-        fit = renew(self.space, result.fit, result.candidates)
-        columns, covariance = by_secants(self.space, fit, result.candidates)
-        better = finished(self.space, result.candidates, settled(self.space, fit, columns), covariance)
+        better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
         self.fitted[key] = self.final_fits[key] = better
         return better

@@ -14,7 +14,7 @@ from fmu_src.arrays import Floats
 
 # Sizes of a start over the score test's estimate, and over a parameter's typical size.
 FACTORS, SIZES = (0.25, 4.0), (0.5, 2.0)
-# More amplitudes than these have too many quadrants; they are harmonics of one pattern, and linear.
+# More amplitudes than these have too many quadrants; they are harmonics of one pattern.
 MOST_AMPLITUDES = 3
 # A harmonic's phases [rad]; with the sign turned it shows as much.
 PHASES = (0.0, 0.25 * np.pi, 0.5 * np.pi, 0.75 * np.pi)
