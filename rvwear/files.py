@@ -96,8 +96,8 @@ def export(result: Result, *files: str | Path, width: str = "single") -> list[Pa
     CSV and Parquet take one table a file, pictures are one a file: further ones stand beside the first as ``NAME_table.csv``, ``NAME_figure.svg``.
 
     >>> import rvwear, tempfile
-    >>> folder = Path(tempfile.mkdtemp())
-    >>> [path.name for path in rvwear.export(rvwear.hysteresis(steps=4, angles=1), folder / "loop.csv")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [path.name for path in rvwear.export(rvwear.hysteresis(steps=4, angles=1), f"{folder}/loop.csv")]
     ['loop.csv', 'loop_figures.csv']
     """
     written: list[Path] = []

@@ -1,9 +1,12 @@
 """What cannot be is doubted, with file, column, value, unit and remedy; what can be is not."""
 
+import re
+
 import numpy as np
 import pytest
 from test_campaign_check import angle_file, campaign, codes, condition
 
+from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.doubts import jumps, path, suffices
 from discrepancy.campaign.load import load_campaign
 from discrepancy.plausible import fitting, scale_doubts
@@ -106,3 +109,32 @@ def test_jitter_of_a_torque_is_no_way():
     assert path(LOOP + 0.5 * rng.standard_normal(len(LOOP))) == pytest.approx(4.0 * RATED, rel=0.05)
     record = Record("r", "hysteresis", "rad", "c", 1, LOOP, {"torque": LOOP}, {})
     assert suffices(record, None)[0] == pytest.approx(400, abs=2)
+
+
+def turned(friction, torque=LOOP, sign=1.0):
+    """Turning [arcmin] of a loop that friction holds open; below 0 it runs the wrong way round."""
+    rising = np.sign(np.gradient(torque))
+    return sign * 2.9 * (torque - friction * rising) / RATED + np.random.default_rng(1).normal(0.0, 0.05, len(torque))
+
+
+def loop_doubts(folder, turning, torque=LOOP):
+    np.savetxt(folder / "loop.csv", np.column_stack([torque, turning]), delimiter=",", header="T,phi", comments="")
+    run = (
+        'condition = "a"\nquantity = "hysteresis"\ntags.locked = "input"\nfile = "loop.csv"\n'
+        'columns.torque = { column = "T", unit = "N.m" }\ncolumns.value = { column = "phi", unit = "arcmin" }'
+    )
+    campaign(folder, {"a": condition()}, [run])
+    return [finding for finding in check_campaign(load_campaign(folder)).findings if finding.code.startswith("loop")]
+
+
+def test_a_loop_that_gives_work_is_doubted_and_one_that_takes_it_is_not(tmp_path):
+    assert not loop_doubts(tmp_path, turned(10.0)) and not loop_doubts(tmp_path, turned(0.0))
+    (found,) = loop_doubts(tmp_path, turned(-10.0))
+    gap = float(re.search(r"([\d.]+) arcmin less", found.text)[1])
+    assert gap == pytest.approx(2.0 * 10.0 * 2.9 / RATED, rel=0.1) and "loop.csv, column phi" in found.text and "order of time" in found.remedy
+    assert len(loop_doubts(tmp_path, turned(10.0)[::-1], LOOP[::-1])) == 1
+
+
+def test_a_loop_that_turns_against_its_torque_is_doubted(tmp_path):
+    (found,) = loop_doubts(tmp_path, turned(10.0, sign=-1.0))
+    assert "opposite senses" in found.text and "scale = -1" in found.remedy

@@ -101,6 +101,17 @@ def test_moments_that_are_missing_are_no_numbers(tmp_path):
     assert np.isnan(times[5]) and np.diff(times[:5]) == pytest.approx(1e9)
 
 
+@pytest.mark.parametrize(("line", "found"), [
+    ("# torque = 100 N.m, speed = 15 rpm; temperature: 40 °C", {"load": (100.0, "N.m"), "speed": (15.0, "rpm"), "temperature": (40.0, "degC")}),
+    ("Drehmoment: 12,5 Nm; Drehzahl: 15,5 1/min", {"load": (12.5, "N.m"), "speed": (15.5, "rpm")}),
+    ("Torque: 167 Nm speed: 15 rpm", {"load": (167.0, "N.m"), "speed": (15.0, "rpm")}),
+    ("load torque [N.m] = 50 | input speed = 1500 rpm", {"load": (50.0, "N.m"), "input_speed": (1500.0, "rpm")}),
+    ("date: 2024-03-01, time: 12:30:11", {}),
+])  # fmt: skip
+def test_one_line_above_a_table_may_state_several_conditions(line, found):
+    assert stated_above((line,)) == found
+
+
 def test_a_long_line_above_a_table_keeps_nobody_waiting():
     started = time.process_time()
     assert stated_above((" " * 20_000 + "x", "a" + " " * 20_000 + "1", "Torque: 15 Nm")) == {"load": (15.0, "N.m")}

@@ -11,6 +11,7 @@ from cli.main import main
 from discrepancy.catalogue.documentation import PAGE, own_part
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
+from studies.effect_off import changes_when_off
 
 HEAD = """import math
 from fmu_src.effect import Effect, amplitude
@@ -239,6 +240,27 @@ def test_command_says_what_it_finds(tmp_path, capsys):
     assert main(["effects", "--check", str(good)]) == 0
     assert main(["effects", "--check", str(good), str(bad)]) == 2
     assert f"{bad}:{FIRST + 2}: before may not change r.z" in capsys.readouterr().out
+
+
+OFF = [
+    ("rv_plant", HEAD + "@kernel\ndef prepare(r):\n    r.compliance[0] += 1e-9 + r.my_size\n", "prepare changes r.compliance by up to 1e-09"),
+    ("rv_plant", HEAD + "@kernel\ndef before(r):\n    r.ring_scale *= 1.0 - 1e-9 / r.my_size\n", "before changes r.ring_scale"),
+    ("wear_fmu", HEAD + "@kernel\ndef factor(r, surface, line_load, radius, speed, depth):\n    return 1.2 + r.my_size\n\n\n"
+     "@kernel\ndef prepare(r):\n    if r.my_size != 0.0:\n        r.effects_on += 1\n", "factor returns 1.2, not 1.0"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("unit", "text", "said"), OFF)
+def test_an_effect_that_acts_while_it_is_off_is_told(tmp_path, unit, text, said):
+    (found,) = changes_when_off(written(tmp_path, text, unit))
+    assert found.line == text[: text.index("@kernel")].count("\n") + 1 and said in found.text
+
+
+def test_nothing_of_the_catalogue_acts_while_it_is_off(tmp_path):
+    program = "from studies.effect_off import UNITS, changes_of; [print(n, c) for u in UNITS for n in UNITS[u][0].EFFECTS if (c := changes_of(u, n))]"
+    (tmp_path / "rv_plant").mkdir()
+    done = in_its_own_process(tmp_path, program)
+    assert done.returncode == 0 and done.stdout == "", done.stdout + done.stderr
 
 
 def in_its_own_process(folder: Path, program: str) -> subprocess.CompletedProcess:

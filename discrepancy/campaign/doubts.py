@@ -9,6 +9,7 @@ import numpy as np
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.findings import WARNING, Finding
+from discrepancy.campaign.loop_doubts import ways_round
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import VALUE
 from discrepancy.problem import Record
@@ -163,4 +164,4 @@ def highest_order_of_parts(campaign: Campaign) -> tuple[float, str]:
     return max(orders)
 
 
-DOUBTS = (torques, order_of_rows, needless_samples)
+DOUBTS = (torques, order_of_rows, ways_round, needless_samples)

@@ -7,6 +7,9 @@ from discrepancy.campaign.guess.column_words import meaning_of
 from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
 
 STATED = re.compile(r"^[#%\"\s]*([^:=;\t,\d]{1,60}?)\s*[:=;\t,]\s*[;\t,]*\s*([+-]?\d+(?:[.,]\d+)?)\s*[;\t,]?\s*([^;\t,\"]*)[;\t,\"\s]*$")
+# Several on one line: "torque = 100 N.m, speed = 15 rpm; temperature: 40 °C".
+ONE = r"[^:=;\t,|\d]{1,60}?\s*[:=]\s*[+-]?\d"
+EACH = re.compile(rf"([^:=;\t,|\d]{{1,60}}?)\s*[:=]\s*([+-]?\d+(?:[.,]\d+)?)\s*([^;\t,|:=\"]*?)\s*(?:[;\t,|\"]|\s(?={ONE})|$)")
 # Signs of a line that may state a number; what is longer is looked at in vain, and for long.
 LONGEST = 200
 FACTORS = {
@@ -19,10 +22,12 @@ def stated_above(lines: tuple[str, ...]) -> dict[str, tuple[float, str]]:
     """Field as of a file name's pattern -> (number, unit); only what has a unit of its kind."""
     found: dict[str, tuple[float, str]] = {}
     for line in map(str.strip, lines):
-        if len(line) > LONGEST or not (match := STATED.match(line)):
+        if len(line) > LONGEST:
             continue
-        field = FACTORS.get(meaning_of(name_of(match[1])) or "")
-        known = unit_of(match[3]) or ((inside[0], inside[1]) if (inside := unit_in(match[1])) else None)
-        if field and known and (known[1] == field[1] or (known[0] == "%" and field[0] == "load")):
-            found.setdefault(field[0], (float(match[2].replace(",", ".")), known[0]))
+        one = STATED.match(line)
+        for name, number, unit in [one.groups()] if one and not re.search(r"[:=]", one[3]) else EACH.findall(line):
+            field = FACTORS.get(meaning_of(name_of(name.strip(' #%"'))) or "")
+            known = unit_of(unit) or ((inside[0], inside[1]) if (inside := unit_in(name)) else None)
+            if field and known and (known[1] == field[1] or (known[0] == "%" and field[0] == "load")):
+                found.setdefault(field[0], (float(number.replace(",", ".")), known[0]))
     return found

@@ -1,0 +1,150 @@
+"""An effect of one's own, tried with its amplitudes off: it has to change nothing.
+
+No reading of its text can tell that, so the units' kernels run as plain Python, at rest and in motion, and what the
+effect's hooks change meanwhile is looked at from outside.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from fmu_src.effect import Effect
+from fmu_src.effect_check import Finding, check_any_file
+from fmu_src.source_hash import USER_EFFECTS
+from reducers.reducer import load_reducer
+from rv_plant import effects as of_plant
+from rv_plant import plant
+from rv_reducer.exchange import PLANT_TO_WEAR
+from wear_fmu import accumulator
+from wear_fmu import effects as of_wear
+
+# The effects of each unit, and whether it is the one that wears.
+UNITS = {"rv_plant": (of_plant, False), "wear_fmu": (of_wear, True)}
+# Nothing of what an effect changes is set in the first; on the second an effect of output pins can act.
+REDUCER, WITH_PINS = "RV20E-121-rigid", "cycloidal-actuator"
+# Communication steps [s]: at rest, and in motion, where the plant divides them.
+STEP, IN_MOTION = 1e-3, 2e-5
+PATIENCE = 120.0
+
+
+def changes_when_off(file: Path) -> list[Finding]:
+    """What a sound effect's file changes with its amplitudes off, a line for each hook; the file lies in its unit's folder.
+
+    With faulty files beside it no unit starts, so that nothing can be said.
+    """
+    folder = file.parent.parent
+    if any(check_any_file(beside) for unit in UNITS for beside in (folder / unit).glob("[!.]*.py") if beside.stem != "__init__"):
+        return []
+    program = f"import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from {__name__} import main; main(sys.argv[2])"
+    environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", USER_EFFECTS: str(folder)}
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", "-c", program, repr(sys.path), str(file)],
+            capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment, timeout=PATIENCE, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return [Finding(file, 0, f"not tried with its amplitudes off: two steps take more than {PATIENCE:g} s")]
+    if done.returncode:
+        last = (done.stderr.strip() or "no word").splitlines()[-1]
+        return [Finding(file, 0, f"not tried with its amplitudes off: {last}")]
+    return [Finding(file, line, text) for line, text in json.loads(done.stdout.splitlines()[-1])]
+
+
+def main(name: str) -> None:
+    """In the process itself: prints the findings as JSON."""
+    file = Path(name)
+    print(json.dumps(changes_of(file.parent.name, file.stem)))
+
+
+def changes_of(unit: str, name: str) -> list[tuple[int, str]]:
+    """(line, what is wrong) for each hook of an effect that does something while it is off; where kernels are plain Python."""
+    effects, wears = UNITS[unit]
+    composed, effect = sys.modules[f"{unit}.effects.composed"], effects.EFFECTS[name]
+    found: dict[str, tuple[int, str]] = {}
+    hooks = watch(composed, effects, name, found)
+    try:
+        for fidelity in (0,) if wears else (0, 1):
+            with np.errstate(all="ignore"):
+                run(effect, wears, fidelity)
+    except ArithmeticError as error:
+        found[""] = line_in(error, name), f"with its amplitudes off, the effect ends in {type(error).__name__}: {error}"
+    finally:
+        vars(composed).update(hooks)
+    return list(found.values())
+
+
+def run(effect: Effect, wears: bool, fidelity: int) -> None:
+    """Start the units and step them once."""
+    reducer = load_reducer(WITH_PINS if effect.needs == "output pins" else REDUCER)
+    machine, surface = (table.new_records().view(np.recarray) for table in (reducer.plant, reducer.wear))
+    machine["fidelity"] = fidelity
+    for off in (p.variable for p in effect.amplitudes()):
+        (surface if wears else machine)[off.name] = off.start
+    plant.initialise(machine)
+    if wears:
+        give(machine, surface)
+        accumulator.initialise(surface)
+    step = IN_MOTION if fidelity else STEP
+    plant.step(machine, 0.0, step)
+    if wears:
+        give(machine, surface)
+        accumulator.step(surface, 0.0, step)
+
+
+def give(machine: "np.recarray[Any, Any]", surface: "np.recarray[Any, Any]") -> None:
+    """What the plant hands to the wear unit."""
+    # The temperature stays as it is.
+    for name in (name.replace(".", "_") for name in PLANT_TO_WEAR if not name.startswith("heat.")):
+        surface[name] = machine[name]
+
+
+def watch(composed: ModuleType, effects: ModuleType, name: str, found: dict[str, tuple[int, str]]) -> dict[str, Any]:
+    """Look over the shoulder of each of the effect's hooks; what they were before."""
+    # Counts of who is on, not physics.
+    counts = set(getattr(effects, "NEEDS", {}).values())
+    hooks = {f"{hook}_{name}": getattr(composed, f"{hook}_{name}", None) for hook in effects.HOOKS}
+    present = {called: function for called, function in hooks.items() if function is not None}
+    for called, function in present.items():
+        hook = called.removesuffix(f"_{name}")
+        fields = [field for field, how in effects.ALLOWED[hook].items() if how in ("+=", "*=") and field not in counts]
+        count = next(iter(counts), "") if hook == "prepare" else ""
+        setattr(composed, called, Watched(function, hook, fields, count, found))
+    return present
+
+
+class Watched:
+    """A hook that tells what it changes; ``count`` is set after it, so that hooks are called that wait for an effect to be on."""
+
+    def __init__(self, hook: Callable[..., Any], name: str, fields: list[str], count: str, found: dict[str, tuple[int, str]]):
+        self.hook, self.name, self.fields, self.count, self.found = hook, name, fields, count, found
+
+    def __call__(self, r: Any, *arguments: Any) -> Any:
+        before = {field: np.array(r[field]) for field in self.fields}
+        result = self.hook(r, *arguments)
+        for field, old in before.items():
+            if not np.array_equal(r[field], old):
+                largest = np.max(np.abs(np.asarray(r[field]) - old))
+                self.tell(f"changes r.{field} by {'up to ' if np.ndim(old) else ''}{largest:.3g}")
+        if result is not None and result != 1.0:
+            self.tell(f"returns {result:.6g}, not 1.0")
+        if self.count:
+            r[self.count] += 1
+        return result
+
+    def tell(self, what: str) -> None:
+        text = f"with its amplitudes off, {self.name} {what}: an effect that is off must change nothing"
+        self.found.setdefault(self.name, (self.hook.__code__.co_firstlineno, text))
+
+
+def line_in(error: BaseException, name: str) -> int:
+    """The line of the effect's file on which it went wrong, or 0."""
+    lines = [frame.lineno or 0 for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).stem == name]
+    return lines[-1] if lines else 0
