@@ -5,6 +5,7 @@ meant to be read (assumed).
 """
 
 import contextlib
+import re
 import stat
 import tomllib
 import zipfile
@@ -20,6 +21,8 @@ MOST_TEXT, DEEPEST = 20_000_000, 20
 # Of an archive: members, bytes when unpacked, and how deep folders may be.
 MOST_MEMBERS, MOST_UNPACKED, MOST_FOLDERS = 20_000, 4_000_000_000, 40
 BLOCK = 1 << 20
+# A number with a decimal comma where TOML wants one number: at the end of a line, or before the next key of a table.
+DECIMAL_COMMA = re.compile(r"=[ \t]*([+-]?\d+,\d+)[ \t]*(?:$|#|\}|,[ \t]*[\w\"])")
 # How much of a value or message stands in a fault.
 SHOWN = 200
 # Signs of a whole fault.
@@ -96,9 +99,17 @@ def parse_toml(text: str, path: Path, remedy: str) -> dict[str, Any]:
         try:
             content = tomllib.loads(text)
         except tomllib.TOMLDecodeError as problem:
-            raise InputFault(f"{path}: not a TOML file: {shown(str(problem))}; {remedy}") from None
+            raise InputFault(f"{path}: not a TOML file: {shown(str(problem))}; {comma_in(text) or remedy}") from None
         require_plain(content, path, "", 0)
         return content
+
+
+def comma_in(text: str) -> str:
+    """What to do about the first number with a decimal comma; empty if there is none."""
+    for number, line in enumerate(text.splitlines(), 1):
+        if match := DECIMAL_COMMA.search(line[:LONGEST]):
+            return f"line {number} has {match[1]}: write {match[1].replace(',', '.')}, with a point"
+    return ""
 
 
 def require_plain(item: object, path: Path, place: str, depth: int) -> None:

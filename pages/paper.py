@@ -56,13 +56,13 @@ def require_drawable(path: Path) -> None:
 
 
 def write_pictures(figures: Sequence[Figure], path: Path, width: float = WIDTHS["single"]) -> list[Path]:
-    """One figure as ``path``, several as ``NAME_figure.svg``; the files that were written.  ``width`` in mm."""
+    """The first figure as ``path``, further ones beside it as ``NAME_figure.svg``; the files that were written.  ``width`` in mm."""
     require_drawable(path)
     if not figures:
         raise InputFault(f"--picture {path}: there is nothing to draw in this result")
     written = []
-    for figure in figures:
-        own = path if len(figures) == 1 else path.with_name(f"{path.stem}_{figure.name.strip('_')}{path.suffix}")
+    for k, figure in enumerate(figures):
+        own = path if k == 0 else path.with_name(f"{path.stem}_{figure.name.strip('_')}{path.suffix}")
         save(drawn(figure, width), own)
         written.append(own)
     return written

@@ -76,7 +76,7 @@ def mode_table(found: Mapping[tuple[bool, bool], Sequence[Mode]]) -> Table:
 def loop_figures(loop: Hysteresis) -> dict[str, float]:
     """What is read from the loop, with units in the names."""
     return {
-        "rated_torque_Nm": float(loop.torque.max()),
+        "largest_torque_Nm": float(loop.torque.max()),
         "lost_motion_arcmin": loop.lost_motion_arcmin,
         "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
         "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,

@@ -89,6 +89,12 @@ def write_html(options: argparse.Namespace, result: object) -> None:
         write_page(result, page)
 
 
+def say_page(options: argparse.Namespace) -> None:
+    """Where the page is, after everything else; nothing beside JSON."""
+    if (page := page_path(options.html)) and not options.json:
+        print(f"\npage  {page}")
+
+
 def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile") -> None:
     """As tables and pictures, if they are asked for."""
     if not options.export and not options.picture:
@@ -112,6 +118,7 @@ def run_compare(options: argparse.Namespace) -> int:
         json_text(comparison.as_json())
     else:
         show_comparison(comparison)
+    say_page(options)
     export(options, comparison)
     return 0
 
@@ -129,6 +136,7 @@ def run_localise(options: argparse.Namespace) -> int:
     else:
         show_localisation(comparison.diagnostician.localisation)
         show_warnings(console(), comparison.warnings)
+    say_page(options)
     return 0
 
 
@@ -162,6 +170,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
             print(f"\nnext  {line}")
         if options.draft:
             print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
+    say_page(options)
     export(options, answer)
     if stopped:
         print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
@@ -230,6 +239,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
         for path in fmus:
             print(f"FMU    {path}")
+    say_page(options)
     return DID_NOT_HELP_CODE if extension.verdict == DID_NOT_HELP else 0
 
 
@@ -292,6 +302,7 @@ def run_ladder(options: argparse.Namespace) -> int:
         json_text({"model": file.name, "steps": list(file.steps)})
     else:
         show_ladder(file)
+    say_page(options)
     export(options, file)
     return 0
 
@@ -308,4 +319,5 @@ def run_next(options: argparse.Namespace) -> int:
         json_text(run.as_json())
     else:
         show_next(run)
+    say_page(options)
     return 0

@@ -1,25 +1,39 @@
 """A completed reducer on the screen."""
 
+import shlex
 from pathlib import Path
+from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.completion.compare import Row
-from reducers.completion.complete import Completion
+from reducers.completion.complete import COMPLETED, Completion
 from studies.completed_ranges import Influence, what_matters
+
+# Signs of a rule that a line of the table has room for.
+RULE = 19
 
 
 def show(completion: Completion, name: str, file: Path) -> None:
-    """Numbers with ranges and rules, then doubts."""
+    """Numbers with ranges and the beginning of their rules, doubts, and a sum."""
     table = dense(f"{name}: completed by design rules")
-    for head in ("number", "value", "unit", "range", "by"):
-        table.add_column(head, justify="right" if head in ("value", "range") else "left", overflow="fold")
+    for head in ("number", "value", "unit", "range"):
+        table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
+    table.add_column("by", no_wrap=True)
     for number in completion.numbers.values():
-        span = f"{number.low:.4g} to {number.high:.4g}" if number.low < number.high else ""
-        table.add_row(number.name, f"{number.value:.5g}", "" if number.unit == "1" else number.unit, span, number.source)
+        span = f"{number.low:.3g} to {number.high:.3g}" if number.low < number.high else ""
+        rule = shorten(number.source.removeprefix(f"{COMPLETED}: "), RULE, placeholder=" ...")
+        table.add_row(number.name, f"{number.value:.4g}", "" if number.unit == "1" else number.unit, span, rule)
     console(WIDTH).print(table)
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
-    console().print(f"written: {file}; read and checked as any other reducer file")
+    numbers = completion.numbers.values()
+    given, assumed = sum(n.is_given for n in numbers), sum("assumed" in n.source for n in numbers)
+    console().print(
+        f"{len(numbers)} numbers: {given} given, {len(numbers) - given - assumed} by published rules, {assumed} assumed; each stands in the file with its range and its rule"
+        " in full, --known NAME=VALUE replaces one and what hangs on it"
+    )
+    # Plain, so that paths can be copied.
+    print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 
 
 def show_against(rows: list[Row], name: str, full: str) -> None:
