@@ -29,8 +29,8 @@ def show(completion: Completion, name: str, file: Path) -> None:
     numbers = completion.numbers.values()
     given, assumed = sum(n.is_given for n in numbers), sum("assumed" in n.source for n in numbers)
     console().print(
-        f"{len(numbers)} numbers: {given} given, {len(numbers) - given - assumed} by published rules, {assumed} assumed; each stands in the file with its range and its rule"
-        " in full, --known NAME=VALUE replaces one and what hangs on it"
+        f"{len(numbers)} numbers: {given} given, {len(numbers) - given - assumed} by published rules, {assumed} assumed; each stands in the file"
+        " with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
     )
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")

@@ -30,8 +30,8 @@ def ways_round(design: Design) -> Iterator[Finding]:
         place = campaign.place(record.name, VALUE)
         if np.corrcoef(torque, turning)[0, 1] < CLEAR_SLOPE:
             yield Finding(
-                WARNING, "loop against the torque", f"run {record.name}: the reducer turns{place} against the torque on it: the two columns count in opposite senses",
-                "state scale = -1 in one of the two columns",
+                WARNING, "loop against the torque",
+                f"run {record.name}: the reducer turns{place} against the torque on it: the two columns count in opposite senses", "state scale = -1 in one of the two columns",
             )  # fmt: skip
             continue
         gap, noise = gap_between_ways(torque, turning)
@@ -39,8 +39,8 @@ def ways_round(design: Design) -> Iterator[Finding]:
             source = campaign.sources.get(record.name, {}).get(VALUE, Source("", "", "rad", 1.0))
             yield Finding(
                 WARNING, "loop the wrong way round",
-                f"run {record.name}: at equal torque the turning{place} is {readable(-gap / abs(source.factor))} {source.unit} less on the way down than on the way up,"
-                " so that the reducer gives work; friction takes it",
+                f"run {record.name}: at equal torque the turning{place} is {readable(-gap / abs(source.factor))} {source.unit} less on the way down"
+                " than on the way up, so that the reducer gives work; friction takes it",
                 "export the rows in the order of time; if torque and turning come from two recorders, correct the delay between them",
             )  # fmt: skip
 
