@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fmu_src.faults import InputFault
+
 if TYPE_CHECKING:
     from exports.tables import Table
     from pages.look import Figure
@@ -29,7 +31,9 @@ def check_exports(options: argparse.Namespace) -> None:
 
         for name in options.export:
             require_writable(Path(name))
-    if options.picture or options.width:
+    if options.width and not options.picture:
+        raise InputFault(f"--width {options.width} without --picture FILE: a width is one of pictures; say --picture figure.svg, too")
+    if options.picture:
         from pages.paper import require_drawable, width_of
 
         width_of(options.width or "single")

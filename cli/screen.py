@@ -1,6 +1,7 @@
 """Results on the screen."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 from rich import box
 from rich.console import Console
@@ -37,14 +38,14 @@ def json_text(content: Mapping[str, object]) -> None:
     print(plain_json(content, indent=1))
 
 
-def figures(title: str, values: Mapping[str, object]) -> None:
-    """Two columns: what and how much."""
+def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] = MappingProxyType({})) -> None:
+    """What, how much, and the unit: that of ``units``, or what the name ends in."""
     table = Table(title=title, title_justify="left")
     table.add_column("figure")
     table.add_column("value", justify="right")
     table.add_column("unit")
     for name, value in values.items():
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
-        unit = figure_unit(name)
+        unit = units.get(name) or figure_unit(name)
         table.add_row(name, text, "" if unit == "1" else unit)
     console().print(table)

@@ -75,7 +75,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
-    warnings = too_soft(figures) + incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    warnings = another_reducer(model) + too_soft(figures) + incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 
 
@@ -128,6 +128,14 @@ def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def rms(values: Iterable[float]) -> float:
     return float(np.sqrt(np.mean(np.square(list(values)))))
+
+
+def another_reducer(model: PhysicalModel) -> list[str]:
+    """A campaign that names another reducer than the model's: what differs would be taken for effects."""
+    named = model.campaign.reducer
+    if named is None or named.name == model.file.reducer.name:
+        return []
+    return [f"the campaign is of {named.name}, the model is made of {model.file.reducer.name}: whatever differs between the two looks like an effect"]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import figures_of, incomplete, warnings_of
+from discrepancy.compare import another_reducer, figures_of, incomplete, warnings_of
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
@@ -118,7 +118,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
-    warnings = too_soft(figures) + incomplete(model.campaign) + warnings_of(model, list(found.warnings))
+    warnings = another_reducer(model) + too_soft(figures) + incomplete(model.campaign) + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 

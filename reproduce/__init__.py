@@ -9,7 +9,7 @@
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from fmu_src.faults import InputFault
@@ -47,9 +47,10 @@ def available_claims() -> list[str]:
 
 
 def chosen(selected: list[str] | None) -> list[str]:
-    """The ids that ids or prefixes of them name; InputFault for one that names none."""
+    """The ids that ids or prefixes of them name, in capitals or not; InputFault for one that names none."""
     ids = available_claims()
-    for name in selected or ():
+    selected = [name.upper() for name in selected or ()]
+    for name in selected:
         if not any(known.startswith(name) for known in ids):
             raise InputFault(f"claim {name!r}: there is none; the claims are {', '.join(ids)}")
     return [known for known in ids if not selected or known.startswith(tuple(selected))]
@@ -60,10 +61,13 @@ def stated(selected: list[str] | None = None) -> dict[str, tuple[str, str, str]]
     return {name: STATED[name] for name in chosen(selected)}
 
 
-def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None) -> list[Claim]:
-    """Judge the claims of the given ids or id prefixes ("T", "N1"), or all; ``progress`` gets lines of text."""
+def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None, changes: Sequence[str] = ()) -> list[Claim]:
+    """Judge the claims of the given ids or id prefixes ("T", "N1"), or all; ``progress`` gets lines of text.
+
+    ``changes``: other numbers of the reducers than the sources', ``name=value``; what the sources' numbers carry need not hold then.
+    """
     ids = chosen(selected)
-    context = Context(lambda text: progress(f"  run   {text}"))
+    context = Context(lambda text: progress(f"  run   {text}"), changes)
     claims = []
     for i, name in enumerate(ids, 1):
         begun = time.perf_counter()
@@ -73,6 +77,6 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
     return claims
 
 
-def write_page(claims: list[Claim], path: Path) -> Path:
+def write_page(claims: list[Claim], path: Path, changes: Sequence[str] = ()) -> Path:
     """Write the claims as one HTML file that opens offline."""
-    return written(page_of(claims), path)
+    return written(page_of(claims, changes), path)

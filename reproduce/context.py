@@ -5,13 +5,14 @@ command within a minute or two.  ``POSITIONS`` a turn is not: a third of them ma
 deeper, twice as many 0.1 % shallower.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 import numpy as np
 
 from fmu_src.arrays import Floats
+from fmu_src.faults import InputFault
 from orchestrator.settings import Setting, parse_setting
 from reducers.completion.complete import complete
 from reducers.completion.file import reducer_at
@@ -79,8 +80,9 @@ def flank_of(tooth: Floats) -> tuple[Floats, Floats]:
 class Context:
     """Runs by their settings, each made once."""
 
-    def __init__(self, progress: Callable[[str], None] = lambda _: None):
-        self.progress = progress
+    def __init__(self, progress: Callable[[str], None] = lambda _: None, changes: Sequence[str] = ()):
+        """``changes``: other numbers than the sources', ``name=value``, of every reducer that has a number of the name."""
+        self.progress, self.changes = progress, changes
         self.known: dict[tuple[object, ...], Any] = {}
 
     def once(self, key: tuple[object, ...], make: Callable[[], Made], text: str = "") -> Made:
@@ -94,12 +96,20 @@ class Context:
 
     def reducer(self, name: str) -> Reducer:
         """BX and RV as the sources have them, on rigid supports and without losses; REAL_BX and REAL_RV as the library has them."""
-        return self.once(("reducer", name), lambda: load_reducer(LIBRARY[name]))
+        return self.once(("reducer", name), lambda: self.changed(load_reducer(LIBRARY[name])))
+
+    def changed(self, reducer: Reducer) -> Reducer:
+        """With the other numbers; InputFault for one that it does not have."""
+        for text in self.changes:
+            if "[" in text.partition("=")[0]:
+                raise InputFault(f"--set {text}: single numbers can be changed, not elements of a list")
+        own = {one.name: float(one.value) for one in (parse_setting(text, [reducer.plant, reducer.wear]) for text in self.changes)}
+        return replace(reducer, starts=reducer.starts | own)
 
     def rv80e(self) -> Reducer:
         """An RV-80E with ratio 153 and three cranks, completed from what is published of one."""
         given = Given(153.0, PINS, 784.0, 222.0, cranks=3, known=known_numbers(RV_80E))
-        return self.once(("reducer", "RV-80E"), lambda: reducer_at(complete(given), {}, "RV-80E"))
+        return self.once(("reducer", "RV-80E"), lambda: self.changed(reducer_at(complete(given), {}, "RV-80E")))
 
     def settings(self, name: str, texts: tuple[str, ...]) -> list[Setting]:
         reducer = self.reducer(name)

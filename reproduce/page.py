@@ -1,5 +1,6 @@
 """The page: all claims put into the template."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from pages.render import rendered
@@ -10,7 +11,7 @@ TEMPLATE = Path(__file__).with_name("claims.html")
 TONES = {REPRODUCED: "good", CONDITIONAL: "fair", CONTRADICTED: "bad", NOT_TESTABLE: "open"}
 
 
-def page_of(claims: list[Claim]) -> str:
+def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
     """The whole page as HTML; equal claims give equal bytes."""
     groups = [(source, [c for c in claims if c.source == source]) for source in SOURCES]
     numbers = [n for c in claims for n in c.numbers if n.agrees is not None]
@@ -18,6 +19,6 @@ def page_of(claims: list[Claim]) -> str:
         TEMPLATE, [figure for claim in claims for figure in claim.figures],
         groups=[(source, found) for source, found in groups if found], tones=TONES, number=value_text, audited=audited_text,
         counts=[(v, TONES[v], sum(c.verdict == v for c in claims)) for v in VERDICTS], total=len(claims),
-        confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
-        discrepancies=[(c, n) for c in claims for n in c.discrepancies],
+        changes=changes, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
+        discrepancies=[] if changes else [(c, n) for c in claims for n in c.discrepancies],
     )  # fmt: skip

@@ -8,6 +8,7 @@ from rich.text import Text
 
 from exports.tables import Table as Export
 from exports.tables import rows_table
+from pages.look import Figure
 from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Audited, Claim, Number
 
 # Wide enough for the table, also where the output goes to a file.
@@ -31,8 +32,8 @@ def audited_text(number: Number) -> str:
     return value_text(number.audited)
 
 
-def print_table(claims: list[Claim]) -> None:
-    """One row per claim, and below what the independent check does not confirm."""
+def print_table(claims: list[Claim], checked: bool = True) -> None:
+    """One row per claim, and below what the independent check does not confirm, where it is one of these numbers."""
     console = Console(width=max(Console().width, WIDTH), markup=False)
     table = Table(title="Claims of the sources against the computation", title_justify="left", show_lines=True)
     for head in ("id", "claim", "verdict", "why"):
@@ -46,7 +47,7 @@ def print_table(claims: list[Claim]) -> None:
     counts = {verdict: sum(c.verdict == verdict for c in claims) for verdict in VERDICTS}
     console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)
     for claim in claims:
-        for number in claim.discrepancies:
+        for number in claim.discrepancies if checked else ():
             console.print(f"{claim.id} {number.label}: {value_text(number.found)} {number.unit}, independent check"
                           f" {audited_text(number)}", highlight=False)
 
@@ -87,7 +88,17 @@ def tables_of(claims: list[Claim]) -> list[Export]:
         {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "printed_formula": nan(n.printed), "independent_check": audited_text(n)}
         for c in claims for n in c.numbers
     ]  # fmt: skip
-    return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {})]
+    return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]
+
+
+def curves_of(figure: Figure) -> Export:
+    """The curves of a figure, a row a point, under the titles of its axes."""
+    across, up = (str(figure.layout.get(axis, {}).get("title", {}).get("text", "")) or axis[0] for axis in ("xaxis", "yaxis"))
+    rows = [
+        {"curve": str(trace.get("name", "")), across: x, up: nan(y)}
+        for trace in figure.data for x, y in zip(trace.get("x", ()), trace.get("y", ())) if isinstance(y, float | int | None)
+    ]  # fmt: skip
+    return rows_table(figure.name, rows, {})
 
 
 def nan(value: float | None) -> float:

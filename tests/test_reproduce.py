@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from fmu_src.faults import InputFault
-from reproduce import as_json, available_claims, print_table, run, write_page
+from reproduce import as_json, available_claims, print_table, run, tables_of, write_page
 from reproduce import printed_forms as printed
 from reproduce.claim import CONDITIONAL, SOURCES, VERDICTS, Number
 from reproduce.page import page_of
+from reproduce.table import curves_of
 
 # Claims that need no life run.
 QUICK = ["T01", "T02", "T03", "T04", "T05", "T06", "T07", "T08", "T09", "T10", "T11", "T13", "T14", "T17", "T18",
@@ -143,6 +144,18 @@ def test_table_names_every_claim(claims, capsys):
     print_table(claims)
     out = capsys.readouterr().out
     assert all(claim.id in out for claim in claims)
+
+
+def test_another_number_of_the_reducer_moves_the_figure_and_is_said():
+    small, large = (run(["t24"], changes=[f"crank.eccentricity={e}mm"])[0] for e in (1.0, 1.3))
+    tables = {table.name: table.frame() for table in tables_of([small])}
+    drawn = tables["sliding_distance"]
+    assert next(iter(drawn)) == "curve" and len(drawn) == sum(len(trace["x"]) for trace in small.figures[0].data)
+    # Cranks of 1 mm slide less than those of 1.3 mm, the paper's being between.
+    assert drawn.iloc[:, 2].max() < curves_of(large.figures[0]).frame().iloc[:, 2].max()
+    assert "With crank.eccentricity=1.0mm instead" in page_of([small], ["crank.eccentricity=1.0mm"])
+    with pytest.raises(InputFault, match=r"no parameter or input 'crank\.size'"):
+        run(["T24"], changes=["crank.size=1mm"])
 
 
 @pytest.mark.campaign

@@ -1,11 +1,11 @@
 """``rvwear reproduce``: the claims of the sources, held against the computation."""
 
 import argparse
-import sys
 from pathlib import Path
 
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
+from fmu_src.progress import say
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -13,6 +13,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     claims.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
     claims.add_argument("--output", default="results/reproduce.html", help="the page")
     claims.add_argument("--list", action="store_true", dest="listed", help="say what the claims are, compute nothing")
+    claims.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE",
+        help="another number of the reducers than the sources': bearing.clearance=10um; verdicts need not hold then, and the exit code is 0",
+    )  # fmt: skip
     add_json(claims)
     add_exports(claims)
     claims.set_defaults(run=reproduce)
@@ -27,15 +31,17 @@ def reproduce(options: argparse.Namespace) -> int:
     if options.listed:
         return show_list(options)
     check_exports(options)
-    claims = judge(options.claims or None, lambda text: print(text, file=sys.stderr, flush=True))
-    page = write_page(claims, Path(options.output))
+    claims = judge(options.claims or None, say, options.set)
+    page = write_page(claims, Path(options.output), options.set)
     if options.json:
-        screen.json_text(as_json(claims) | {"page": str(page)})
+        screen.json_text(as_json(claims) | {"page": str(page), "set": options.set})
     else:
-        print_table(claims)
+        print_table(claims, checked=not options.set)
+        if options.set:
+            print(f"with {', '.join(options.set)} instead of the sources' numbers: what these carry need not hold")
         print(f"page  {page}")
     write_exports(options, lambda: tables_of(claims), lambda: [figure for claim in claims for figure in claim.figures])
-    return 0 if all(claim.stands for claim in claims) else 1
+    return 0 if options.set or all(claim.stands for claim in claims) else 1
 
 
 def show_list(options: argparse.Namespace) -> int:

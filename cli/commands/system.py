@@ -69,20 +69,27 @@ def run(options: argparse.Namespace) -> int:
     if options.system:
         refuse_pair_options(options)
         name = options.system
-        summary, last = run_system(options)
+        summary, last, units = run_system(options)
     else:
         refuse_system_options(options)
-        name, summary, last = run_reducer(options)
-    summary |= last
+        name, summary, last, units = run_reducer(options)
+    ends = {f"{name} (last)": value for name, value in last.items()}
     if options.json:
-        screen.json_text(summary)
+        screen.json_text(summary | ends)
     else:
-        screen.figures(f"{name}: values at the end (largest of an array)", summary)
+        screen.figures(f"{name}: values at the end (largest of an array)", summary | ends, {f"{name} (last)": units[name] for name in last})
     return 0
 
 
-def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], dict[str, float]]:
-    """The pair of a reducer for some crank turns: (title, summary, values at the end)."""
+def at_the_end(series: "dict[str, np.ndarray]") -> dict[str, float]:
+    """The last value of each signal, of an array the largest."""
+    import numpy as np
+
+    return {name: float(np.max(values[-1])) for name, values in series.items() if name != "time"}
+
+
+def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], dict[str, float], dict[str, str]]:
+    """The pair of a reducer for some crank turns: (title, summary, values at the end, their units)."""
     import numpy as np
 
     from orchestrator import netcdf
@@ -111,8 +118,7 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
     pair.master.close()
     netcdf.write(netcdf.series_dataset(series, units, inputs), path)
     summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
-    last = {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
-    return name, summary, last
+    return name, summary, at_the_end(series), units
 
 
 def refuse_pair_options(options: argparse.Namespace) -> None:
@@ -171,17 +177,16 @@ def show_warnings(system: "System") -> None:
         print(f"warning: {warning}", file=sys.stderr)
 
 
-def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str, float]]:
-    """Run and write; (summary, values at the end)."""
-    import numpy as np
-
+def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str, float], dict[str, str]]:
+    """Run and write; (summary, values at the end, units of all variables)."""
     from orchestrator.series import SUFFIXES, write_series
 
     system = open_system(options)
     path = result_path(options.output, system.name, SUFFIXES)
     record = options.record or ([] if system.recorded else outputs_of(system))
     series = simulate(system, record)
-    write_series(series, system.units(), {"system": system.text}, path)
+    units = system.units()
+    write_series(series, units, {"system": system.text}, path)
     show_warnings(system)
     summary: dict[str, object] = {"result": str(path), "steps": len(series["time"]) - 1, "end_time_s": float(series["time"][-1])}
     if system.master.controller is not None:
@@ -189,7 +194,7 @@ def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str
     for bond in system.master.bonds:
         summary[f"power residual, {bond}"] = bond.share
     system.close()
-    return summary, {f"{k} (last)": float(np.max(v[-1])) for k, v in series.items() if k != "time"}
+    return summary, at_the_end(series), units
 
 
 def check(options: argparse.Namespace) -> int:

@@ -31,7 +31,8 @@ def ways_round(design: Design) -> Iterator[Finding]:
         if np.corrcoef(torque, turning)[0, 1] < CLEAR_SLOPE:
             yield Finding(
                 WARNING, "loop against the torque",
-                f"run {record.name}: the reducer turns{place} against the torque on it: the two columns count in opposite senses", "state scale = -1 in one of the two columns",
+                f"run {record.name}: the reducer turns{place} against the torque on it: the two columns count in opposite senses",
+                "state scale = -1 in one of the two columns",
             )  # fmt: skip
             continue
         gap, noise = gap_between_ways(torque, turning)
