@@ -75,7 +75,8 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
-    warnings = another_reducer(model) + too_soft(figures) + incomplete(campaign) + doubts + [outlier_text(o, runs) for o in found] + warnings_of(model, list(space.noise.warnings))
+    doubts += [outlier_text(o, runs) for o in found]
+    warnings = another_reducer(model) + too_soft(figures) + incomplete(campaign) + doubts + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 
 

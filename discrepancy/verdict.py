@@ -21,6 +21,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
+from discrepancy.waves import waves_of
 from fmu_src.progress import task
 
 
@@ -67,7 +68,8 @@ class Answer:
             for name, entry in self.diagnosis.held_out.items()
         }
         return self.in_si() | {
-            "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]]}
+            "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]],
+                            "waves": [wave.as_json(tables) for wave in waves_of(e["parameters"])]}
                         for e in self.effects],
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
             "nuisances": as_told.numbers(self.diagnosis.nuisances, units, tables), "key_figures": as_told.figures(self.figures),

@@ -13,6 +13,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
+from discrepancy.waves import waves_of
 from discrepancy.wording import base_texts, error_text, left_text, share_text
 
 LONGEST = 12
@@ -105,6 +106,10 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+        for wave in waves_of(effect["parameters"]):
+            value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
+            names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
+            out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
         error = error_text(answer, effect)
         if error:
             out.print(f"  {error}")

@@ -9,6 +9,7 @@ from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
+from discrepancy.waves import waves_of
 from discrepancy.wording import NEARLY_ALL
 from pages import look
 from pages.content import Section, Table
@@ -38,6 +39,11 @@ def effects(answer: Answer) -> Section:
             rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
             first = False
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
+        for wave in waves_of(effect["parameters"]):
+            value, interval, unit = amounts.estimate({"value": wave.amplitude, "interval": wave.interval, "unit": wave.unit})
+            told = f"amplitude, from {told_name(wave.cosine, tables_of(answer.model))} and its sine"
+            rows.append(["", "", told, value, interval, unit, f"phase {wave.phase:.0f}°"])
+            answers.append(whys.of_estimate(answer.diagnosis.fits.space, dict(effect["parameters"][wave.cosine])))
     table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
