@@ -28,7 +28,7 @@ RESOLUTION = Resolution(flank=90, pin=90, raceway=180)
 MEAN_POSITIONS, FEW_MEAN_POSITIONS = 18, 7
 # Held test: turning is averaged over positions of the cranks; what values change in it, roughly, over fewer (five see as much as
 # eight, whose symmetry is that of the pins, three err by a tenth).
-HELD_ANGLES, FEW_HELD_ANGLES = 8, 5
+HELD_ANGLES, FEW_HELD_ANGLES = 16, 5
 # From fewer than these, one is no small share of them.
 LEAST_POSITIONS = 4
 # Turning of the cranks [rad] between two equilibria that is not divided.
@@ -200,7 +200,18 @@ class Bench(Lives):
         return whole + turning - self.held_mean(condition, {}, torques, self.held_angles, self.cycle_turns)
 
     def held_mean(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
-        """``held`` from so many positions, which may be that of another condition under which it is the same."""
+        """``held`` from so many positions."""
+        found: Floats = (self.held_turnings(condition, values, torques, positions, turns) / positions).sum(axis=0)
+        return found
+
+    def held_halves(self, condition: Condition, torques: Floats) -> Floats:
+        """Half of what every other position's mean differs by from that of the rest, in the base model: about what ``held`` may err."""
+        turning = self.held_turnings(condition, {}, torques, HELD_ANGLES, SHORT_CYCLE)
+        found: Floats = 0.5 * (turning[0::2].mean(axis=0) - turning[1::2].mean(axis=0))
+        return found
+
+    def held_turnings(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
+        """Turning [rad] from each of so many positions, which may be that of another condition under which it is the same."""
 
         guessed = not self.remembers(values)
 
@@ -216,9 +227,7 @@ class Bench(Lives):
         # A way that leaves its mark is gone again whole, from one position.
         chosen = places_of(len(torques)) if guessed else np.arange(len(torques))
         twin = self.twins.of(run, condition, chosen if positions >= LEAST_POSITIONS else None, repeats)
-        turning = self.held_places(twin, values, torques, positions, turns)[0]
-        found: Floats = (turning / positions).sum(axis=0)
-        return found
+        return self.held_places(twin, values, torques, positions, turns)[0]
 
     def new_held(self, condition: Condition, values: Mapping[str, float], angle: float, torques: Floats, z: Floats) -> np.ndarray:
         """A plant with its input held at an output angle [rad] under the first of ``torques``; its equilibrium is looked for from ``z`` on."""

@@ -1,7 +1,8 @@
-"""What the model itself gets wrong in wear: part of what a measurement has to be held against.
+"""What the model itself gets wrong: part of what a measurement has to be held against.
 
 Surfaces are resolved in some ninety bins, a life runs through cycles that stand for up to 1,000 h, and a cycle has 72 positions: depths
-after thousands of hours are right to some parts in a hundred, most of it alike in all runs (docs/decisions.md).  Such an error is no effect.
+after thousands of hours are right to some parts in a hundred, most of it alike in all runs (docs/decisions.md).  A loop is the mean from some positions of the
+cranks, where its output's play differs, and a rig may have it from others.  Such an error is no effect.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,6 +15,8 @@ from fmu_src.arrays import Floats
 QUANTITIES = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
 # Standard deviation of the model's error of a worn surface or mass, over what is worn, and of each of a profile's harmonics.
 SIZE, PROFILE_SIZE, HARMONICS = 0.02, 0.02, 2
+# That of loops, in times ``curves.loop_error``.
+LOOPS = "model_error[hysteresis]"
 # By how much that differs from one condition to another: changes by a law of wear err by 1 to 3 % of the change (assumed).
 APART = 0.01
 
@@ -29,10 +32,18 @@ def is_error(name: str) -> bool:
     return name.startswith("model_error")
 
 
+def is_loop(record: Record) -> bool:
+    """Whether a record is the output's turning over its torque."""
+    return record.quantity == "hysteresis" and record.tags.get("locked") != "output" and "torque" in record.axes
+
+
 def parameters(records: Sequence[Record]) -> list[Parameter]:
-    """Nuisances known beforehand to be small: one per quantity and surface, for profiles two more per harmonic of the place on the surface,
-    and one per condition where there are several."""
+    """Nuisances known beforehand to be small: one of all loops; in wear one per quantity and surface, for profiles two more per harmonic of the
+    place on the surface, and one per condition where there are several."""
     found: dict[str, Parameter] = {}
+    if any(map(is_loop, records)):
+        text = "error of the base model's loops, in times what every other position of the cranks makes of them"
+        found[LOOPS] = Parameter(LOOPS, "1", 0.0, -10.0, 10.0, 1.0, 0, 1.0, text, of_base=True)
     worn = [r for r in records if r.quantity in QUANTITIES]
     conditions: dict[str, set[str]] = {}
     for record in worn:

@@ -15,11 +15,11 @@ from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
 from discrepancy.prediction.conditions import Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
-from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, shifted_errors
+from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error, shifted_errors
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import WHOLE_SWEEP
-from discrepancy.prediction.model_error import with_error
+from discrepancy.prediction.model_error import LOOPS, is_loop, with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
@@ -223,6 +223,8 @@ class PhysicalModel:
             signs = np.where(np.arange(len(measured.values)) % 2 == 0, 1.0, -1.0)
             return measured.values + IMPOSSIBLE * self.sizes.get(measured.quantity, 1.0) * signs
         predicted = with_error(predicted, record, asked.values)
+        if (error := asked.values.get(LOOPS, 0.0)) and is_loop(record):
+            predicted = predicted + error * loop_error(self.bench, record)
         if asked.acting:
             predicted = self.chain.changed(predicted, record, asked.values, asked.acting, self.sizes.get(record.quantity) or size_of(predicted))
         ripple = self.cages.ripple(record, asked.values)
