@@ -148,6 +148,8 @@ class Diagnostician:
         # What is left speaks for none of the rivals; it may have hidden no more than all of it.
         widened = min(inflation, 1.0 + size / settings.margin) if over else 1.0
         if len(final.candidates) == 1:
+            # Found beside another, it may be a better fit than it was alone.
+            rivals = [final, *(r for r in rivals if r.candidates != final.candidates)]
             members = confusable_set(rivals, widened, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)

@@ -208,7 +208,7 @@ class Selection:
                 continue
             if drop_cost(joint, self.refits.by_name[name]) > SURELY * least:
                 continue
-            without = self.refits.renewed(self.refits.fit(rest))
+            without = self.refits.without(joint, name)
             if without.fit.chi2 - joint.fit.chi2 < least:
                 return self.backward(without, least)
         return joint

@@ -46,6 +46,10 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
     count = np.size(record.values)
     yield Feature("mean", np.ones((count, 1)))
     if count < SHORT:
+        # A table over some speeds or hours.
+        for name, x in along(record).items():
+            levels = np.unique(np.round(x, 9)).size
+            yield Feature(f"along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(1, min(COSINES, levels - 1) + 1)]))
         return
     angle = order_axis(record)
     if angle is not None:

@@ -63,6 +63,10 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
         anew = {**{p.name: p.off for p in nuisances}, **{p.name: starts[0].get(p.name, p.off) for p in own}}
         found = min(found, _jointly(space, parameters, anew, names), key=lambda f: f.chi2)
+    if found.chi2 > space.base.chi2:
+        # Whatever the search has lost: switched off, an effect is as good as none.
+        off = {**space.base.values, **{p.name: p.off for p in own}}
+        found = fit_of(parameters, off, space.residual(off), every, names, False)
     return found
 
 

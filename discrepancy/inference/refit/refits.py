@@ -10,6 +10,9 @@ from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate
 
+# Of chi-square: by so much a fit from another start is another optimum.
+BETTER = 1.0
+
 
 class Refits:
     """``fitted`` by the names of the effects, ``final_fits`` of them those that are reported; ``scores`` say where a fit starts."""
@@ -44,6 +47,17 @@ class Refits:
                 other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
             self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
         return self.fitted[key]
+
+    def without(self, joint: Refit, name: str) -> Refit:
+        """The fit of the others of ``joint`` as it is reported, from its own start and from where they stand in ``joint``."""
+        rest = [c for c in joint.candidates if c.name != name]
+        key, known = frozenset(c.name for c in rest), self.fit([c.name for c in rest])
+        with self.space.predictions.roughly():
+            other = refit(self.space, rest, [], {p.name: joint.fit.values[p.name] for c in rest for p in c.parameters})
+        if other.fit.chi2 < known.fit.chi2 - BETTER:
+            self.fitted[key] = other
+            self.final_fits.pop(key, None)
+        return self.renewed(self.fitted[key])
 
     def final(self, names: Sequence[str]) -> Refit:
         """The fit of the named effects as it is reported, wherever."""
