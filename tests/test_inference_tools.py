@@ -1,5 +1,6 @@
 """Screening statistics, splines, closed forms and the choice of the next experiment."""
 
+import contextlib
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,10 +10,13 @@ from discrepancy.inference.base_fit.components import simulate
 from discrepancy.inference.base_fit.predictions import Predictions
 from discrepancy.inference.law.closed_forms import propose
 from discrepancy.inference.law.splines import additive
+from discrepancy.inference.misfit.features import features
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
 from discrepancy.inference.noise.correlation import autoregression_of
 from discrepancy.inference.screening.screen import cone_statistic
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.refit.refits import Refits
+from discrepancy.problem import Candidate, Parameter, Record
 
 
 def test_cone_statistic_is_the_best_admissible_projection():
@@ -124,3 +128,36 @@ def test_the_cheapest_sufficient_experiment_comes_first():
     assert result.at_stake["service"] == pytest.approx(12.0)
     hopeless = next_experiment(law, choices[:1], rivals(1e-4))
     assert not hopeless.separable and "cannot be separated" in hopeless.verdict
+
+
+@pytest.mark.parametrize(("speeds", "waves"), [((1.0, 2.0, 4.0, 8.0, 9.0), 4), ((1.0, 1.0, 2.0), 1), ((3.0, 3.0, 3.0), 0)])
+def test_a_table_over_a_few_speeds_is_looked_at_along_the_speed(speeds, waves):
+    """With as many cosines as there are further levels nothing in it can hide."""
+    record = Record("torque", "input_torque", "N.m", "a", 1, np.zeros(len(speeds)), {"speed": np.array(speeds)}, {})
+    found = {f.name: f.columns for f in features(record)}
+    assert list(found) == ["mean", "along speed"][: 1 + (waves > 0)]
+    assert np.linalg.matrix_rank(np.hstack(list(found.values()))) == 1 + waves
+
+
+class Lines:
+    """Of the effects a, b and c the others fit as well without a, but from their own start they do not find there."""
+
+    def __init__(self):
+        self.training, self.records = [], []
+        self.predictions = SimpleNamespace(roughly=contextlib.nullcontext)
+
+
+def test_what_is_left_without_an_effect_starts_where_it_stands(monkeypatch):
+    parameters = [Parameter(n, "1", 0.0, -9.0, 9.0, 1.0) for n in "ab"]
+    candidates = [Candidate(p.name, p.name, (p,)) for p in parameters]
+
+    def refit(space, chosen, scores, start=None, *more, **options):
+        chi2 = 10.0 if start and start.get("b") == 5.0 else 400.0
+        return Refit(tuple(chosen), SimpleNamespace(chi2=chi2, values={"b": 5.0}), 0.0, np.zeros(0), np.zeros((1, 1)))
+
+    monkeypatch.setattr("discrepancy.inference.refit.refits.refit", refit)
+    refits = Refits(Lines(), candidates)
+    monkeypatch.setattr(refits, "renewed", lambda result: result)
+    joint = Refit(tuple(candidates), SimpleNamespace(chi2=9.5, values={"a": 0.1, "b": 5.0}), 0.0, np.zeros(0), np.zeros((2, 2)))
+    assert refits.fit(["b"]).fit.chi2 == 400.0
+    assert refits.without(joint, "a").fit.chi2 == 10.0 == refits.fit(["b"]).fit.chi2
