@@ -13,9 +13,9 @@ from discrepancy.inference.law.splines import additive
 from discrepancy.inference.misfit.features import features
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
 from discrepancy.inference.noise.correlation import autoregression_of
-from discrepancy.inference.screening.screen import cone_statistic
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.screening.screen import cone_statistic
 from discrepancy.problem import Candidate, Parameter, Record
 
 
