@@ -108,7 +108,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
-    reason = found.reason + (f"; beside that the base model is off: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
+    beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"
+    reason = found.reason + (f"; {beside}: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
     if verdict in (SET, SEVERAL) and len(names) == 1:
         reason = reason_of(effects[0], verdict)
         verdict = ONE

@@ -4,7 +4,9 @@ Nuisances are close to linear around the base fit, so an effect is first fitted 
 sensitivities frozen, and the result is then polished with full predictions.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from operator import itemgetter
 
 import numpy as np
@@ -17,6 +19,7 @@ from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_val
 from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
 
+TURN = 2.0 * math.pi
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
 JOINT_STEPS = 15
@@ -90,9 +93,21 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
 
     Last steps go by sensitivities over a standard deviation: over kinks, at which those of a point stand still.
     """
-    fit = renew(space, fit, candidates)
+    fit = renew(space, turned_back(space, fit, candidates), candidates)
     columns, covariance = by_secants(space, fit, candidates)
     return _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2), covariance
+
+
+def turned_back(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
+    """Angles without bounds worth the name, which a search may have turned round several times, within half a turn of 0."""
+    angles = [p.name for c in candidates for p in c.shapes if p.unit == "rad" and p.upper - p.lower > 2.0 * TURN]
+    values = {**fit.values, **{name: math.remainder(fit.values[name], TURN) for name in angles if abs(fit.values[name]) > 0.5 * TURN}}
+    if values == fit.values:
+        return fit
+    box = Box(fit.parameters)
+    # What stands behind a gear has another period.
+    same = abs(_cost(space, box, values)[0] - _cost(space, box, fit.values)[0]) < STILL
+    return replace(fit, values=values) if same else fit
 
 
 def _promised(fit: Fit) -> float:
