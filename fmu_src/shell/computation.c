@@ -111,6 +111,8 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     i->last_step = status;
     if (status > WARNING)
         return status;
+    /* Importers that know of no smaller step ask for the refused one for ever. */
+    int is_again = time == i->refused_time && duration == i->refused_duration && !memcmp(i->backup, i->cells, GUARDED_BYTES);
     memcpy(i->backup, i->cells, GUARDED_BYTES);
     if (unit.pause_cell >= 0)
         i->cells[unit.pause_cell].integer = i->pausing;
@@ -122,6 +124,7 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     if (!code && !spoilt) {
         double done = unit.pause_cell >= 0 ? i->cells[unit.paused_cell].real : 0.0;
         i->time = time + (done > 0.0 ? done : duration);
+        i->refused_duration = 0.0;
         say_cautions(i);
         return status;
     }
@@ -133,7 +136,11 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
         report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
                is_lost ? "; the unit is terminated, reset it" : "");
     memcpy(i->cells, i->backup, GUARDED_BYTES);
-    if (is_lost)
+    if (is_again)
+        report(i, DISCARD, "at time %.9g s: the same step of %.9g s was asked for again: the unit is terminated", time, duration);
+    if (is_lost || is_again)
         i->phase = TERMINATED;
+    i->refused_time = time;
+    i->refused_duration = duration;
     return i->last_step = DISCARD;
 }

@@ -34,6 +34,7 @@ struct instance {
     int is_stale;    /* initialisation mode: outputs do not fit the values set */
     double time, stop_time;
     enum status last_step;
+    double refused_time, refused_duration; /* of the last step that could not be done; 0 long: none */
     enum pausing pausing; /* FMI 3: where a step may end before its time */
     int may_return_early;
     void (*update)(void); /* FMI 3: called between the parts of a step */

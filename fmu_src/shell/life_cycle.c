@@ -20,6 +20,7 @@ static void set_starts(struct instance *i)
     i->time = 0.0;
     i->stop_time = INFINITY;
     i->last_step = OK;
+    i->refused_time = i->refused_duration = 0.0;
     i->cautioned = 0;
 }
 
@@ -98,6 +99,9 @@ enum status exit_initialisation(struct instance *i, const char *function)
 
 enum status terminate(struct instance *i, const char *function)
 {
+    /* It has ended by itself, at a step that could not be done. */
+    if (i->phase == TERMINATED && i->last_step == DISCARD)
+        return OK;
     if (require_phase(i, 1 << INITIALISING | 1 << STEPPING, function))
         return ERROR;
     i->phase = TERMINATED;
