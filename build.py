@@ -42,7 +42,8 @@ def set_up(for_tests: bool = False) -> None:
         except subprocess.CalledProcessError:
             sys.exit("build.py: this Python has no ensurepip; on Debian and Ubuntu install the package python3-venv")
         install("what the product needs", "-r", str(REQUIREMENTS))
-        install("the project itself", "-e", str(HERE))
+        # By its path: else a folder that holds the clone hides the package of its name.
+        install("the project itself", "--config-settings", "editable_mode=compat", "-e", str(HERE))
         done(stamp, *parts)
     stamp, parts = ENVIRONMENT / "set-up-for-tests-done", (stamp.read_bytes(), FOR_TESTS.read_bytes())
     if for_tests and not is_done(stamp, *parts):

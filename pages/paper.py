@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 from fmu_src.checked_file import replacing
@@ -24,6 +25,10 @@ INCH = 25.4
 # What is left of a plot's height when labels and legend have theirs.
 SHARE_OF_AXES = 0.75
 DOTS = 300
+# What the line beside a name of the legend takes [mm].
+KEY_WIDTH = 9.0
+# What a further line of the legend takes [mm]: the plot keeps its height.
+LINE_HEIGHT = 3.6
 # Sizes in print, in points.
 STYLE = {
     "font.size": 7.5, "axes.labelsize": 7.5, "axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "axes.linewidth": 0.6,
@@ -219,4 +224,11 @@ def add_legend(picture: Any, axes: dict[str, Any], figure: Figure, traces: Seque
             for handle, label in zip(*here.get_legend_handles_labels()):
                 handles.setdefault(label, handle)
     if len(handles) > 1:
-        picture.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=min(len(handles), 3), frameon=False)
+        room = INCH * picture.get_figwidth()
+        # As many beside each other as the width takes; one that alone is wider goes on below.
+        texts = [fill(label, max(10, int((room - KEY_WIDTH) / SIGN_WIDTH))) for label in handles]
+        widest = KEY_WIDTH + SIGN_WIDTH * max(len(line) for text in texts for line in text.split("\n"))
+        columns = max(1, min(len(handles), 3, int(room / widest)))
+        picture.legend(list(handles.values()), texts, loc="outside lower center", ncols=columns, frameon=False)
+        lines = sum(text.count("\n") + 1 for text in texts) / columns
+        picture.set_figheight(picture.get_figheight() + max(0.0, lines - 2.0) * LINE_HEIGHT / INCH)

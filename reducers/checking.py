@@ -17,10 +17,29 @@ from rv_plant.gear_stage import total_ratio
 
 MM = 1e3
 # Options of the command that completes reducers, and what a file calls the same.
-KEYS = {"--pins": "topology.pins", "--rollers": "topology.rollers", "--cranks": "topology.cranks", "--ratio": "ratio"}
+KEYS = {"--rated": "output.load_torque", "--pins": "topology.pins", "--rollers": "topology.rollers", "--cranks": "topology.cranks", "--ratio": "ratio"}
 STATED = "stated"
 # From this share of the largest pin on, the flank is nearly undercut (assumed).
 NEARLY = 0.95
+
+# One number over another in RV reducers, with margins that a wrong unit leaves (the range that is usual, and its source, in words).
+SHARES = (
+    ("mesh.width", "pin.circle_radius", 0.05, 0.4, "0.1 to 0.2 (cycloid handbooks)"),
+    ("crank.circle_radius", "pin.circle_radius", 0.25, 0.85, "0.5 to 0.6 (RV-20E, RV-40E)"),
+    ("roller.radius", "pin.circle_radius", 0.008, 0.1, "0.03 to 0.04 (RV-20E, RV-40E)"),
+    ("roller.length", "mesh.width", 0.2, 1.2, "less than 1: rollers are no longer than the disc is wide"),
+)
+# Single numbers likewise, SI: lowest, highest, and what is usual.
+SPANS = (
+    ("material.elastic_modulus", 1e11, 3e11, "200 to 212 GPa for steel"),
+    ("material.hardness", 2e9, 1.5e10, "6.5 to 7.5 GPa for hardened steel"),
+    ("bearing.clearance", 0.0, 1e-4, "1 to 5 um"),
+    ("wear.roughness", 2e-8, 1e-5, "0.2 to 0.8 um"),
+    ("disc.equidistant_modification", -3e-4, 3e-4, "a few tens of um"),
+    ("disc.shift_modification", -3e-4, 3e-4, "a few tens of um"),
+)
+# Pin circle radius [mm] over the cube root of the torque [N mm], and the fastest output that catalogues permit, with a margin.
+TORQUE_SHARE, TORQUE_USUAL, FASTEST_RPM = (0.6, 1.8), "0.85 to 1.3 (cycloid handbooks)", 150.0
 
 
 @dataclass(frozen=True)
@@ -71,10 +90,35 @@ def check(reducer: Reducer) -> Check:
         doubts.append(f"pin.radius = {pin:.4g} mm is nearly the largest without undercut, {most:.4g} mm")
     if not 0.4 <= figures["K1"] <= 0.95:
         doubts.append(f"K1 = e z_p / R_p = {figures['K1']:.3g}, where 0.4 to 0.95 is usual: look at crank.eccentricity and pin.circle_radius")
+    doubts += unusual(reducer, n, figures["ratio"]) if stage > 0.0 else []
     rigid = [name for name in RIGID if n.get(name, 0.0) == 0.0] if not faults else []
     if rigid:
         doubts.append(f"{', '.join(rigid)}: not stated, and so rigid: a real reducer is several times softer, and looser")
     return Check(reducer, numbers(reducer), faults, doubts, figures, completing(reducer, n, figures["ratio"]) if rigid else "")
+
+
+def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
+    """Numbers that no RV reducer has: most likely in another unit than they are written in."""
+    found = [
+        f"{name} = {shown(reducer, name, n[name])} is {n[name] / n[of]:.3g} times {of}, where {usual} is usual: look at its unit"
+        for name, of, low, high, usual in SHARES
+        if n.get(name) and n.get(of) and not low <= n[name] / n[of] <= high
+    ]
+    found += [
+        f"{name} = {shown(reducer, name, n[name])}, where {usual} is usual: look at its unit"
+        for name, low, high, usual in SPANS if name in n and not low <= n[name] <= high
+    ]  # fmt: skip
+    torque, speed = abs(n["output.load_torque"]), abs(n["input.speed"]) / ratio * 30.0 / math.pi
+    share = MM * n["pin.circle_radius"] / math.cbrt(1e3 * torque) if torque else TORQUE_SHARE[0]
+    if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
+        found.append(
+            f"pin.circle_radius in mm is {share:.3g} times the cube root of output.load_torque = {torque:.6g} N.m in N mm, where {TORQUE_USUAL} is usual:"
+            " look at the units of both"
+        )
+    if speed > FASTEST_RPM:
+        told = shown(reducer, "input.speed", n["input.speed"])
+        found.append(f"input.speed = {told} turns the output at {speed:.4g} rpm, where 5 to 100 is usual: look at its unit")
+    return found
 
 
 def completing(reducer: Reducer, n: dict[str, float], ratio: float) -> str:

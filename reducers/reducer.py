@@ -9,6 +9,7 @@ A number may have a ``range = [low, high]`` in its unit, in which it is held to 
 ``assumed`` has a tenth to either side where none is given.
 """
 
+import re
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -141,6 +142,8 @@ def is_model_file(path: Path) -> bool:
 def load_reducer(name_or_path: str | Path) -> Reducer:
     """A reducer by its name in the library or by the path of its file."""
     path = Path(name_or_path)
+    if path.suffix == ".toml" and not path.is_file():
+        raise InputFault(f"there is no file {path}{nearest(path.name, [p.name for p in path.parent.glob('*.toml')])}; or give one of {', '.join(available())}")
     if path.suffix != ".toml":
         path = LIBRARY / f"{name_or_path}.toml"
     if not path.is_file():
@@ -256,7 +259,10 @@ def si_value(tables: tuple[Table, ...], section: str, key: str, entry: Entry, pl
             raise InputFault(f"{place} = {entry.value!r}: choose one of {', '.join(variable.choices)}")
         return variable.name, variable.choices.index(entry.value)
     if isinstance(entry.value, str):
-        raise InputFault(f"{place} = {entry.value!r} is not a number; give it in {variable.unit}")
+        number = entry.value.strip().replace(",", ".", 1)
+        if "," in entry.value and re.fullmatch(r"[+-]?\d+\.\d+", number):
+            raise InputFault(f"{place} = {entry.value!r}: write {number}, with a point and without quotes")
+        raise InputFault(f"{place} = {entry.value!r} is not a number; write one without quotes, in {entry.unit}")
     try:
         factor, offset = conversion(entry.unit, variable.unit)
         value = factor * entry.value + offset

@@ -75,7 +75,8 @@ def test_names_of_matlab_are_each_there_once(tmp_path):
 @pytest.mark.parametrize("option, said", [
     (["--export", "a.xls"], r"--export a\.xls: the ending says what is written: \.csv, \.parquet, \.mat, \.xlsx"),
     (["--picture", "a.jpg"], r"--picture a\.jpg: the ending says what is drawn: \.svg, \.pdf, \.png"),
-    (["--width", "3 parsec"], r"--width 3 parsec: give single, middle, double or a width from 30 to 1000 mm"),
+    (["--width", "85mm"], r"--width 85mm without --picture FILE: a width is one of pictures"),
+    (["--picture", "a.svg", "--width", "3 parsec"], r"--width 3 parsec: give single, middle, double or a width from 30 to 1000 mm"),
 ])  # fmt: skip
 def test_what_cannot_be_written_is_said_before_the_work(capsys, option, said):
     assert main(["hysteresis", *option]) == 2
@@ -137,7 +138,7 @@ def figures():
 def test_pictures_of_all_kinds(tmp_path, ending, most):
     made = list(figures())[:most]
     written = write_pictures(made, tmp_path / f"a.{ending}", 88.0)
-    assert [p.name for p in written] == [f"a_{figure.name}.{ending}" for figure in made]
+    assert [p.name for p in written] == [f"a.{ending}", *(f"a_{figure.name}.{ending}" for figure in made[1:])]
     assert all(p.stat().st_size > 2000 for p in written)
     before = written[0].read_bytes()
     write_pictures(made[:1], tmp_path / f"b.{ending}", 88.0)
@@ -157,6 +158,17 @@ def test_a_picture_shows_what_the_page_shows():
     upper, lower = split.get_axes()
     assert upper.get_lines() == [] or upper.collections
     assert lower.get_xlabel() == "x" and upper.get_xlabel() == ""
+
+
+def test_a_legend_is_never_wider_than_its_picture():
+    curves = [Curve(f"{k}: a name that is much too long to stand beside another one in a column", X, k * X) for k in range(5)]
+    for width in (60.0, 85.0, 190.0):
+        picture = drawn(chart("long", "t", "", curves, "x", "y"), width)
+        picture.canvas.draw()
+        (legend,) = picture.legends
+        box, whole = legend.get_window_extent(), picture.bbox
+        assert box.x0 >= whole.x0 and box.x1 <= whole.x1 and box.y0 >= whole.y0
+        assert picture.get_axes()[0].get_window_extent().height > 0.3 * 25.4 * width * picture.dpi / 25.4**2
 
 
 @pytest.mark.parametrize("text, width", [("single", 90.0), ("85mm", 85.0), ("8.5 cm", 85.0), ("3.5in", 88.9), ("120", 120.0)])

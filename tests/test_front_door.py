@@ -125,3 +125,10 @@ def test_a_model_file_stands_for_a_reducer_with_all_that_it_adds(tmp_path):
     assert main(["hysteresis", "--reducer", str(path), "--set", "heat.ambient_temperature=50degC", "--steps", "8", "--angles", "1"]) == 0
     with pytest.raises(InputFault, match=r"warm\.toml is a model file"):
         load_reducer(path)
+
+
+def test_a_folder_of_its_name_does_not_hide_the_package(tmp_path):
+    """Whoever clones the repository and writes a script beside it."""
+    (tmp_path / "rvwear" / "rvwear").mkdir(parents=True)
+    done = subprocess.run([sys.executable, "-c", "import rvwear; rvwear.load_reducer"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr

@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from cli.main import main
 from fmu_src.faults import InputFault
 from reducers.checking import check
-from reducers.library import available
+from reducers.library import LIBRARY, available
 from reducers.reducer import load_reducer, numbers_of
 from reducers.usual import FILLED, RULES, derived, usual
 
@@ -91,7 +92,7 @@ def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
     shown = capsys.readouterr()
     told = json.loads(shown.out.partition("\nmine.html")[0])
     assert told["faults"] == [] and "so rigid" in told["doubts"][0]
-    assert {p.name for p in tmp_path.iterdir()} == {"mine.html", "mine_assembly.svg", "mine_teeth.svg"}
+    assert {p.name for p in tmp_path.iterdir()} == {"mine.html", "mine.svg", "mine_teeth.svg"}
     assert main(shlex.split(told["completing"])[1:]) == 0
     completed = check(load_reducer("mine_completed.toml"))
     assert not completed.doubts and not completed.faults and not completed.completing
@@ -102,3 +103,30 @@ def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
 
 def test_what_is_usual_is_what_the_completion_takes():
     assert set(usual()) < FILLED and all(one.source.startswith("usual: ") for one in usual().values())
+
+
+def test_a_number_in_another_unit_is_doubted(tmp_path):
+    text = (LIBRARY / "RV20E-121-rigid.toml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace('value = 8.82, unit = "mm"', 'value = 8.82, unit = "m"'), encoding="utf-8")
+    found = check(load_reducer(path)).doubts
+    assert any("mesh.width = 8820 mm is 170 times pin.circle_radius, where 0.1 to 0.2 (cycloid handbooks) is usual: look at its unit" in d for d in found)
+
+
+def test_torque_and_speed_in_other_units_are_doubted():
+    reducer = load_reducer("RV20E-121")
+    starts = dict(reducer.starts)
+    doubts = check(replace(reducer, starts={**starts, "load_torque": 1e3 * starts["load_torque"], "input_speed": 10.0 * starts["input_speed"]})).doubts
+    soft = check(replace(reducer, starts={**starts, "elastic_modulus": 0.1 * starts["elastic_modulus"]})).doubts
+    assert any("material.elastic_modulus = 20.7 GPa, where 200 to 212 GPa for steel is usual" in d for d in soft)
+    assert any("times the cube root of output.load_torque" in d for d in doubts) and any("turns the output at 165.3 rpm" in d for d in doubts)
+
+
+def test_a_decimal_comma_in_quotes_and_a_file_that_is_not_there_are_told(tmp_path):
+    text = (LIBRARY / "RV20E-121-rigid.toml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace("value = 8.82", 'value = "8,82"'), encoding="utf-8")
+    with pytest.raises(InputFault, match="'8,82': write 8.82, with a point and without quotes"):
+        load_reducer(path)
+    with pytest.raises(InputFault, match=r"there is no file .*minne\.toml; did you mean mine\.toml\?"):
+        load_reducer(tmp_path / "minne.toml")
