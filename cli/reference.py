@@ -14,7 +14,7 @@ from cli.schemas import KINDS, explained, schema_of, settable
 from fmu_src.project import NAME
 from fmu_src.source_hash import ROOT
 from reducers.reducer import every_table, must_be_stated
-from reproduce import stated
+from reproduce import has_figure, stated
 
 REFERENCE, SCHEMAS = ROOT / "docs" / "reference", ROOT / "docs" / "schema"
 PLAIN_KINDS = {"string": "text", "number": "number", "integer": "whole number", "boolean": "`true`, `false`", "object": "table"}
@@ -165,9 +165,9 @@ def claims_page() -> str:
              " [a tutorial](../tutorials/paper_figure.md) shows one.\n"]  # fmt: skip
     sources: dict[str, list[str]] = {}
     for name, (source, title, says) in stated().items():
-        sources.setdefault(source, []).append(f"| {name} | {cell(title)} | {cell(says)} |")
+        sources.setdefault(source, []).append(f"| {name} | {cell(title)} | {'yes' if has_figure(name) else ''} | {cell(says)} |")
     for source, rows in sources.items():
-        lines += [f"\n## {source[:1].upper()}{source[1:]}\n", "| id | claim | what the source says |", "|---|---|---|", *rows]
+        lines += [f"\n## {source[:1].upper()}{source[1:]}\n", "| id | claim | figure | what the source says |", "|---|---|---|---|", *rows]
     return "\n".join(lines) + "\n"
 
 

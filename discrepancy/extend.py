@@ -142,7 +142,10 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
         )
     # Patterns stand out of noise that drowns single samples; then the noise of samples is no measure of them.
     drowned = bool(judged.rms) and all(row["before"] <= row["floor"] for row in judged.rms.values())
-    measure = "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned else "times the noise"
+    measure = (
+        "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned
+        else "times the noise, in the patterns that carry the misfit and its own"
+    )  # fmt: skip
     if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
         return NOT_PROVEN, (
             f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"

@@ -196,7 +196,10 @@ class Fmu(Component):
         """
         stamp = self.stamp()
         if stamp is not None and stamp["source_hash"] != source_hash():
-            raise InputFault(f"{self.path} was built from other sources than those installed; run: rvwear build")
+            raise InputFault(
+                f"{self.path} was built from other sources than those installed, or with effects of one's own: set RVWEAR_EFFECTS as it was then,"
+                " or build anew with: rvwear build"
+            )
 
     def specification(self) -> Specification:
         """What this project's FMU was built from, see fmu_src.unit."""

@@ -33,12 +33,12 @@ from reproduce import (  # noqa: F401  each registers its claims
     sliding_claims,
     stiffness_claims,
 )  # fmt: skip
-from reproduce.claim import REGISTRY, STATED, Claim
+from reproduce.claim import REGISTRY, STATED, Claim, has_figure
 from reproduce.context import Context
 from reproduce.page import page_of
 from reproduce.table import as_json, print_table, tables_of
 
-__all__ = ["Claim", "as_json", "available_claims", "print_table", "run", "stated", "tables_of", "write_page"]
+__all__ = ["Claim", "as_json", "available_claims", "chosen", "has_figure", "print_table", "run", "stated", "tables_of", "write_page"]
 
 
 def available_claims() -> list[str]:

@@ -7,6 +7,7 @@ number of a finding comes out of a kernel, a run or a printed form at that momen
 the verdict no longer stands, and table, page and tests say so.
 """
 
+import inspect
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -113,6 +114,14 @@ REGISTRY: dict[str, Callable[[Context], Claim]] = {}
 STATED: dict[str, tuple[str, str, str]] = {}
 
 
+FINDERS: dict[str, Finder] = {}
+
+
+def has_figure(identity: str) -> bool:
+    """Whether a claim draws anything, as its function says: nothing is computed."""
+    return "figures=" in inspect.getsource(FINDERS[identity])
+
+
 def states(identity: str, source: str, title: str, says: str) -> Callable[[Finder], Finder]:
     """Register the function below as the claim ``identity`` of a source."""
     if identity in REGISTRY:
@@ -130,6 +139,7 @@ def states(identity: str, source: str, title: str, says: str) -> Callable[[Finde
             )
 
         REGISTRY[identity] = judge
+        FINDERS[identity] = function
         return function
 
     return register

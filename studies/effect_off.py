@@ -10,6 +10,7 @@ import subprocess
 import sys
 import traceback
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -33,6 +34,8 @@ REDUCER, WITH_PINS = "RV20E-121-rigid", "cycloidal-actuator"
 # Communication steps [s]: at rest, and in motion, where the plant divides them.
 STEP, IN_MOTION = 1e-3, 2e-5
 PATIENCE = 120.0
+# What ``factor`` is asked beside a reducer's own contacts: surface, line load [N/m], radius [m], sliding speed [m/s], depth worn [m].
+PROBES = ((0, 1, 2), (1e3, 1e4, 5e4, 2e5, 1e6, 1e7), (1e-3, 1e-2), (1e-3, 1.0), (0.0, 1e-6, 1e-5, 1e-4))
 
 
 def changes_when_off(file: Path) -> list[Finding]:
@@ -125,6 +128,7 @@ class Watched:
 
     def __init__(self, hook: Callable[..., Any], name: str, fields: list[str], count: str, found: dict[str, tuple[int, str]]):
         self.hook, self.name, self.fields, self.count, self.found = hook, name, fields, count, found
+        self.asked: set[str] = set()
 
     def __call__(self, r: Any, *arguments: Any) -> Any:
         before = {field: np.array(r[field]) for field in self.fields}
@@ -133,11 +137,22 @@ class Watched:
             if not np.array_equal(r[field], old):
                 largest = np.max(np.abs(np.asarray(r[field]) - old))
                 self.tell(f"changes r.{field} by {'up to ' if np.ndim(old) else ''}{largest:.3g}")
-        if result is not None and result != 1.0:
-            self.tell(f"returns {result:.6g}, not 1.0")
+        if result is not None:
+            self.ask(r, arguments)
         if self.count:
             r[self.count] += 1
         return result
+
+    def ask(self, r: Any, arguments: tuple[Any, ...]) -> None:
+        """The factor at the contact, and at contacts of every kind: an effect may wait for a load that this reducer does not have."""
+        for others in [arguments, *product(*PROBES)] if self.name not in self.asked else [arguments]:
+            found = self.hook(r, *others)
+            if found != 1.0:
+                surface, load, radius, speed, depth = others
+                place = f"surface {surface}, {load:.3g} N/m, radius {radius:.3g} m, {speed:.3g} m/s, {depth:.3g} m worn"
+                self.tell(f"returns {found:.6g}, not 1.0 ({place})")
+                break
+        self.asked.add(self.name)
 
     def tell(self, what: str) -> None:
         text = f"with its amplitudes off, {self.name} {what}: an effect that is off must change nothing"

@@ -247,6 +247,8 @@ OFF = [
     ("rv_plant", HEAD + "@kernel\ndef before(r):\n    r.ring_scale *= 1.0 - 1e-9 / r.my_size\n", "before changes r.ring_scale"),
     ("wear_fmu", HEAD + "@kernel\ndef factor(r, surface, line_load, radius, speed, depth):\n    return 1.2 + r.my_size\n\n\n"
      "@kernel\ndef prepare(r):\n    if r.my_size != 0.0:\n        r.effects_on += 1\n", "factor returns 1.2, not 1.0"),
+    ("wear_fmu", HEAD + "@kernel\ndef factor(r, surface, line_load, radius, speed, depth):\n    return 2.0 if line_load > 8e5 else 1.0 + r.my_size\n\n\n"
+     "@kernel\ndef prepare(r):\n    if r.my_size != 0.0:\n        r.effects_on += 1\n", "factor returns 2, not 1.0 (surface 0, 1e+06 N/m"),
 ]  # fmt: skip
 
 

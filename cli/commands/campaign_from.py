@@ -27,7 +27,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     command.add_argument(
         "--names", action="append", default=[], metavar="PATTERN",
         help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {direction}"
-        " {mounting} {condition} {any}",
+        " {mounting} {condition} {any}; once for each kind of name",
     )  # fmt: skip
     for option, form, text in (
         ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
+from fmu_src.faults import InputFault
 from fmu_src.progress import say
 
 
@@ -25,12 +26,15 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def reproduce(options: argparse.Namespace) -> int:
     """``rvwear reproduce``: the sources' claims, judged."""
     from cli import screen
-    from reproduce import as_json, print_table, tables_of, write_page
+    from reproduce import as_json, available_claims, chosen, has_figure, print_table, tables_of, write_page
     from reproduce import run as judge
 
     if options.listed:
         return show_list(options)
     check_exports(options)
+    if options.picture and not any(map(has_figure, chosen(options.claims or None))):
+        drawn = ", ".join(filter(has_figure, available_claims()))
+        raise InputFault(f"--picture {options.picture[0]}: {', '.join(options.claims)} has no figure; these claims have: {drawn}")
     claims = judge(options.claims or None, say, options.set)
     page = write_page(claims, Path(options.output), options.set)
     if options.json:
@@ -45,18 +49,19 @@ def reproduce(options: argparse.Namespace) -> int:
 
 
 def show_list(options: argparse.Namespace) -> int:
-    """Id, title and words of each claim."""
+    """Id, title and words of each claim, and whether it draws anything."""
     from cli import screen
-    from reproduce import stated
+    from reproduce import has_figure, stated
 
     found = stated(options.claims or None)
     if options.json:
-        screen.json_text({"claims": {name: {"source": source, "title": title, "says": says} for name, (source, title, says) in found.items()}})
+        told = {name: {"source": source, "title": title, "says": says, "figure": has_figure(name)} for name, (source, title, says) in found.items()}
+        screen.json_text({"claims": told})
         return 0
     table = screen.dense("")
-    for head in ("id", "claim", "what the source says"):
+    for head in ("id", "claim", "figure", "what the source says"):
         table.add_column(head, overflow="fold")
     for name, (_, title, says) in found.items():
-        table.add_row(name, title, says)
+        table.add_row(name, title, "yes" if has_figure(name) else "", says)
     screen.console(screen.WIDTH).print(table)
     return 0

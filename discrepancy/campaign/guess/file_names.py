@@ -1,6 +1,7 @@
 """What file names say of their conditions, by a pattern such as ``te_{load}Nm_{speed}rpm_{replicate}``."""
 
 import re
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -169,5 +170,6 @@ def parsed(path: Path, patterns: list[str]) -> Parsed:
             return found
     if patterns:
         given = " or ".join(map(repr, patterns))
-        raise InputFault(f"{path.name} does not fit --names {given}; its name seems to be {proposed(path).pattern!r}; give a pattern for it too")
+        more = shlex.join(["--names", proposed(path).pattern])
+        raise InputFault(f"{path.name} does not fit --names {given}; give a pattern for it too, with an option of its own: {more}")
     return proposed(path)
