@@ -102,14 +102,15 @@ def show_answer(answer: Answer) -> None:
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
+        # Waves by their size, largest first: of ten numbers that is what one asks for.
+        for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):
+            value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
+            names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
+            out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
         for name, number in effect["parameters"].items():
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
-        for wave in waves_of(effect["parameters"]):
-            value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
-            names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
-            out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
         error = error_text(answer, effect)
         if error:
             out.print(f"  {error}")
