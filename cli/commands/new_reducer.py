@@ -132,7 +132,10 @@ def checked(text: str, path: Path) -> "Reducer":
 
     from reducers.reducer import reducer_of
 
-    return reducer_of(tomllib.loads(text), path)
+    try:
+        return reducer_of(tomllib.loads(text), path)
+    except InputFault as fault:
+        raise InputFault(f"no reducer follows from what is given, and {path} is not written: {fault}; look at the units of what is given") from None
 
 
 def as_json(completion: "Completion") -> dict[str, object]:
