@@ -39,6 +39,9 @@ def base_texts(answer: Answer) -> list[str]:
 def left_text(answer: Answer) -> str:
     """What is left beside that which is named; empty where nothing is said of it."""
     found = answer.diagnosis.leftover.get("findings", [])
+    if answer.verdict == UNKNOWN and not found:
+        # Nothing was fitted: all of it is left.
+        found = answer.diagnosis.localisation["findings"]
     named = [f"{f['signal']}, {f['feature']}" + ("" if f["dependence"] == "everywhere" else f", changing with {f['dependence']}") for f in found]
     if not named and "held_out" in answer.diagnosis.leftover:
         named = ["runs that were not fitted are further off than noise allows"]

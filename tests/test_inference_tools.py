@@ -161,3 +161,14 @@ def test_what_is_left_without_an_effect_starts_where_it_stands(monkeypatch):
     joint = Refit(tuple(candidates), SimpleNamespace(chi2=9.5, values={"a": 0.1, "b": 5.0}), 0.0, np.zeros(0), np.zeros((2, 2)))
     assert refits.fit(["b"]).fit.chi2 == 400.0
     assert refits.without(joint, "a").fit.chi2 == 10.0 == refits.fit(["b"]).fit.chi2
+
+
+def test_each_line_of_a_spectrum_is_looked_at_by_itself():
+    order = np.arange(20.0, 420.0)
+    record = Record("vib", "vibration_order", "m/s^2", "a", 1, np.zeros(400), {"order": order}, {})
+    found = {f.name: f.columns for f in features(record)}
+    assert np.flatnonzero(found["order 36"][:, 0]) == [16] and "order 39" not in found
+    assert np.flatnonzero(found["orders: crank, absolute"][:, 0]) == [19]
+    assert found["orders: sun"].sum() == 2.0
+    seen = np.hstack([columns for name, columns in found.items() if name.startswith("order")])
+    assert np.count_nonzero(seen.sum(axis=1)) == 381, "every whole order up to 400"

@@ -27,6 +27,8 @@ ORDERS: dict[str, tuple[float, ...]] = {
 """Orders per revolution of the output of the RV20E-121."""
 COMB = 60
 COSINES = 5
+# Of a spectrum: half the width of a line, and the highest order that is looked at by itself.
+HALF, MOST_LINES = 0.5, 400
 FINE = 16
 
 
@@ -67,6 +69,8 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
             wave *= step
             if order not in named and order <= highest:
                 yield Feature(f"order {order}", np.column_stack([wave.real, wave.imag]))
+    if "order" in record.axes:
+        yield from lines(np.asarray(record.axes["order"], float), orders)
     for name, x in along(record).items():
         waves_along = np.column_stack([np.cos(np.pi * j * x) for j in range(1, COSINES + 1)])
         yield Feature(f"along {name}", waves_along)
@@ -76,6 +80,20 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
         if np.any(steps > 0) and np.any(steps < 0):
             branch = np.sign(steps)[:, None]
             yield Feature(f"branch of {name}", branch * np.column_stack([np.ones(count), waves_along[:, :2]]))
+
+
+def lines(order: Floats, orders: Mapping[str, Sequence[float]]) -> Iterator[Feature]:
+    """Lines of a spectrum over ``order``: those of known parts together, every other whole order by itself."""
+    named = set()
+    for name, family in orders.items():
+        inside = [o for o in family if np.any(np.abs(order - o) < HALF)]
+        if inside:
+            named.update(inside)
+            yield Feature(f"orders: {name}", np.column_stack([np.abs(order - o) < HALF for o in inside]).astype(float))
+    for o in range(max(1, int(np.ceil(order.min()))), min(int(order.max()), MOST_LINES) + 1):
+        here = np.abs(order - o) < HALF
+        if o not in named and here.any():
+            yield Feature(f"order {o}", here[:, None].astype(float))
 
 
 def shown(angle: Floats) -> tuple[float, float]:
