@@ -19,7 +19,7 @@ import numpy as np
 
 from fmu_src.effect import Effect
 from fmu_src.effect_check import Finding, check_any_file
-from fmu_src.source_hash import USER_EFFECTS
+from fmu_src.source_hash import ROOT, USER_EFFECTS
 from reducers.reducer import load_reducer
 from rv_plant import effects as of_plant
 from rv_plant import plant
@@ -50,7 +50,7 @@ def changes_when_off(file: Path) -> list[Finding]:
     environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", USER_EFFECTS: str(folder)}
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-c", program, repr(sys.path), str(file)],
+            [sys.executable, "-P", "-c", program, repr([str(ROOT), *sys.path]), str(file)],
             capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment, timeout=PATIENCE, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:

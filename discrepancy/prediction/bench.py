@@ -188,16 +188,17 @@ class Bench(Lives):
         found: Floats = self.running(condition, values, angles)[-positions:].mean(axis=0)
         return found
 
-    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
+    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int = HELD_ANGLES) -> Floats:
         """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""
-        whole = self.held_mean(condition, {}, torques, HELD_ANGLES, SHORT_CYCLE)
+        whole = self.held_mean(condition, {}, torques, positions, SHORT_CYCLE)
         if not self.relevant(values, condition.hours > 0.0):
             return whole
-        turning = self.held_mean(condition, values, torques, self.held_angles, self.cycle_turns)
-        if self.held_angles == HELD_ANGLES:
+        fewer = min(self.held_angles, positions)
+        turning = self.held_mean(condition, values, torques, fewer, self.cycle_turns)
+        if fewer == positions:
             return turning
         # What the values change, seen from fewer positions and by rougher lives.
-        return whole + turning - self.held_mean(condition, {}, torques, self.held_angles, self.cycle_turns)
+        return whole + turning - self.held_mean(condition, {}, torques, fewer, self.cycle_turns)
 
     def held_mean(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
         """``held`` from so many positions."""

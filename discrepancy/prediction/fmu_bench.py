@@ -188,17 +188,17 @@ class FmuBench(Bench):
         # There is no equilibrium to start from: the whole run.
         return self.running(condition, values, angles, cage)[:, COLUMNS.index("transmission_error")]
 
-    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats) -> Floats:
+    def held(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int = HELD_ANGLES) -> Floats:
         def run() -> Floats:
             worn = self.worn_state(condition, values)
             total = np.zeros(len(torques))
             self.start_plant(condition, values, torques[0])
             placed, since = self.plant.save(), self.time
-            for k in range(HELD_ANGLES):
+            for k in range(positions):
                 if k > 0:
                     self.plant.restore(placed)
                     self.time = since
-                    self.turn_plant(condition, 2.0 * math.pi / (HELD_ANGLES * self.reducer.topology.lobes))
+                    self.turn_plant(condition, 2.0 * math.pi / (positions * self.reducer.topology.lobes))
                     placed, since = self.plant.save(), self.time
                 self.plant.set("input_speed", 0.0)
                 if worn:
@@ -206,10 +206,10 @@ class FmuBench(Bench):
                 for i, torque in enumerate(torques):
                     self.plant.set("load_torque", torque)
                     self.step_plant(1.0)
-                    total[i] -= self.plant.get("transmission_error") / HELD_ANGLES
+                    total[i] -= self.plant.get("transmission_error") / positions
             return total
 
-        key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes())
+        key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes(), positions)
         return self.kept(key, run)
 
 

@@ -21,6 +21,8 @@ STEEL = 7850.0
 SPECTRUM_SAMPLES = 2048
 TORQUE_STEPS = 12
 # Torques of either sign at which a locked drive's springs are computed.
+# Crank positions of that table: its play is far wider than what positions differ by.
+LOCKED_ANGLES = 8
 ELASTIC_STEPS = 20
 WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0, "mesh_friction": 0.0, "mesh_friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
@@ -68,7 +70,7 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     # Finely about no torque, where play is.
     rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
     table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
-    turning = bench.held(held_condition(bench, record), elastic, table)
+    turning = bench.held(held_condition(bench, record), elastic, table, LOCKED_ANGLES)
     friction, share, presliding = (values.get(n, bench.starts[0][n]) for n in DRIVE_FRICTION)
     if friction + share == 0.0:
         return np.interp(applied, table, turning)

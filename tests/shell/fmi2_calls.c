@@ -198,6 +198,23 @@ static void steps(void)
     set_mode(c, 4);
     DISCARDS("would make answers infinite", fmi2DoStep(c, 0.604, 1e-3, 1));
     fmi2FreeInstance(c);
+    /* A refused step once more: with another input, at another time, shorter, and then unchanged, which ends the unit. */
+    c = ready2();
+    set_mode(c, 1);
+    SAYS(2, unit.fault_count ? "in mode 1" : "code 1", fmi2DoStep(c, 0.0, 1e-3, 1));
+    set_mode(c, 3);
+    DISCARDS("code 99", fmi2DoStep(c, 0.0, 1e-3, 1));
+    DISCARDS("code 99", fmi2DoStep(c, 0.1, 1e-3, 1));
+    DISCARDS("code 99", fmi2DoStep(c, 0.1, 5e-4, 1));
+    DISCARDS("the same step of 0.0005 s was asked for again: the unit is terminated", fmi2DoStep(c, 0.1, 5e-4, 1));
+    FAILS("fmi2DoStep", fmi2DoStep(c, 0.1, 5e-4, 1));
+    fmi2FreeInstance(c);
+    c = ready2();
+    set_mode(c, 3);
+    DISCARDS("code 99", fmi2DoStep(c, 0.0, 1e-3, 1));
+    DISCARDS("terminated", fmi2DoStep(c, 0.0, 1e-3, 1));
+    WELL(fmi2Terminate(c));
+    fmi2FreeInstance(c);
 }
 
 static void questions(void)
