@@ -26,6 +26,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import shown
 from fmu_src.arrays import Floats
+from reducers.reducer import Reducer
 
 # A run whose error is this many times its noise is worth a look.
 CONSPICUOUS = 1.5
@@ -76,7 +77,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
-    warnings = another_reducer(model) + too_soft(figures) + incomplete(campaign) + doubts + warnings_of(model, list(space.noise.warnings))
+    warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 
 
@@ -131,12 +132,18 @@ def rms(values: Iterable[float]) -> float:
     return float(np.sqrt(np.mean(np.square(list(values)))))
 
 
-def another_reducer(model: PhysicalModel) -> list[str]:
-    """A campaign that names another reducer than the model's: what differs would be taken for effects."""
+def another_reducer(model: PhysicalModel) -> Reducer | None:
+    """The reducer that the campaign names, if it is not the model's."""
     named = model.campaign.reducer
-    if named is None or named.name == model.file.reducer.name:
-        return []
-    return [f"the campaign is of {named.name}, the model is made of {model.file.reducer.name}: whatever differs between the two looks like an effect"]
+    return None if named is None or named.name == model.file.reducer.name else named
+
+
+def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
+    """What is said before anything is fitted: another reducer, a base that is too soft, conditions that leave something out."""
+    named = another_reducer(model)
+    made_of = model.file.reducer.name
+    other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
+    return [*other, *too_soft(figures), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

@@ -33,7 +33,6 @@ from fmu_src.strict_file import Strict, described, validated
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import ValueFault
 from orchestrator.settings import parse_setting
-from reducers.library import LIBRARY
 from reducers.reducer import Reducer, load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
 from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
@@ -268,7 +267,7 @@ def inline(entry: dict[str, Any]) -> InlineTable:
 
 def reducer_reference(model: ModelFile, path: Path) -> str:
     """Name of a library reducer, or the path of its file as seen from the model file."""
-    if model.reducer.path.resolve().parent == LIBRARY.resolve() and load_or_none(model.reducer.name):
+    if model.reducer.is_of_library and load_or_none(model.reducer.name):
         return model.reducer.name
     try:
         return str(model.reducer.path.resolve().relative_to(path.resolve().parent))

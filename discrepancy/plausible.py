@@ -95,12 +95,12 @@ def hours_of(record: Record) -> float:
 
 def kind_of(record: Record, campaign: Campaign) -> Hashable:
     """Equal for runs whose numbers are of one signal in one unit."""
-    source = campaign.sources.get(record.name, {}).get(VALUE)
+    source = campaign.source(record.name, VALUE)
     return (record.quantity, *sorted(record.tags.items()), source and source.unit)
 
 
 def file_of(record: Record, campaign: Campaign) -> str:
-    source = campaign.sources.get(record.name, {}).get(VALUE)
+    source = campaign.source(record.name, VALUE)
     return source.file if source else ""
 
 

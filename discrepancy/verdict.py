@@ -11,12 +11,12 @@ from typing import Any
 
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import another_reducer, figures_of, incomplete, warnings_of
+from discrepancy.compare import beforehand, figures_of, warnings_of
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
-from discrepancy.key_figures import KeyFigure, calibrated_first, too_soft
+from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -121,7 +121,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
-    warnings = another_reducer(model) + too_soft(figures) + incomplete(model.campaign) + warnings_of(model, list(found.warnings))
+    warnings = beforehand(model, figures) + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import IO, Any
 
@@ -36,22 +36,27 @@ def interrupts_later() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def command_of(main: str, path: Sequence[str], *arguments: str) -> list[str]:
+    """What calls ``main`` ("module:function") with the arguments in another Python that finds its modules along ``path`` and nowhere else:
+    a folder named like a module where somebody happens to stand is none."""
+    module, _, function = main.partition(":")
+    text = f"import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from {module} import {function}; {function}(*sys.argv[2:])"
+    return [sys.executable, "-P", "-c", text, repr(list(path)), *arguments]
+
+
 def started(main: str, *arguments: str, environment: dict[str, str] | None = None) -> tuple["subprocess.Popen[bytes]", int]:
     """A process that calls ``main`` ("module:function") with the arguments and a handle for ``end_with_master``; and what ends it when it is closed
     (-1 where the system has no such thing)."""
-    module, _, function = main.partition(":")
-    text = f"import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from {module} import {function}; {function}(*sys.argv[2:])"
     held = passed = -1
     more: dict[str, Any] = {}
     if os.name == "posix":
         passed, held = os.pipe()
         # A group of its own: it is ended with all that it started.
         more = {"pass_fds": (passed,), "process_group": 0}
-    # With this process's own path: a folder named like a module where somebody happens to stand is none.
     try:
         with interrupts_later():
             process = subprocess.Popen(
-                [sys.executable, "-P", "-c", text, repr(sys.path), *arguments, str(passed)],
+                command_of(main, sys.path, *arguments, str(passed)),
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=os.environ | (environment or {}), **more,
             )  # fmt: skip
     finally:

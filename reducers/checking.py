@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.complete import UNITS
+from reducers.completion.complete import UNITS, ring_over_torque
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import Given
 from reducers.reducer import Reducer, numbers_of
@@ -108,8 +108,8 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
         f"{name} = {shown(reducer, name, n[name])}, where {usual} is usual: look at its unit"
         for name, low, high, usual in SPANS if name in n and not low <= n[name] <= high
     ]  # fmt: skip
-    torque, speed = abs(n["output.load_torque"]), abs(n["input.speed"]) / ratio * 30.0 / math.pi
-    share = MM * n["pin.circle_radius"] / math.cbrt(1e3 * torque) if torque else TORQUE_SHARE[0]
+    torque, speed = abs(n["output.load_torque"]), output_rpm(n, ratio)
+    share = ring_over_torque(MM * n["pin.circle_radius"], torque) if torque else TORQUE_SHARE[0]
     if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
         found.append(
             f"pin.circle_radius in mm is {share:.3g} times the cube root of output.load_torque = {torque:.6g} N.m in N mm, where {TORQUE_USUAL} is usual:"
@@ -121,13 +121,17 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
     return found
 
 
+def output_rpm(n: dict[str, float], ratio: float) -> float:
+    return abs(n["input.speed"]) / ratio * 30.0 / math.pi
+
+
 def completing(reducer: Reducer, n: dict[str, float], ratio: float) -> str:
     """The command that completes the file, with all that it states itself; none for drives that the rules are not for."""
     t = reducer.topology
     if t.output_pins or n.get("first_stage.ratio", 0.0) <= 0.0 or t.discs != 2:
         return ""
     words = ["rvwear", "reducer", "new", "--ratio", f"{ratio:.6g}", "--pins", str(t.pins), "--rated", f"{abs(n['output.load_torque']):.6g}"]
-    words += ["--speed", f"{abs(n['input.speed']) / ratio * 30.0 / math.pi:.6g}", "--cranks", str(t.cranks), "--rollers", str(t.rollers)]
+    words += ["--speed", f"{output_rpm(n, ratio):.6g}", "--cranks", str(t.cranks), "--rollers", str(t.rollers)]
     for one in numbers(reducer):
         if one.kind == STATED and one.name in UNITS and one.name not in FOLLOW:
             factor, offset = conversion(one.unit or "1", UNITS[one.name])

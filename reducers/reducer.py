@@ -84,6 +84,11 @@ class Reducer:
     # By name (lowest, highest), SI: numbers that are not known for sure.
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
 
+    @property
+    def is_of_library(self) -> bool:
+        """Whether it comes with the software, so that its name is enough."""
+        return self.path.resolve().parent == LIBRARY.resolve()
+
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])

@@ -11,6 +11,7 @@ import inspect
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 
 import numpy as np
 
@@ -114,12 +115,9 @@ REGISTRY: dict[str, Callable[[Context], Claim]] = {}
 STATED: dict[str, tuple[str, str, str]] = {}
 
 
-FINDERS: dict[str, Finder] = {}
-
-
 def has_figure(identity: str) -> bool:
     """Whether a claim draws anything, as its function says: nothing is computed."""
-    return "figures=" in inspect.getsource(FINDERS[identity])
+    return "figures=" in inspect.getsource(REGISTRY[identity])
 
 
 def states(identity: str, source: str, title: str, says: str) -> Callable[[Finder], Finder]:
@@ -129,6 +127,7 @@ def states(identity: str, source: str, title: str, says: str) -> Callable[[Finde
     STATED[identity] = source, title, says
 
     def register(function: Finder) -> Finder:
+        @wraps(function)
         def judge(context: Context) -> Claim:
             f = function(context)
             if f.verdict not in VERDICTS or (f.verdict == CONDITIONAL) != bool(f.condition):
@@ -139,7 +138,6 @@ def states(identity: str, source: str, title: str, says: str) -> Callable[[Finde
             )
 
         REGISTRY[identity] = judge
-        FINDERS[identity] = function
         return function
 
     return register

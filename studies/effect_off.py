@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from fmu_src.child_process import command_of
 from fmu_src.effect import Effect
 from fmu_src.effect_check import Finding, check_any_file
 from fmu_src.source_hash import ROOT, USER_EFFECTS
@@ -46,11 +47,11 @@ def changes_when_off(file: Path) -> list[Finding]:
     folder = file.parent.parent
     if any(check_any_file(beside) for unit in UNITS for beside in (folder / unit).glob("[!.]*.py") if beside.stem != "__init__"):
         return []
-    program = f"import ast, sys; sys.path[:] = ast.literal_eval(sys.argv[1]); from {__name__} import main; main(sys.argv[2])"
     environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", USER_EFFECTS: str(folder)}
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-c", program, repr([str(ROOT), *sys.path]), str(file)],
+            # Of these sources, whatever unit's own copy of them this process has loaded.
+            command_of("studies.effect_off:main", [str(ROOT), *sys.path], str(file)),
             capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment, timeout=PATIENCE, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
@@ -128,7 +129,7 @@ class Watched:
 
     def __init__(self, hook: Callable[..., Any], name: str, fields: list[str], count: str, found: dict[str, tuple[int, str]]):
         self.hook, self.name, self.fields, self.count, self.found = hook, name, fields, count, found
-        self.asked: set[str] = set()
+        self.is_probed = False
 
     def __call__(self, r: Any, *arguments: Any) -> Any:
         before = {field: np.array(r[field]) for field in self.fields}
@@ -138,21 +139,23 @@ class Watched:
                 largest = np.max(np.abs(np.asarray(r[field]) - old))
                 self.tell(f"changes r.{field} by {'up to ' if np.ndim(old) else ''}{largest:.3g}")
         if result is not None:
-            self.ask(r, arguments)
+            self.judge(result, arguments)
+            self.probe(r)
         if self.count:
             r[self.count] += 1
         return result
 
-    def ask(self, r: Any, arguments: tuple[Any, ...]) -> None:
-        """The factor at the contact, and at contacts of every kind: an effect may wait for a load that this reducer does not have."""
-        for others in [arguments, *product(*PROBES)] if self.name not in self.asked else [arguments]:
-            found = self.hook(r, *others)
-            if found != 1.0:
-                surface, load, radius, speed, depth = others
-                place = f"surface {surface}, {load:.3g} N/m, radius {radius:.3g} m, {speed:.3g} m/s, {depth:.3g} m worn"
-                self.tell(f"returns {found:.6g}, not 1.0 ({place})")
-                break
-        self.asked.add(self.name)
+    def judge(self, factor: float, contact: tuple[Any, ...]) -> None:
+        if factor != 1.0:
+            surface, load, radius, speed, depth = contact
+            place = f"surface {surface}, {load:.3g} N/m, radius {radius:.3g} m, {speed:.3g} m/s, {depth:.3g} m worn"
+            self.tell(f"returns {factor:.6g}, not 1.0 ({place})")
+
+    def probe(self, r: Any) -> None:
+        """Contacts of every kind, once: an effect may wait for a load that this reducer does not have."""
+        for contact in () if self.is_probed else product(*PROBES):
+            self.judge(self.hook(r, *contact), contact)
+        self.is_probed = True
 
     def tell(self, what: str) -> None:
         text = f"with its amplitudes off, {self.name} {what}: an effect that is off must change nothing"

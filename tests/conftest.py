@@ -143,3 +143,14 @@ def shared_runs():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Bench, "__init__", make)
         yield
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """(folder, address): a server of the workbench in a thread."""
+    from workbench_server import started
+
+    from workbench.folder import opened
+
+    folder = opened(tmp_path_factory.mktemp("bench") / "my bench")
+    return folder, started(folder)

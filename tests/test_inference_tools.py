@@ -139,15 +139,8 @@ def test_a_table_over_a_few_speeds_is_looked_at_along_the_speed(speeds, waves):
     assert np.linalg.matrix_rank(np.hstack(list(found.values()))) == 1 + waves
 
 
-class Lines:
-    """Of the effects a, b and c the others fit as well without a, but from their own start they do not find there."""
-
-    def __init__(self):
-        self.training, self.records = [], []
-        self.predictions = SimpleNamespace(roughly=contextlib.nullcontext)
-
-
 def test_what_is_left_without_an_effect_starts_where_it_stands(monkeypatch):
+    """From its own start the rest does not find the optimum at which it stands beside the other."""
     parameters = [Parameter(n, "1", 0.0, -9.0, 9.0, 1.0) for n in "ab"]
     candidates = [Candidate(p.name, p.name, (p,)) for p in parameters]
 
@@ -156,7 +149,7 @@ def test_what_is_left_without_an_effect_starts_where_it_stands(monkeypatch):
         return Refit(tuple(chosen), SimpleNamespace(chi2=chi2, values={"b": 5.0}), 0.0, np.zeros(0), np.zeros((1, 1)))
 
     monkeypatch.setattr("discrepancy.inference.refit.refits.refit", refit)
-    refits = Refits(Lines(), candidates)
+    refits = Refits(SimpleNamespace(predictions=SimpleNamespace(roughly=contextlib.nullcontext)), candidates)
     monkeypatch.setattr(refits, "renewed", lambda result: result)
     joint = Refit(tuple(candidates), SimpleNamespace(chi2=9.5, values={"a": 0.1, "b": 5.0}), 0.0, np.zeros(0), np.zeros((2, 2)))
     assert refits.fit(["b"]).fit.chi2 == 400.0

@@ -4,7 +4,7 @@ import json
 import time
 
 import pytest
-from workbench_server import CSV, asked, own, started
+from workbench_server import CSV, asked, own
 
 from fmu_src.faults import InputFault
 from workbench import jobs
@@ -12,13 +12,6 @@ from workbench.folder import Folder, opened
 from workbench.intake import save, view
 
 pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
-
-
-@pytest.fixture(scope="module")
-def served(tmp_path_factory):
-    """(folder, address): a server in a thread."""
-    folder = opened(tmp_path_factory.mktemp("bench") / "my bench")
-    return folder, started(folder)
 
 
 def test_dropped_files_become_the_campaign_of_the_command_line(served):

@@ -3,20 +3,13 @@
 from pathlib import Path
 
 import pytest
-from workbench_server import CSV, asked, started
+from workbench_server import CSV, asked
 
 from fmu_src.faults import InputFault
 from workbench.folder import opened
 from workbench.intake import view
 
 pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
-
-
-@pytest.fixture(scope="module")
-def served(tmp_path_factory):
-    """(folder, address): a server in a thread."""
-    folder = opened(tmp_path_factory.mktemp("bench") / "my bench")
-    return folder, started(folder)
 
 
 def test_nobody_is_let_in_without_the_token(served):

@@ -181,19 +181,18 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     """The command with which one goes on from a diagnosis; empty where nothing is missing."""
     from discrepancy.compare import another_reducer
     from discrepancy.inference.verdict import BASE_OFF, NONE, SET, UNKNOWN
-    from reducers.library import LIBRARY
 
     if answer.verdict == NONE:
         return ""
+    data = ["--data", options.data] if options.data else []
+    if named := another_reducer(answer.model):
+        words = ["rvwear", "diagnose", named.name if named.is_of_library else str(named.path), options.campaign, *data]
+        return f"{shlex.join(words)}    # the reducer that the campaign names"
     command, more, what = {
         SET: ("next", [], "the measurement that tells them apart"),
         UNKNOWN: ("extend", ["--draft", "effects"], "makes an effect of what is recovered"),
         BASE_OFF: ("extend", ["--output", "better.toml"], "corrects the base model"),
     }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
-    data = ["--data", options.data] if options.data else []
-    if another_reducer(answer.model) and (named := answer.model.campaign.reducer) is not None:
-        model = named.name if named.path.parent == LIBRARY else str(named.path)
-        return f"{shlex.join(['rvwear', 'diagnose', model, options.campaign, *data])}    # the reducer that the campaign names"
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
 

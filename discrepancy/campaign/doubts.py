@@ -37,7 +37,7 @@ NOWHERE = Source("", "", "", 1.0)
 
 def source_of(campaign: Campaign, record: Record, axis: str) -> Source:
     """Where the numbers stand; nowhere of a record that no file was read for."""
-    return campaign.sources.get(record.name, {}).get(axis, NOWHERE)
+    return campaign.source(record.name, axis) or NOWHERE
 
 
 def torques(design: Design) -> Iterator[Finding]:

@@ -37,7 +37,7 @@ def ways_round(design: Design) -> Iterator[Finding]:
             continue
         gap, noise = gap_between_ways(torque, turning)
         if gap < -max(CLEARLY * noise, LEAST * float(np.ptp(turning))):
-            source = campaign.sources.get(record.name, {}).get(VALUE, Source("", "", "rad", 1.0))
+            source = campaign.source(record.name, VALUE) or Source("", "", "rad", 1.0)
             yield Finding(
                 WARNING, "loop the wrong way round",
                 f"run {record.name}: at equal torque the turning{place} is {readable(-gap / abs(source.factor))} {source.unit} less on the way down"

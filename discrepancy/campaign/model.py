@@ -116,8 +116,12 @@ class Campaign:
 
     def place(self, run: str, axis: str) -> str:
         """Where the numbers of a run's axis (or ``value``) stand, in brackets; empty for records of no file."""
-        source = self.sources.get(run, {}).get(axis)
+        source = self.source(run, axis)
         return f" ({source})" if source else ""
+
+    def source(self, run: str, axis: str) -> Source | None:
+        """Where the numbers of a run's axis (or ``value``) stand; None for records of no file."""
+        return self.sources.get(run, {}).get(axis)
 
     def of(self, quantity: str) -> tuple[Record, ...]:
         return tuple(record for record in self.records if record.quantity == quantity)

@@ -20,10 +20,9 @@ STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 2048
 TORQUE_STEPS = 12
-# Torques of either sign at which a locked drive's springs are computed.
-# Crank positions of that table: its play is far wider than what positions differ by.
-LOCKED_ANGLES = 8
-ELASTIC_STEPS = 20
+# Torques of either sign at which a locked drive's springs are computed, and crank positions of that table: its play is far wider than
+# what positions differ by.
+ELASTIC_STEPS, LOCKED_ANGLES = 20, 8
 WITHOUT_FRICTION = {"friction_coefficient": 0.0, "friction_excess": 0.0, "mesh_friction": 0.0, "mesh_friction_excess": 0.0}
 DRIVE_FRICTION = ("drive_friction", "drive_friction_share", "drive_presliding")
 # Of the deepest place: what is worn less is not compared in proportion.

@@ -204,10 +204,15 @@ def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, 
     return hole, roller
 
 
+def ring_over_torque(radius: float, torque: float) -> float:
+    """Pin circle radius [mm] over the cube root of the torque [N m] in N mm: the dial ``ring_torque``."""
+    return radius / math.cbrt(1e3 * torque)
+
+
 def doubts_of(given: Given, values: Mapping[str, float]) -> list[str]:
     """What does not fit the rules and yet may be so."""
     found = []
-    share = values["pin.circle_radius"] / math.cbrt(1e3 * given.rated)
+    share = ring_over_torque(values["pin.circle_radius"], given.rated)
     if not 0.85 <= share <= 1.3:
         found.append(
             f"pin circle radius {values['pin.circle_radius']:.4g} mm is {share:.3g} times the cube root of {given.rated:g} N m in N mm, where 0.85 to 1.3 is"

@@ -51,7 +51,7 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
         # A table over some speeds or hours.
         for name, x in along(record).items():
             levels = np.unique(np.round(x, 9)).size
-            yield Feature(f"along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(1, min(COSINES, levels - 1) + 1)]))
+            yield Feature(f"along {name}", cosines(x, 1, min(COSINES, levels - 1)))
         return
     angle = order_axis(record)
     if angle is not None:
@@ -72,14 +72,19 @@ def features(record: Record, orders: Mapping[str, Sequence[float]] = ORDERS, com
     if "order" in record.axes:
         yield from lines(np.asarray(record.axes["order"], float), orders)
     for name, x in along(record).items():
-        waves_along = np.column_stack([np.cos(np.pi * j * x) for j in range(1, COSINES + 1)])
+        waves_along = cosines(x, 1, COSINES)
         yield Feature(f"along {name}", waves_along)
         if count >= 64:
-            yield Feature(f"finely along {name}", np.column_stack([np.cos(np.pi * j * x) for j in range(COSINES + 1, FINE + 1)]))
+            yield Feature(f"finely along {name}", cosines(x, COSINES + 1, FINE))
         steps = np.gradient(np.asarray(record.axes[name], dtype=float))
         if np.any(steps > 0) and np.any(steps < 0):
             branch = np.sign(steps)[:, None]
             yield Feature(f"branch of {name}", branch * np.column_stack([np.ones(count), waves_along[:, :2]]))
+
+
+def cosines(x: Floats, lowest: int, highest: int) -> Floats:
+    """Half waves along ``x`` (n,) from 0 to 1, a column each."""
+    return np.column_stack([np.cos(np.pi * j * x) for j in range(lowest, highest + 1)])
 
 
 def lines(order: Floats, orders: Mapping[str, Sequence[float]]) -> Iterator[Feature]:

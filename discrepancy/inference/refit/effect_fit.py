@@ -69,7 +69,7 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     if found.chi2 > space.base.chi2:
         # Whatever the search has lost: switched off, an effect is as good as none.
         off = {**space.base.values, **{p.name: p.off for p in own}}
-        found = fit_of(parameters, off, space.residual(off), every, names, False)
+        found = fit_of(parameters, off, space.base.residual, every, names, False)
     return found
 
 
