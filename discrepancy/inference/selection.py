@@ -86,9 +86,10 @@ class Selection:
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
         widened = partial(self.refits.widened, least=self.near(fits[0]))
         fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
-        near = self.near(fits[0])
-        fits = [*self.tried("fitting in earnest", self.refits.renewed, [f for f in fits if f.fit.chi2 < near]), *[f for f in fits if f.fit.chi2 >= near]]
-        return sorted(fits, key=penalised)
+        first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
+        near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
+        others = self.tried("fitting in earnest", self.refits.renewed, [f for f in fits[1:] if f.fit.chi2 < near])
+        return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
 
     def first_tried(self, scores: list[Score], top: float) -> list[Score]:
         """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
@@ -243,5 +244,5 @@ class Selection:
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
         rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s]), chosen)
-        near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member)
+        near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member) + self.refits.gained_in_earnest(final)
         return [self.refits.renewed(r) if r.fit.chi2 < near else r for r in rivals]

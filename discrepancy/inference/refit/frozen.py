@@ -11,6 +11,8 @@ from fmu_src.arrays import Floats
 
 # A descent that would not reach what it must even if it gained this many times what its slopes promise is given up.
 HOPE = 3.0
+# Of what an effect gains, what it may gain more where the nuisances follow it, whose sensitivities are those of the base fit.
+FOLLOW = 0.1
 
 
 class Frozen:
@@ -73,7 +75,7 @@ class Frozen:
             return False
         scale = self.part.scale
         promised = (scale * gradient) @ np.linalg.pinv(normal * np.outer(scale, scale), rcond=1e-11, hermitian=True) @ (scale * gradient)
-        return bool(cost - HOPE * promised > self.least)
+        return bool(cost - HOPE * promised - FOLLOW * max(self.space.base.chi2 - cost, 0.0) > self.least)
 
     def nuisances_with(self, residual: Floats) -> dict[str, float]:
         """The nuisances that go with what the effects leave."""

@@ -23,6 +23,8 @@ class Refits:
         self.scores: Mapping[str, Score] = {}
         self.fitted: dict[frozenset[str], Refit] = {}
         self.final_fits: dict[frozenset[str], Refit] = {}
+        # What a fit's chi-square fell by when it was made in earnest.
+        self.gained: dict[frozenset[str], float] = {}
         self.widely: set[frozenset[str]] = set()
 
     def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
@@ -70,5 +72,10 @@ class Refits:
             return self.final_fits[key]
         self.space.predictions.settle(result.fit.values)
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
+        self.gained[key] = max(result.fit.chi2 - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
+
+    def gained_in_earnest(self, result: Refit) -> float:
+        """By how much rough predictions have made a fit look worse than it is; others may look as much too bad."""
+        return self.gained.get(frozenset(c.name for c in result.candidates), 0.0)
