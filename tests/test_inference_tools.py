@@ -156,6 +156,21 @@ def test_what_is_left_without_an_effect_starts_where_it_stands(monkeypatch):
     assert refits.without(joint, "a").fit.chi2 == 10.0 == refits.fit(["b"]).fit.chi2
 
 
+def test_the_effect_that_came_last_stands_last_however_the_fit_was_first_asked_for(monkeypatch):
+    """What could stand in place of another is read off there."""
+    candidates = [Candidate(n, n, (Parameter(n, "1", 0.0, -9.0, 9.0, 1.0),)) for n in "ab"]
+
+    def refit(space, chosen, *more, **options):
+        return Refit(tuple(chosen), SimpleNamespace(chi2=1.0, values={}), 0.0, np.zeros(3), np.zeros((2, 2)))
+
+    monkeypatch.setattr("discrepancy.inference.refit.refits.refit", refit)
+    refits = Refits(SimpleNamespace(predictions=SimpleNamespace(roughly=contextlib.nullcontext)), candidates)
+    first, later = refits.fit(["a", "b"]), refits.fit(["b", "a"])
+    assert [c.name for c in first.candidates] == ["a", "b"]
+    assert [c.name for c in later.candidates] == ["b", "a"]
+    assert later.fit is first.fit
+
+
 def test_each_line_of_a_spectrum_is_looked_at_by_itself():
     order = np.arange(20.0, 420.0)
     record = Record("vib", "vibration_order", "m/s^2", "a", 1, np.zeros(400), {"order": order}, {})

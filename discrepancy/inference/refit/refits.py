@@ -1,6 +1,7 @@
 """The refits of one diagnosis, each made once: roughly while effects are looked for, in earnest for what is reported."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,11 @@ from discrepancy.problem import Candidate
 
 # Of chi-square: by so much a fit from another start is another optimum.
 BETTER = 1.0
+
+
+def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
+    """The refit with its effects as they are asked for: who asks takes the last for the one that came in place of another."""
+    return found if found.candidates == tuple(candidates) else replace(found, candidates=tuple(candidates))
 
 
 class Refits:
@@ -38,7 +44,7 @@ class Refits:
             found = list(scores or [self.scores[n] for n in names if n in self.scores])
             with self.space.predictions.roughly():
                 self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start, least=least)
-        return self.fitted[key]
+        return in_order(self.fitted[key], [self.by_name[n] for n in names])
 
     def widened(self, result: Refit, least: float = np.inf) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
@@ -48,7 +54,7 @@ class Refits:
             with self.space.predictions.roughly():
                 other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
             self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
-        return self.fitted[key]
+        return in_order(self.fitted[key], result.candidates)
 
     def without(self, joint: Refit, name: str) -> Refit:
         """The fit of the others of ``joint`` as it is reported, from its own start and from where they stand in ``joint``."""
@@ -69,7 +75,7 @@ class Refits:
         """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
         key = frozenset(c.name for c in result.candidates)
         if key in self.final_fits:
-            return self.final_fits[key]
+            return in_order(self.final_fits[key], result.candidates)
         self.space.predictions.settle(result.fit.values)
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
         self.gained[key] = max(result.fit.chi2 - better.fit.chi2, 0.0)
