@@ -130,14 +130,16 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     }
     /* What lies beyond the guarded cells, worn surfaces, is not put back. */
     int is_lost = spoilt && unit.guarded_cells < unit.state_cells;
+    /* Why a unit ends is told without debug logging, too. */
+    enum status telling = is_again ? ERROR : DISCARD;
     if (code)
-        report_fault(i, DISCARD, code, time);
+        report_fault(i, telling, code, time);
     else
-        report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
+        report(i, telling, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
                is_lost ? "; the unit is terminated, reset it" : "");
     memcpy(i->cells, i->backup, GUARDED_BYTES);
     if (is_again)
-        report(i, DISCARD, "at time %.9g s: the same step of %.9g s was asked for again: the unit is terminated", time, duration);
+        report(i, telling, "at time %.9g s: the same step of %.9g s was asked for again: the unit is terminated", time, duration);
     if (is_lost || is_again)
         i->phase = TERMINATED;
     i->refused_time = time;

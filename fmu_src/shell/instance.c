@@ -19,7 +19,7 @@ enum status report(struct instance *i, enum status status, const char *format, .
 {
     char text[TEXT_SIZE];
     int index = category_index(CATEGORY[status]);
-    if (!i->logging || i->muted >> index & 1)
+    if (i->logging == NOTHING || (i->logging == ERRORS && status < ERROR) || i->muted >> index & 1)
         return status;
     va_list arguments;
     va_start(arguments, format);
@@ -44,7 +44,7 @@ enum status set_logging(struct instance *i, int on, size_t count, const char *co
         if (!muted)
             break;
     }
-    i->logging = on;
+    i->logging = on ? ALL : NOTHING;
     i->muted = muted;
     return OK;
 }

@@ -16,6 +16,9 @@ enum phase { INSTANTIATED, INITIALISING, STEPPING, TERMINATED };
 struct instance;
 struct state;
 
+/* What goes to the importer's log: without debug logging the reasons of errors alone. */
+enum logging { NOTHING, ERRORS, ALL };
+
 /* Who asks. */
 struct importer {
     /* Hands a message to the logger in the manner of the importer's FMI version. */
@@ -27,7 +30,7 @@ struct importer {
 struct instance {
     struct importer importer;
     char *name;
-    int logging;
+    enum logging logging;
     uint32_t muted; /* one bit per category */
     enum phase phase;
     int is_set_up;   /* FMI 2: fmi2SetupExperiment was called */

@@ -44,7 +44,7 @@ static struct instance *new_instance(const char *name)
 struct instance *instantiate(struct importer importer, int logging, const char *function, const char *name,
                              const char *objection, const char *key_name, const char *key)
 {
-    struct instance refused = {.importer = importer, .name = "", .logging = 1};
+    struct instance refused = {.importer = importer, .name = "", .logging = ERRORS};
     if (!name || !*name)
         return report(&refused, ERROR, "%s: the instance needs a name", function), NULL;
     if (objection)
@@ -57,7 +57,7 @@ struct instance *instantiate(struct importer importer, int logging, const char *
     if (!i)
         return report(&refused, ERROR, "%s: out of memory", function), NULL;
     i->importer = importer;
-    i->logging = logging;
+    i->logging = logging ? ALL : ERRORS;
     return i;
 }
 

@@ -97,7 +97,14 @@ static void messages_of_an_instance(void)
     fmi2Component c = new2(), quiet = fmi2Instantiate("a", fmi2CoSimulation, unit.identity, "", &HEARD, 0, 0);
     fmi2String error = "logStatusError", warning = "logStatusWarning", none = NULL, unknown = "none";
     fmi2String all[] = {"logStatusError", "logAll", "never looked at"};
-    SAYS(3, NULL, fmi2Terminate(quiet));
+    /* Without debug logging errors alone are told, switched off nothing is. */
+    FAILS("not allowed", fmi2Terminate(quiet));
+    WELL(fmi2SetupExperiment(quiet, 0, 0.0, 0.0, 0, 0.0));
+    WELL(fmi2EnterInitializationMode(quiet));
+    WELL(fmi2ExitInitializationMode(quiet));
+    SAYS(1, NULL, fmi2DoStep(quiet, 0.5, 1e-3, 1));
+    WELL(fmi2SetDebugLogging(quiet, 0, 0, NULL));
+    SAYS(3, NULL, fmi2ExitInitializationMode(quiet));
     fmi2FreeInstance(quiet);
     FAILS("none given", fmi2SetDebugLogging(c, 1, 1, NULL));
     FAILS("no log category none", fmi2SetDebugLogging(c, 1, 1, &unknown));
