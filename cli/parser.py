@@ -22,7 +22,8 @@ class Parser(argparse.ArgumentParser):
         known = [text for action in command._actions for text in action.option_strings]
         wrong = next((word for word in rest if word.startswith("-")), rest[0])
         if not wrong.startswith("-"):
-            return command.error(f"{wrong!r} is too much: see rvwear {command.prog.partition(' ')[2]} --help")
+            meant = f"; a reducer is given as --reducer {wrong}" if "--reducer" in known else f": see {command.prog} --help"
+            return command.error(f"{wrong!r} is too much{meant}")
         word = wrong.partition("=")[0]
         return command.error(f"there is no option {word}{nearest(word, known, 1) or '; --help lists those there are'}")
 

@@ -119,8 +119,8 @@ def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:
         known = sorted({c.name for c in candidates})
         plain = [*known, *{c.partition(".")[0] for c in known}]
         nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(name.partition(".")[0], plain, 1)
-        text = f"effect {name!r}: not among those that this campaign can show and the model lacks: {', '.join(known)}"
-        raise UnknownEffect(name, nearest, text + (f"; did you mean {nearest[0]}?" if nearest else ""))
+        text = f"effect {name!r}: not among those that this campaign can show and the model lacks"
+        raise UnknownEffect(name, nearest, text + (f"; did you mean {nearest[0]}?" if nearest else f": {', '.join(known)}"))
     return variants
 
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest
 from pages.render import written
 from reproduce import (  # noqa: F401  each registers its claims
     bearing_claims,
@@ -52,7 +52,9 @@ def chosen(selected: list[str] | None) -> list[str]:
     selected = [name.upper() for name in selected or ()]
     for name in selected:
         if not any(known.startswith(name) for known in ids):
-            raise InputFault(f"claim {name!r}: there is none; the claims are {', '.join(ids)}")
+            first_and_last = {known[0]: (next(i for i in ids if i[0] == known[0]), known) for known in ids}
+            there = ", ".join(f"{first} to {last}" for first, last in first_and_last.values())
+            raise InputFault(f"claim {name!r}: there is none{nearest(name, ids) or f'; there are {there}'}; --list says what each is")
     return [known for known in ids if not selected or known.startswith(tuple(selected))]
 
 
