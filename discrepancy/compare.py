@@ -26,6 +26,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import shown
 from fmu_src.arrays import Floats
+from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
 
 # A run whose error is this many times its noise is worth a look.
@@ -63,6 +64,7 @@ class Comparison:
         }  # fmt: skip
 
 
+@sharing_no_matrices
 def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
             jobs: int = 1, fmus: Path | None = None) -> Comparison:
     """Hold a model against a campaign; localises the misfit on the way.  ``fmus``: folder of FMUs to predict with."""

@@ -23,6 +23,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
 from discrepancy.verdict import Answer
 from fmu_src.faults import InputFault
+from fmu_src.threads import sharing_no_matrices
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
@@ -55,6 +56,7 @@ class Extension:
         return {"model": self.file.name, "verdict": self.verdict, "step": step, "effects": effects}
 
 
+@sharing_no_matrices
 def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
            jobs: int = 1, answer: Answer | None = None) -> Extension:
     """Fit the named candidates (``effect`` or ``effect.variant``) and add them; ``base.NUMBER`` corrects an assumed number of the reducer.

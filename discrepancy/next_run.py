@@ -24,6 +24,7 @@ from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
+from fmu_src.threads import sharing_no_matrices
 from studies.hysteresis import torque_way
 
 HOUR = 3600.0
@@ -85,6 +86,7 @@ class NextRun:
         }
 
 
+@sharing_no_matrices
 def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
     """Diagnose, or take the diagnosis from before, and propose what to measure next."""
     return proposal_for(diagnosed(file, campaign, settings, jobs), campaign)

@@ -16,6 +16,7 @@ from discrepancy.next_run import UNMEASURED
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
 from fmu_src.faults import InputFault
+from fmu_src.threads import sharing_no_matrices
 
 # Samples that show all that a loop has, and all orders of a turn; more only take longer.
 ENOUGH = {"hysteresis": 500, "transmission_error": 4500}
@@ -55,6 +56,7 @@ class Separability:
         }  # fmt: skip
 
 
+@sharing_no_matrices
 def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) -> Separability:
     """Every pair of catalogued effects that the campaign shows, hidden with d' = ``strength``.
 

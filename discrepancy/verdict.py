@@ -23,6 +23,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.waves import waves_of
 from fmu_src.progress import task
+from fmu_src.threads import sharing_no_matrices
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,7 @@ class AnswerSoFar(KeyboardInterrupt):
         self.answer = answer
 
 
+@sharing_no_matrices
 def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), model: PhysicalModel | None = None,
              jobs: int = 1, fmus: Path | None = None, doctor: Diagnostician | None = None) -> Answer:
     """The effect that the model lacks, a set that cannot be separated, none, or the law without a name; ``AnswerSoFar`` at Ctrl-C.

@@ -8,12 +8,28 @@ import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
-from typing import TypeVar
+from functools import wraps
+from typing import ParamSpec, TypeVar
 
 from fmu_src.progress import task
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+Given = ParamSpec("Given")
+
+
+def sharing_no_matrices(function: Callable[Given, Result]) -> Callable[Given, Result]:
+    """While ``function`` runs, linear algebra stays on the thread that asks for it: matrices are small here, and a library's own threads wait for
+    the next one by turning round and round, on cores that others need (half of a diagnosis's CPU time)."""
+
+    @wraps(function)
+    def run(*arguments: Given.args, **options: Given.kwargs) -> Result:
+        from threadpoolctl import threadpool_limits
+
+        with threadpool_limits(1, "blas"):
+            return function(*arguments, **options)
+
+    return run
 
 
 class Stopped(BaseException):

@@ -10,6 +10,7 @@ from discrepancy.forecast.growth import FIRST, Growth
 from discrepancy.forecast.posterior import samples
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
+from fmu_src.threads import sharing_no_matrices
 
 # Nobody looks further: so many times the hours of the last inspection, at least [h].
 FURTHEST, LEAST = 100.0, 1e5
@@ -76,6 +77,7 @@ def growth_of(readings: Sequence[Reading], limit: float, rate: float | None = No
     return Growth(level, usual, max(FURTHEST * last, LEAST))
 
 
+@sharing_no_matrices
 def forecast(readings: Sequence[Reading], limit: float, rate: float | None = None, asked: Sequence[float] = (), seed: int = 0) -> Forecast:
     """What the readings say of the hours until ``limit``, and of the quantity at the hours that are ``asked``."""
     require_sound(readings, limit)

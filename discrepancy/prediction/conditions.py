@@ -41,7 +41,7 @@ def rows_of(bench: Bench, record: Record) -> Floats:
 
 def condition_of(bench: Bench, record: Record) -> Condition:
     """The one condition of a record whose rows share it."""
-    speed, load, temperature, hours = (float(np.ravel(c)[0]) for c in settings_of(bench, record))
+    speed, load, temperature, hours = (c if isinstance(c, float) else float(np.ravel(c)[0]) for c in settings_of(bench, record))
     return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)))
 
 

@@ -323,7 +323,12 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
 def loop_error(bench: Bench, record: Record) -> Floats:
     """About what the mean over the cranks' positions errs by in a loop of the base model [rad], at the record's samples."""
     curve = OverTorque(bench, record)
-    fine = nodes_of(curve, {})
-    path, lead = entered(bench, curve.places({}) if fine is None else fine.torques)
-    halves = bench.held_halves(curve.condition, path)[lead:]
-    return halves if fine is None else fine.samples(halves, curve.places({}))
+
+    def found() -> Floats:
+        fine = nodes_of(curve, {})
+        path, lead = entered(bench, curve.places({}) if fine is None else fine.torques)
+        halves = bench.held_halves(curve.condition, path)[lead:]
+        return halves if fine is None else fine.samples(halves, curve.places({}))
+
+    # Every prediction with some of it asks again.
+    return bench.kept(("loop error", curve.condition, curve.places({}).tobytes()), found)

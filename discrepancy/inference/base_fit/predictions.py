@@ -25,6 +25,11 @@ class Predictions:
         for c in model.candidates:
             self.off.update({p.name: p.off for p in c.amplitudes})
         self.amplitudes = {p.name for c in model.candidates for p in c.amplitudes}
+        # By shape the amplitudes of whatever has it: variants of one effect can have a shape in common.
+        self.shaping: dict[str, set[str]] = {}
+        for c in model.candidates:
+            for shape in c.shapes:
+                self.shaping.setdefault(shape.name, set()).update(p.name for p in c.amplitudes)
         self.store: dict[Key, dict[int, Floats]] = {}
         self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
@@ -47,13 +52,8 @@ class Predictions:
     def active(self, values: Mapping[str, float]) -> dict[str, float]:
         """The values that differ from the base model's; shapes of effects that are off do not count."""
         active = {n: float(v) for n, v in values.items() if v != self.off.get(n)}
-        idle: set[str] = set()
-        used: set[str] = set()
-        for c in self.model.candidates:
-            # Variants of one effect can have a shape in common.
-            (used if any(p.name in active for p in c.amplitudes) else idle).update(p.name for p in c.shapes)
-        for name in idle - used:
-            active.pop(name, None)
+        for name in [n for n in active if n in self.shaping and self.shaping[n].isdisjoint(active)]:
+            del active[name]
         return active
 
     def __call__(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
