@@ -13,13 +13,14 @@ from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
-from studies.hysteresis import LOST_MOTION_SHARE, torque_way
+from studies.hysteresis import LOST_MOTION_SHARE
 from studies.life import peak_of_circle
 
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 2048
-TORQUE_STEPS = 12
+# The standard test's torques of a quarter, of the rated one: its lost motion is within 0.3 % of that of a hundred even steps.
+TORQUES = np.array([0.0, 0.01, 0.02, LOST_MOTION_SHARE, 0.06, 0.25, 0.5, 0.75, 1.0])
 # Torques of either sign at which a locked drive's springs are computed, and crank positions of that table: its play is far wider than
 # what positions differ by.
 ELASTIC_STEPS, LOCKED_ANGLES = 20, 8
@@ -82,11 +83,9 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
 
 def loop(bench: Bench, condition: Condition, values: Values) -> tuple[Floats, Floats]:
     """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
-    way = torque_way(bench.rated_load, TORQUE_STEPS)
-    quarter = len(way) // 4
-    first = way[: quarter + 1]
-    turning = bench.held(at_rest(bench, condition), values, np.concatenate([way, first[1:]]))
-    return np.concatenate([way, first[1:]]), turning
+    up, down = TORQUES, TORQUES[-2::-1]
+    way = bench.rated_load * np.concatenate([up, down, -up[1:], -down, up[1:]])
+    return way, bench.held(at_rest(bench, condition), values, way)
 
 
 def lost_motion(bench: Bench, record: Record, values: Values) -> Floats:

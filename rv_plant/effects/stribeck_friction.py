@@ -40,18 +40,17 @@ EFFECT = Effect(
     states=(
         Variable("slider", "state", "rad", "where the elastic-slip elements are free of force", 0.0, (ELEMENTS,), ("element",)),
         Variable("friction_torque", "state", "N.m", "largest torque that friction holds at the output"),
+        Variable("holding_load", "state", "N.m", "load of the last equilibrium"),
+        Variable("holding_load_before", "state", "N.m", "load of the one before that with another"),
+        Variable("held_before", "state", "N.m", "what friction could hold then"),
     ),
     signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature"),
 )
 
 
 @kernel
-def before(r):
-    """What friction can hold at the output, from the last contact forces."""
-    last = r.friction_torque
-    r.friction_torque = 0.0
-    if r.fidelity != 0 or r.input_speed != 0.0 or sliding_friction(r) + sticking_friction(r) == 0.0:
-        return
+def held_by_last_forces(r):
+    """What friction can hold at the output [N m] by the contact forces of the last equilibrium."""
     discs, pins = r.mesh_force_now.shape
     lobes = pins - 1
     k1 = shortening(r.eccentricity, lobes, r.pin_circle_radius)
@@ -65,9 +64,30 @@ def before(r):
                 root = math.sqrt(1.0 + k1 * k1 - 2.0 * k1 * c)
                 arm = r.pin_circle_radius * root + r.eccentricity * lobes * (c - k1) / root - r.pin_radius
                 held += force * abs(arm)
-    r.friction_torque = (sliding_friction(r) + sticking_friction(r)) * held
+    return (sliding_friction(r) + sticking_friction(r)) * held
+
+
+@kernel
+def before(r):
+    """What friction can hold at the output under the present load: from the last two equilibria, so that coarse steps of torque do as well as fine
+    ones; at most in proportion to the load."""
+    last = r.friction_torque
+    r.friction_torque = 0.0
+    if r.fidelity != 0 or r.input_speed != 0.0 or sliding_friction(r) + sticking_friction(r) == 0.0:
+        return
+    load = abs(r.load_torque)
+    known = held_by_last_forces(r)
+    slope = 0.0
+    if r.holding_load != r.holding_load_before and r.holding_load > 0.0:
+        slope = (known - r.held_before) / (r.holding_load - r.holding_load_before)
+        slope = min(max(slope, 0.0), known / r.holding_load)
+    r.friction_torque = max(known + slope * (load - r.holding_load), 0.0)
+    if load != r.holding_load:
+        r.holding_load_before = r.holding_load
+        r.held_before = known
+        r.holding_load = load
     if r.friction_torque > last:
-        carrier = 3 * discs
+        carrier = 3 * r.throw_added.shape[0]
         for i in range(ELEMENTS):
             r.slider[i] = r.z[carrier] - (r.z[carrier] - r.slider[i]) * last / r.friction_torque
 
