@@ -5,6 +5,8 @@ from collections import Counter
 
 # Every worker has a core of its own: more threads would wait for each other.  Before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Workers and hundreds of short processes import the same files: without kept bytecode each of them compiles these anew, a quarter of its time.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 import pytest
 from hypothesis import settings
