@@ -11,7 +11,7 @@ A number may have a ``range = [low, high]`` in its unit, in which it is held to 
 
 import re
 from dataclasses import asdict, dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -107,22 +107,28 @@ class Reducer:
     @cached_property
     def plant(self) -> Table:
         """The plant's table with this reducer's numbers."""
-        return plant_table(self.topology).with_starts(self.starts, self.sources)
+        return tables_of(self.topology)[0].with_starts(self.starts, self.sources)
 
     @cached_property
     def wear(self) -> Table:
         """The wear unit's table with this reducer's numbers."""
-        return wear_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+        return tables_of(self.topology, self.resolution)[1].with_starts(self.starts, self.sources)
 
     @cached_property
     def joint(self) -> Table:
         """The table of both in one unit with this reducer's numbers."""
-        return reducer_table(self.topology, self.resolution).with_starts(self.starts, self.sources)
+        return tables_of(self.topology, self.resolution)[2].with_starts(self.starts, self.sources)
 
 
 def every_table() -> tuple[Table, Table, Table]:
     """The tables of plant, wear unit and both in one, of a reducer that lacks no part: for names."""
-    return plant_table(EVERY_PART), wear_table(EVERY_PART), reducer_table(EVERY_PART)
+    return tables_of(EVERY_PART)
+
+
+@lru_cache(16)
+def tables_of(topology: Topology, resolution: Resolution = Resolution()) -> tuple[Table, Table, Table]:
+    """The tables of plant, wear unit and both in one before a file's numbers go in; to make them takes most of what a file takes."""
+    return plant_table(topology), wear_table(topology, resolution), reducer_table(topology, resolution)
 
 
 def must_be_stated(v: Variable) -> bool:
@@ -132,7 +138,7 @@ def must_be_stated(v: Variable) -> bool:
 
 def kernels_name(written: str, place: str) -> str:
     """What kernels call the variable of plant or wear unit of a name; one of no variable, whatever the reducer, stays as it is."""
-    found = found_by_name((plant_table(EVERY_PART), wear_table(EVERY_PART)), written, place)
+    found = found_by_name(every_table()[:2], written, place)
     return found[0][1].name if found else written
 
 
@@ -187,7 +193,7 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
     starts: dict[str, float] = {}
     sources: dict[str, str] = {}
     ranges: dict[str, tuple[float, float]] = {}
-    tables = (plant_table(topology), wear_table(topology), reducer_table(topology))
+    tables = tables_of(topology)
     for section, entries in content.items():
         if not isinstance(entries, dict):
             raise InputFault(f"{path}: {section} stands outside of a section; put it below a [section]")

@@ -65,32 +65,39 @@ def changes_when_off(file: Path) -> list[Finding]:
 def main(name: str) -> None:
     """In the process itself: prints the findings as JSON."""
     file = Path(name)
-    print(json.dumps(changes_of(file.parent.name, file.stem)))
+    print(json.dumps(changes_of(file.parent.name, file.stem)[file.stem]))
 
 
-def changes_of(unit: str, name: str) -> list[tuple[int, str]]:
-    """(line, what is wrong) for each hook of an effect that does something while it is off; where kernels are plain Python."""
+def changes_of(unit: str, *names: str) -> dict[str, list[tuple[int, str]]]:
+    """By effect (line, what is wrong) for each of its hooks that does something while it is off; where kernels are plain Python.
+
+    Several run at once, on a reducer on which all of them can act, and each of their hooks is looked at by itself.
+    """
     effects, wears = UNITS[unit]
-    composed, effect = sys.modules[f"{unit}.effects.composed"], effects.EFFECTS[name]
-    found: dict[str, tuple[int, str]] = {}
-    hooks = watch(composed, effects, name, found)
+    composed, chosen = sys.modules[f"{unit}.effects.composed"], [effects.EFFECTS[name] for name in names]
+    found: dict[str, dict[str, tuple[int, str]]] = {name: {} for name in names}
+    hooks: dict[str, Any] = {}
+    for name in names:
+        hooks |= watch(composed, effects, name, found[name])
     try:
         for fidelity in (0,) if wears else (0, 1):
             with np.errstate(all="ignore"):
-                run(effect, wears, fidelity)
+                run(chosen, wears, fidelity)
     except ArithmeticError as error:
-        found[""] = line_in(error, name), f"with its amplitudes off, the effect ends in {type(error).__name__}: {error}"
+        lines = {name: line_in(error, name) for name in names}
+        name = next((name for name, line in lines.items() if line), names[0])
+        found[name][""] = lines[name], f"with its amplitudes off, the effect ends in {type(error).__name__}: {error}"
     finally:
         vars(composed).update(hooks)
-    return list(found.values())
+    return {name: list(told.values()) for name, told in found.items()}
 
 
-def run(effect: Effect, wears: bool, fidelity: int) -> None:
+def run(effects: list[Effect], wears: bool, fidelity: int) -> None:
     """Start the units and step them once."""
-    reducer = load_reducer(WITH_PINS if effect.needs == "output pins" else REDUCER)
+    reducer = load_reducer(WITH_PINS if any(effect.needs == "output pins" for effect in effects) else REDUCER)
     machine, surface = (table.new_records().view(np.recarray) for table in (reducer.plant, reducer.wear))
     machine["fidelity"] = fidelity
-    for off in (p.variable for p in effect.amplitudes()):
+    for off in (p.variable for effect in effects for p in effect.amplitudes()):
         (surface if wears else machine)[off.name] = off.start
     plant.initialise(machine)
     if wears:

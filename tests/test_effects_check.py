@@ -259,7 +259,15 @@ def test_an_effect_that_acts_while_it_is_off_is_told(tmp_path, unit, text, said)
 
 
 def test_nothing_of_the_catalogue_acts_while_it_is_off(tmp_path):
-    program = "from studies.effect_off import UNITS, changes_of; [print(n, c) for u in UNITS for n in UNITS[u][0].EFFECTS if (c := changes_of(u, n))]"
+    # All at once: each hook is looked at by itself.  Those of output pins need another reducer.
+    program = (
+        "from studies.effect_off import UNITS, changes_of\n"
+        "for unit, (effects, _) in UNITS.items():\n"
+        "    for needs in (True, False):\n"
+        "        names = [name for name, effect in effects.EFFECTS.items() if (effect.needs == 'output pins') is needs]\n"
+        "        told = changes_of(unit, *names) if names else {}\n"
+        "        [print(name, found) for name, found in told.items() if found]\n"
+    )
     (tmp_path / "rv_plant").mkdir()
     done = in_its_own_process(tmp_path, program)
     assert done.returncode == 0 and done.stdout == "", done.stdout + done.stderr
@@ -303,11 +311,11 @@ def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
     written(tmp_path, text, name="my_ring")
     program = (
         "from pathlib import Path; import fmpy, sys; from fmu_src.link import NativeFault, compiler, host_platform\n"
-        "from fmu_src.package import build_fmu, build_native, validate; from orchestrator.component import InProcess\n"
-        "from reducers.reducer import load_reducer\n"
+        "from fmu_src.native import host_triple, object_codes; from fmu_src.package import build_fmu, build_native, triples_for, validate\n"
+        "from orchestrator.component import InProcess; from reducers.reducer import load_reducer\n"
         "wanted = load_reducer('RV20E-121-rigid').specification('rv_plant'); folder = Path(sys.argv[1])\n"
-        "paths = [build_fmu('RvPlant', wanted, 1e-3, 'test', folder)]\n"
-        "try:\n    compiler(host_platform(), False); paths += build_native('RvPlant', wanted, 1e-3, 'test', folder)\n"
+        "codes = object_codes(wanted, triples_for(False)); paths = [build_fmu('RvPlant', wanted, 1e-3, 'test', folder, codes[host_triple()])]\n"
+        "try:\n    compiler(host_platform(), False); paths += build_native('RvPlant', wanted, 1e-3, 'test', folder, codes=codes)\n"
         "except NativeFault:\n    pass\n"
         "plant = InProcess('plant', wanted); plant.set('my_size', 1e-6); plant.exit_initialisation(); plant.step(0.0, 1e-3)\n"
         "print(repr(plant.get('lag')))\n"
