@@ -1,10 +1,14 @@
 """What ``rvwear effects`` shows on the screen."""
 
+from typing import TYPE_CHECKING
+
 from rich.table import Table
 
 from cli.screen import WIDTH, console, dense, styled
 from discrepancy.catalogue.catalogue import Entry
-from discrepancy.catalogue.signature import Signature, number
+
+if TYPE_CHECKING:
+    from discrepancy.catalogue.signature import Signature
 
 
 def show_list(entries: list[Entry], word: str | None = None) -> None:
@@ -19,8 +23,10 @@ def show_list(entries: list[Entry], word: str | None = None) -> None:
     out.print("rvwear effects NAME explains one and computes its signature; --html FILE shows all in pictures")
 
 
-def show_one(entry: Entry, found: list[Signature]) -> None:
+def show_one(entry: Entry, found: "list[Signature]") -> None:
     """The explanation, its parameters, and what the bench shows."""
+    from discrepancy.catalogue.signature import number
+
     out, e = console(WIDTH), entry.effect
     out.print(styled((e.title, "bold"), f"  {entry.name}, number {entry.number} of the physics audit, acts in the {entry.part}"))
     for head, text in (("law", e.law), ("source", e.source), ("signature", e.signature), ("shows in", ", ".join(e.signals) or "every quantity")):

@@ -20,7 +20,6 @@ from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline
 
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -109,6 +108,9 @@ def even_turns(values: Floats, turns: float, transfer: Transfer) -> Floats:
 
 def change_by_spline(values: Floats, angle: Floats, turns: float, transfer: Transfer) -> Floats:
     """What ``transfer`` adds to a dense series that is taken to repeat itself after ``turns``."""
+    # Here, so that who only lists the effects does not load it: half of what ``rvwear effects`` takes.
+    from scipy.interpolate import CubicSpline
+
     end = angle[0] + 2.0 * math.pi * turns
     inside = (angle < end) & np.concatenate([[True], np.diff(angle) > 0.0])
     spline = CubicSpline(np.append(angle[inside], end), np.append(values[inside], values[0]), bc_type="periodic")

@@ -31,21 +31,25 @@ def correlation_of(deviations: Sequence[Deviation], values: Sequence[Floats]) ->
     total = sum(values[i].size for i in chosen)
 
     trends = []
-    for i in chosen:
+    # Runs over the same positions are whitened together.
+    together: dict[bytes, list[int]] = {}
+    for k, i in enumerate(chosen):
         x = deviations[i].position - deviations[i].position.mean()
         trends.append(np.column_stack([values[i], np.ones_like(x), x / (np.ptp(x) or 1.0)]))
+        together.setdefault(deviations[i].position.tobytes(), []).append(k)
+    groups = [(deviations[chosen[runs[0]]].position, runs, np.hstack([trends[k] for k in runs])) for runs in together.values()]
 
     def deviance(length: float, nugget: float) -> float:
         """Restricted likelihood: level and trend of each run are left out, or slow noise would be taken for them."""
         square = logs = 0.0
-        for i, columns in zip(chosen, trends):
-            rho = correlations(deviations[i].position, length)
+        for position, runs, columns in groups:
+            rho = correlations(position, length)
             gain, deviation = gains(rho, nugget)
-            inside = innovations(columns, rho, gain, deviation)
-            gram = inside.T @ inside
-            basis, along = gram[1:, 1:], gram[1:, 0]
-            square += gram[0, 0] - along @ np.linalg.solve(basis, along)
-            logs += 2 * np.sum(np.log(deviation)) + np.log(np.linalg.det(basis))
+            inside = innovations(columns, rho, gain, deviation).reshape(len(position), len(runs), 3)
+            gram = np.einsum("ira,irb->rab", inside, inside)
+            basis, along = gram[:, 1:, 1:], gram[:, 1:, :1]
+            square += float(np.sum(gram[:, 0, 0] - (along * np.linalg.solve(basis, along)).sum(axis=(1, 2))))
+            logs += float(len(runs) * 2.0 * np.sum(np.log(deviation)) + np.sum(np.log(np.linalg.det(basis))))
         free = total - 2 * len(trends)
         return float(free * np.log(square / free) + logs)
 
