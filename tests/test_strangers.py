@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import zipfile
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,7 @@ SCRIPTS = Path(__file__).parent / "strangers"
 SAME = {"rel": 1e-8, "abs": 1e-15}
 
 
-@pytest.fixture(params=["python", "fmi2", "fmi3"])
+@pytest.fixture(scope="module", params=["python", "fmi2", "fmi3"])
 def folder(request, rv20e, fmus):
     """Both units of one flavour and the package of them."""
     folder = fmus if request.param == "python" else request.getfixturevalue("native_fmus") / request.param
@@ -41,6 +42,7 @@ def folder(request, rv20e, fmus):
     return folder
 
 
+@cache
 def ours(folder):
     system = load(folder / "RvReducer.ssp", step=STEP)
     system.run(STEP * STEPS)
