@@ -77,8 +77,7 @@ def built_units(reducer: Reducer, folder: Path, wanted: Wanted) -> tuple[list[di
                     build_fmu(name, specification, step, tool, folder, codes[host_triple()])
                 if versions := tuple(v for v, path in zip(native, ours) if path in stale):
                     build_native(name, specification, step, tool, folder, versions, wanted.all_platforms, codes, wanted.wasm)
-                for path in stale:
-                    add_references(path, reducer, unit, step)
+                add_references(stale, reducer, unit, step)
         for path in paths:
             validate(path)
             entry = {"fmu": str(path), "bytes": path.stat().st_size, "built": path in stale, "problems": 0}
@@ -99,8 +98,7 @@ def build_sources(reducer: Reducer, folder: Path, wanted: Wanted) -> list[dict[s
         if stale:
             with task(f"writing the sources of {name}"):
                 build_source(name, specification, step, tool_name(), folder, stale)
-                for version in stale:
-                    add_references(paths[version], reducer, unit, step)
+                add_references([paths[version] for version in stale], reducer, unit, step)
         for version, path in paths.items():
             validate(path)
             built.append({"fmu": str(path), "bytes": path.stat().st_size, "built": version in stale, "problems": 0, "flavour": "source"})

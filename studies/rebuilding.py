@@ -17,5 +17,5 @@ def complete(fmu: Path, stamp: dict[str, Any]) -> bool:
         return False
     if reducer.specification(specification["unit"]) != specification:
         return False
-    add_references(fmu, reducer, specification["unit"], stamp["step_size"])
+    add_references([fmu], reducer, specification["unit"], stamp["step_size"])
     return True

@@ -5,8 +5,8 @@ and a reversal while wear counts a million times.
 """
 
 import zipfile
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from xml.etree import ElementTree
@@ -48,41 +48,62 @@ SPEED, TORQUE, SURROUNDINGS = "input.speed", "output.load_torque", "heat.ambient
 EFFECTS = {"rv_plant": (PLANT_EFFECTS,), "wear_fmu": (WEAR_EFFECTS,), "rv_reducer": (PLANT_EFFECTS, WEAR_EFFECTS)}
 
 
-def add_references(path: Path, reducer: Reducer, unit: str, step: float) -> None:
-    """Put them into a finished FMU of a reducer's unit; ``step`` [s] is a position of the crank turn."""
-    with zipfile.ZipFile(path) as archive:
-        files = {name: archive.read(name) for name in archive.namelist()}
+@dataclass(frozen=True)
+class Run:
+    """An experiment with the inputs, settings and results that all flavours of a unit have in common."""
+
+    kind: str
+    description: str
+    stop: float
+    settings: list[Parameter]
+    stimuli: Series
+    results: Series
+
+
+def add_references(paths: Iterable[Path], reducer: Reducer, unit: str, step: float) -> None:
+    """Put them into finished FMUs of a reducer's unit; ``step`` [s] is a position of the crank turn."""
+    runs = runs_of(reducer, unit, step)
+    is_new = unit in CARRIES_SURFACES and not reducer.worn
+    states = {hours: worn_state(reducer, unit, hours) for hours in (WORN_HOURS if is_new else ())}
     page = "documentation/index.html"
     link = b"<p><a href=fmi-ls-ref.html>Experiments, values and states</a> that this FMU carries; <a href=effects.html>effects</a> that it knows.</p>\n<h2>"
-    files[page] = files[page].replace(b"<h2>", link, 1)
-    write_archive(files | material(path, reducer, unit, step), path)
+    for path in paths:
+        with zipfile.ZipFile(path) as archive:
+            files = {name: archive.read(name) for name in archive.namelist()}
+        files[page] = files[page].replace(b"<h2>", link, 1)
+        write_archive(files | material(path, reducer, unit, step, runs, states), path)
 
 
-def material(path: Path, reducer: Reducer, unit: str, step: float) -> dict[str, bytes]:
-    """The files by their place in the archive."""
+def runs_of(reducer: Reducer, unit: str, step: float) -> list[Run]:
+    found = []
+    for kind, description in (("smoke-test", "one crank turn at rated speed and torque"),
+                              ("validation", "three crank turns: a change of torque, a reversal, wear that counts a million times")):
+        stimuli, settings = stimuli_of(kind, reducer, unit, step), settings_of(kind, reducer, unit)
+        experiment = Carried(kind, step * (len(stimuli["time"]) - 1), step, TOLERANCE, settings, stimuli, {})
+        found.append(Run(kind, description, experiment.stop, settings, stimuli, results_of(reducer, unit, experiment)))
+    return found
+
+
+def material(path: Path, reducer: Reducer, unit: str, step: float, runs: Iterable[Run], states: Mapping[float, bytes]) -> dict[str, bytes]:
+    """The files by their place in the archive; ``states`` are those of worn units, by hours."""
     fmu = Unit(unit, path)
     files: dict[str, bytes] = {}
     listed = []
-    for kind, description in (("smoke-test", "one crank turn at rated speed and torque"),
-                              ("validation", "three crank turns: a change of torque, a reversal, wear that counts a million times")):
-        stimuli = stimuli_of(kind, reducer, unit, step)
-        settings = settings_of(kind, reducer, unit)
-        experiment = Carried(kind, step * (len(stimuli["time"]) - 1), step, TOLERANCE, settings, stimuli, {})
-        results = results_of(reducer, unit, experiment)
-        described = Experiment(kind, description, experiment.stop, step, TOLERANCE, f"{kind}-results.csv", f"{kind}-inputs.csv",
-                               f"{kind}-values.ssv" if settings else "")
+    for run in runs:
+        kind = run.kind
+        described = Experiment(kind, run.description, run.stop, step, TOLERANCE, f"{kind}-results.csv", f"{kind}-inputs.csv",
+                               f"{kind}-values.ssv" if run.settings else "")
         files |= {f"{kind}.exp": experiments(f"{reducer.name} {fmu.described.description.modelName}", [described]),
-                  f"{kind}-inputs.csv": csv_of(stimuli), f"{kind}-results.csv": csv_of(results)}
-        if settings:
-            files[f"{kind}-values.ssv"] = written(parameter_set(fmu, settings, kind))
-        listed.append(Related(EXPERIMENTS, f"{kind}.exp", f"experiment/{kind}", description))
+                  f"{kind}-inputs.csv": csv_of(run.stimuli), f"{kind}-results.csv": csv_of(run.results)}
+        if run.settings:
+            files[f"{kind}-values.ssv"] = written(parameter_set(fmu, run.settings, kind))
+        listed.append(Related(EXPERIMENTS, f"{kind}.exp", f"experiment/{kind}", run.description))
     files["new.ssv"] = written(renamed(value_set([fmu], values(fmu, {}, set()), ""), f"{reducer.name} new"))
     listed.append(Related(VALUES, "new.ssv", "parameter", f"{reducer.name} as its reducer file has it", ("hours:0",)))
-    if unit in CARRIES_SURFACES and not reducer.worn:
-        for hours in WORN_HOURS:
-            files[f"worn-{hours:g}h.state"] = worn_state(reducer, unit, hours)
-            listed.append(Related("application/octet-stream", f"worn-{hours:g}h.state", "serialized-state",
-                                  f"{reducer.name} after {hours:g} h at rated speed and torque, at rest at time 0", (f"hours:{hours:g}",)))
+    for hours, state in states.items():
+        files[f"worn-{hours:g}h.state"] = state
+        listed.append(Related("application/octet-stream", f"worn-{hours:g}h.state", "serialized-state",
+                              f"{reducer.name} after {hours:g} h at rated speed and torque, at rest at time 0", (f"hours:{hours:g}",)))
     listed.append(Related("text/html", f"{DOCUMENTATION}/effects.html", "rationale", "effects beyond the ideal reducer: laws, ranges, sources"))
     listed.append(Related("text/html", f"{DOCUMENTATION}/index.html", "document", "the unit, its connections, every variable"))
     placed = {f"{FOLDER}/{name}": content for name, content in files.items()} | {MANIFEST: manifest(listed)}

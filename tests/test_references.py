@@ -1,5 +1,6 @@
 """What FMUs carry (FMI-LS-REF): experiments that they meet, values, worn states that they take, in every flavour; what is wrong is told."""
 
+import shutil
 import zipfile
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from lxml import etree
 from cli.main import main
 from fmu_src.description import guid
 from fmu_src.faults import InputFault
-from fmu_src.package import build_fmu, build_native, validate
+from fmu_src.package import build_native, validate
 from fmu_src.references import FOLDER, MANIFEST, Experiment, experiments
 from fmu_src.source_hash import source_hash
 from orchestrator.component import InProcess
@@ -27,18 +28,19 @@ SPACE = {"ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues"}
 
 
 @pytest.fixture(scope="module")
-def carrying(rv20e, codes, tmp_path_factory):
+def carrying(rv20e, fmus, native_fmus, tmp_path_factory):
     """FMUs of both units that carry their references, one worn state each: path by (name, flavour)."""
     folder, hours = tmp_path_factory.mktemp("carrying"), reference_material.WORN_HOURS
     reference_material.WORN_HOURS = (5000.0,)
     made = {}
     for name, unit in UNITS.items():
-        specification = rv20e.specification(unit)
-        paths = [build_fmu(name, specification, STEP, "rvwear test", folder), *build_native(name, specification, STEP, "rvwear test", folder, codes=codes[name])]
-        for flavour, path in zip(("python", "fmi2", "fmi3"), paths):
-            add_references(path, rv20e, unit, STEP)
+        for flavour, source in (("python", fmus), ("fmi2", native_fmus / "fmi2"), ("fmi3", native_fmus / "fmi3")):
+            (folder / flavour).mkdir(exist_ok=True)
+            made[name, flavour] = Path(shutil.copy(source / f"{name}.fmu", folder / flavour))
+        paths = [path for (named, _), path in made.items() if named == name]
+        add_references(paths, rv20e, unit, STEP)
+        for path in paths:
             validate(path)
-            made[name, flavour] = path
     reference_material.WORN_HOURS = hours
     return made
 
@@ -122,7 +124,7 @@ def test_worn_state_goes_into_the_new_unit(carrying, rv20e, flavour):
 def test_a_worn_unit_carries_no_other_states(rv20e, codes, tmp_path):
     worn = worn_reducer(rv20e, 5000.0)
     (path,) = build_native("RvWear", worn.specification("wear_fmu"), STEP, "rvwear test", tmp_path, ("3",), codes=codes["RvWear"])
-    add_references(path, worn, "wear_fmu", STEP)
+    add_references([path], worn, "wear_fmu", STEP)
     with zipfile.ZipFile(path) as archive:
         assert not [name for name in archive.namelist() if name.endswith(".state")]
     assert main(["check", str(path)]) == 0

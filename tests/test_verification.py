@@ -61,7 +61,7 @@ def test_other_flavours_are_built_anew_to_the_byte(flavour, fmus, native_fmus, c
 def test_experiments_that_it_carries_are_made_anew_too(rv20e, native_fmus, tmp_path, capsys):
     path = tmp_path / "RvPlant.fmu"
     shutil.copy(native_fmus / "fmi3" / "RvPlant.fmu", path)
-    add_references(path, rv20e, "rv_plant", 1e-3)
+    add_references([path], rv20e, "rv_plant", 1e-3)
     code, said, _ = verified(capsys, path)
     assert code == 0 and "a rebuild gives the same bytes" in said["held"], said
     with zipfile.ZipFile(path) as archive:
