@@ -127,7 +127,8 @@ def _frequencies(x: Floats, y: Floats, deviation: Floats, levels: int) -> list[l
 
 def _fit(function: Law, start: Sequence[float] | Floats, x: Floats, y: Floats, deviation: Floats) -> OptimizeResult:
     def residual(p: Floats) -> Floats:
-        return np.nan_to_num((y - function(x, *p)) / deviation, nan=1e6, posinf=1e6, neginf=-1e6)
+        found: Floats = (y - function(x, *p)) / deviation
+        return found if np.isfinite(found).all() else np.nan_to_num(found, nan=1e6, posinf=1e6, neginf=-1e6)
     # constants that enter linearly start at their best values
     start = np.array(start, dtype=float)
     if start.size >= 2 and start[0] == 0.0:

@@ -64,11 +64,12 @@ def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
     if most <= least + step:
         return None
     orders, found = np.arange(least, most, step), []
-    for k, way in enumerate(ways([r.factors for r in records.values()])):
-        weights = {i: WAYS[way](r.factors) for i, r in records.items()}
-        gain, order = max(gains(space, runs, weights, misfit, orders))
+    names = ways([r.factors for r in records.values()])
+    every = [{i: WAYS[way](r.factors) for i, r in records.items()} for way in names]
+    for k, (way, weights, scan) in enumerate(zip(names, every, gains(space, runs, every, misfit, orders))):
+        gain, order = max(scan)
         near = order + step * np.arange(-1.0, 1.0 + FINE, FINE)
-        gain, order = max(gains(space, runs, weights, misfit, near[near > 0.0]))
+        gain, order = max(gains(space, runs, [weights], misfit, near[near > 0.0])[0])
         # What is the same in all runs is the simplest.
         found.append((gain - 2.0 * (k > 0), way, order, weights))
     gain, way, order, weights = max(found, key=lambda f: f[0])
@@ -90,16 +91,24 @@ def columns(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, 
     return (space.whiten({i: weights[i] * np.cos(p) for i, p in phases.items()}), space.whiten({i: weights[i] * np.sin(p) for i, p in phases.items()}))
 
 
-def gains(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, float], misfit: Floats, orders: Floats) -> list[tuple[float, float]]:
-    """(gain in chi-square, order) of each order's cosine and sine."""
-    found: list[tuple[float, float]] = []
+def gains(
+    space: Workspace, runs: Mapping[int, Floats], ways: Sequence[Mapping[int, float]], misfit: Floats, orders: Floats
+) -> list[list[tuple[float, float]]]:
+    """(gain in chi-square, order) of each order's cosine and sine, for each way of weighting the runs: all weigh the same columns."""
+    rows = np.zeros((len(ways), space.size))
+    for row, weights in zip(rows, ways):
+        for i, weight in weights.items():
+            row[space.rows[i]] = weight
+    square, even = rows**2, dict.fromkeys(runs, 1.0)
+    found: list[list[tuple[float, float]]] = [[] for _ in ways]
     for start in range(0, orders.size, TOGETHER):
         some = orders[start : start + TOGETHER]
-        cos, sin = columns(space, runs, weights, some)
-        cc, ss, cs = (cos * cos).sum(axis=0), (sin * sin).sum(axis=0), (cos * sin).sum(axis=0)
-        ce, se = misfit @ cos, misfit @ sin
+        cos, sin = columns(space, runs, even, some)
+        cc, ss, cs = square @ (cos * cos), square @ (sin * sin), square @ (cos * sin)
+        ce, se = (rows * misfit) @ cos, (rows * misfit) @ sin
         determinant = np.maximum(cc * ss - cs * cs, 1e-12 * cc * ss + 1e-300)
-        found += zip(((ss * ce * ce - 2.0 * cs * ce * se + cc * se * se) / determinant).tolist(), some.tolist())
+        for told, gain in zip(found, (ss * ce * ce - 2.0 * cs * ce * se + cc * se * se) / determinant):
+            told += zip(gain.tolist(), some.tolist())
     return found
 
 
