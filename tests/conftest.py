@@ -1,5 +1,6 @@
 """Fixtures: the two reducers that come with the software and their FMUs; the order of the files."""
 
+import gc
 import os
 from collections import Counter
 
@@ -36,6 +37,8 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
+    # Until all tests are collected: what is loaded by then stays.
+    gc.disable()
     config.cpu_before = sum(os.times()[:4])
 
 
@@ -60,6 +63,12 @@ def pytest_terminal_summary(terminalreporter, config):
     for file, seconds in files.most_common():
         if seconds >= 1.0:
             terminalreporter.write_line(f"{seconds:7.1f} s  {file}")
+
+
+def pytest_collection_finish():
+    """What is loaded is not looked through for litter again and again."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items):
