@@ -104,10 +104,10 @@ static void check(struct instance *i, const char *call, int status, unsigned bef
         stop("a status that is none", call);
     if (status >= 2) {
         failures++;
-        if (i->logging && !i->muted && messages == before_messages)
+        if (i->logging == ALL && !i->muted && messages == before_messages)
             stop("no message", call);
         /* A step whose outputs would be infinite ends a unit whose surfaces have worn by then, and says so. */
-        int is_silent = !i->logging || i->muted;
+        int is_silent = i->logging == NOTHING || i->muted;
         if (fingerprint(i) != before && !(i->phase == TERMINATED && (is_silent || strstr(last_message, "the unit is terminated"))))
             stop("a changed state", call);
     }

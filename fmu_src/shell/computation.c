@@ -131,7 +131,7 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     /* What lies beyond the guarded cells, worn surfaces, is not put back. */
     int is_lost = spoilt && unit.guarded_cells < unit.state_cells;
     /* Why a unit ends is told without debug logging, too. */
-    enum status telling = is_again ? ERROR : DISCARD;
+    enum status telling = is_again || is_lost ? ERROR : DISCARD;
     if (code)
         report_fault(i, telling, code, time);
     else

@@ -43,6 +43,7 @@ EFFECT = Effect(
         Variable("holding_load", "state", "N.m", "load of the last equilibrium"),
         Variable("holding_load_before", "state", "N.m", "load of the one before that with another"),
         Variable("held_before", "state", "N.m", "what friction could hold then"),
+        Variable("held_last", "state", "N.m", "what friction could hold at the last equilibrium before this"),
     ),
     signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature"),
 )
@@ -72,20 +73,16 @@ def before(r):
     """What friction can hold at the output under the present load: from the last two equilibria, so that coarse steps of torque do as well as fine
     ones; at most in proportion to the load."""
     last = r.friction_torque
-    r.friction_torque = 0.0
+    r.friction_torque = r.held_last = 0.0
     if r.fidelity != 0 or r.input_speed != 0.0 or sliding_friction(r) + sticking_friction(r) == 0.0:
         return
-    load = abs(r.load_torque)
     known = held_by_last_forces(r)
     slope = 0.0
     if r.holding_load != r.holding_load_before and r.holding_load > 0.0:
         slope = (known - r.held_before) / (r.holding_load - r.holding_load_before)
         slope = min(max(slope, 0.0), known / r.holding_load)
-    r.friction_torque = max(known + slope * (load - r.holding_load), 0.0)
-    if load != r.holding_load:
-        r.holding_load_before = r.holding_load
-        r.held_before = known
-        r.holding_load = load
+    r.friction_torque = max(known + slope * (abs(r.load_torque) - r.holding_load), 0.0)
+    r.held_last = known
     if r.friction_torque > last:
         carrier = 3 * r.throw_added.shape[0]
         for i in range(ELEMENTS):
@@ -119,6 +116,12 @@ def hold(r):
 def after(r):
     """Sliders follow; loss of power when turning."""
     carrier = 3 * r.throw_added.shape[0]
+    load = abs(r.load_torque)
+    if load != r.holding_load:
+        # From a turning input on in proportion to the load: what is held at no load is nothing.
+        r.holding_load_before = r.holding_load if r.held_last > 0.0 else 0.0
+        r.held_before = r.held_last
+        r.holding_load = load
     if r.input_speed == 0.0 and r.friction_torque > 0.0:
         for i in range(ELEMENTS):
             stiffness, most = element(i, r)
