@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from discrepancy.prediction.bench import HELD_ANGLES, SHORT_CYCLE, Bench
+from discrepancy.prediction.bench import HELD_ANGLES, QUARTER, SHORT_CYCLE, Bench
 from discrepancy.prediction.conditions import at_rest
+from discrepancy.prediction.observe import lost_motion_at, middle_lines
 from discrepancy.prediction.units import Condition
 from reducers.reducer import load_reducer
 
@@ -22,3 +23,16 @@ def test_mean_over_positions_errs_by_no_more_than_its_halves_differ(reducer):
     off = np.abs((found - found.mean()) - (true - true.mean())).max()
     assert off < 0.05 * ARCSEC
     assert off <= np.abs(bench.held_halves(condition, torques)).max()
+
+
+def test_lost_motion_under_friction_needs_few_torques():
+    """Few show what hundred do; of a change, for a search, still fewer do."""
+    bench = Bench(load_reducer("RV20E-121"), {})
+    condition, values = Condition(speed=bench.rated_speed, load=bench.rated_load), {"equidistant_added": -3e-6, "shift_added": -3e-6}
+    many = np.union1d(np.linspace(0.0, 1.0, 61), QUARTER)
+    true, true_base = (middle_lines(bench, condition, v, many) for v in (values, {}))
+    assert lost_motion_at(bench, condition, {}) == pytest.approx(true_base, rel=0.005)
+    assert lost_motion_at(bench, condition, values) - lost_motion_at(bench, condition, {}) == pytest.approx(true - true_base, rel=0.02)
+    rough = bench.roughly()
+    assert lost_motion_at(rough, condition, {}) == lost_motion_at(bench, condition, {})
+    assert lost_motion_at(rough, condition, values) - lost_motion_at(rough, condition, {}) == pytest.approx(true - true_base, rel=0.1)

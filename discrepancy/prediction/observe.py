@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
 from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
@@ -19,8 +19,6 @@ from studies.life import peak_of_circle
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.
 SPECTRUM_SAMPLES = 2048
-# The standard test's torques of a quarter, of the rated one: its lost motion is within 0.3 % of that of a hundred even steps.
-TORQUES = np.array([0.0, 0.01, 0.02, LOST_MOTION_SHARE, 0.06, 0.25, 0.5, 0.75, 1.0])
 # Torques of either sign at which a locked drive's springs are computed, and crank positions of that table: its play is far wider than
 # what positions differ by.
 ELASTIC_STEPS, LOCKED_ANGLES = 20, 8
@@ -81,9 +79,9 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     return found
 
 
-def loop(bench: Bench, condition: Condition, values: Values) -> tuple[Floats, Floats]:
-    """The standard test's torques and turning, the first quarter run twice so that the loop is closed."""
-    up, down = TORQUES, TORQUES[-2::-1]
+def loop(bench: Bench, condition: Condition, values: Values, quarter: Floats) -> tuple[Floats, Floats]:
+    """The standard test's torques and turning, the first ``quarter`` [rated torque] run twice so that the loop is closed."""
+    up, down = quarter, quarter[-2::-1]
     way = bench.rated_load * np.concatenate([up, down, -up[1:], -down, up[1:]])
     return way, bench.held(at_rest(bench, condition), values, way)
 
@@ -100,7 +98,16 @@ def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
         # Wherever the torque came from.
         forward, backward = bench.held(at_rest(bench, condition), values, LOST_MOTION_SHARE * bench.rated_load * np.array([1.0, -1.0]))
         return float(forward - backward)
-    torque, turning = loop(bench, condition, values)
+    if bench.quarter is QUARTER or not bench.relevant(values, condition.hours > 0.0):
+        return middle_lines(bench, condition, values, QUARTER)
+    # What the values change, roughly seen from fewer torques.
+    with_values, without = (middle_lines(bench, condition, v, bench.quarter) for v in (values, {}))
+    return middle_lines(bench, condition, {}, QUARTER) + with_values - without
+
+
+def middle_lines(bench: Bench, condition: Condition, values: Values, quarter: Floats) -> float:
+    """Lost motion [rad] by the middle lines of the closed loop."""
+    torque, turning = loop(bench, condition, values, quarter)
     rising = np.concatenate([[False], np.diff(torque) > 0.0])
     middle = []
     for torque_at in (LOST_MOTION_SHARE * bench.rated_load, -LOST_MOTION_SHARE * bench.rated_load):
