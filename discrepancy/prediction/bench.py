@@ -32,6 +32,8 @@ HELD_ANGLES, FEW_HELD_ANGLES = 16, 5
 # Torques of the standard test's quarter, of the rated one: lost motion is within 0.3 % of that of a hundred even steps; what values
 # change in it, roughly, is seen within a tenth from fewer.
 QUARTER, FEW_OF_QUARTER = np.array([0.0, 0.01, 0.02, LOST_MOTION_SHARE, 0.06, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, 0.015, LOST_MOTION_SHARE, 0.06, 1.0])
+# Longest step of torque, of the rated one, where the way to a place matters: a loop is within 0.03 arcsec, and roughly so, within a tenth of what is changed.
+TORQUE_STEP, ROUGH_TORQUE_STEP = 1.0 / 80.0, 1.0 / 16.0
 # From fewer than these, one is no small share of them.
 LEAST_POSITIONS = 4
 # Turning of the cranks [rad] between two equilibria that is not divided.
@@ -45,7 +47,7 @@ class Bench(Lives):
 
     def __init__(self, reducer: Reducer, settings: Mapping[str, float], resolution: Resolution = RESOLUTION):
         super().__init__(reducer, settings, resolution)
-        self.held_angles, self.mean_positions, self.quarter = HELD_ANGLES, MEAN_POSITIONS, QUARTER
+        self.held_angles, self.mean_positions, self.quarter, self.torque_step = HELD_ANGLES, MEAN_POSITIONS, QUARTER, TORQUE_STEP
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
         self.twins = Twins()
@@ -55,7 +57,7 @@ class Bench(Lives):
         other = copy.copy(self)
         other.fineness = self.fineness.roughly() if self.fineness else None
         other.held_angles, other.mean_positions, other.cycle_turns = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS, ROUGH_CYCLE
-        other.quarter = FEW_OF_QUARTER
+        other.quarter, other.torque_step = FEW_OF_QUARTER, ROUGH_TORQUE_STEP
         return other
 
     def allowed(self, record: Record) -> float:

@@ -4,13 +4,15 @@ A prediction is the base model's, at fine nodes and once, and what the values ch
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Protocol, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
-from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
@@ -52,6 +54,10 @@ class Curve(Protocol[Nodes]):
         """Nodes for the record's samples; None where every sample is computed."""
         ...
 
+    def exact(self) -> "Curve[Nodes]":
+        """The same of a bench that is not rough, where that matters between nodes, too."""
+        ...
+
     def places(self, values: Values) -> Floats:
         """Where the samples lie on the axis."""
         ...
@@ -81,6 +87,9 @@ class OverAngle:
     @cached_property
     def condition(self) -> Condition:
         return condition_of(self.bench, self.record)
+
+    def exact(self) -> "OverAngle":
+        return self
 
     def nodes(self, level: int) -> AngleNodes | None:
         angles, direction = angles_of(self.bench, self.record, 0.0), self.condition.direction
@@ -148,6 +157,11 @@ class OverTorque:
 
     bench: Bench
     record: Record
+    # Where the way matters it is gone along exactly, whatever the bench.
+    is_exact: bool = False
+
+    def exact(self) -> "OverTorque":
+        return replace(self, is_exact=True)
 
     @property
     def condition(self) -> Condition:
@@ -172,7 +186,11 @@ class OverTorque:
 
     def along(self, values: Values, torques: Floats) -> Floats:
         path, lead = entered(self.bench, torques)
-        return self.bench.held(self.condition, values, path)[lead:]
+        if not self.bench.remembers(values):
+            return self.bench.held(self.condition, values, path)[lead:]
+        step, least = (share * self.bench.rated_load for share in (TORQUE_STEP if self.is_exact else self.bench.torque_step, NEAR_NOTHING))
+        path, places = self.bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
+        return self.bench.held(self.condition, values, path)[places[lead:]]
 
 
 def moved(angles: Floats, series: Floats, by: float) -> Floats:
@@ -187,15 +205,30 @@ def entered(bench: Bench, torques: Floats) -> tuple[Floats, int]:
     return np.concatenate([lead, torques]), len(lead)
 
 
+def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:
+    """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
+    the drive goes from sample to sample too.  Below ``least`` nothing is put in: the output floats there."""
+    if np.abs(np.diff(path)).max(initial=0.0) <= longest:
+        return path, np.arange(len(path))
+    parts, places, count = [path[:1]], [0], 1
+    for a, b in pairwise(path):
+        between = np.linspace(a, b, int(np.ceil(abs(b - a) / longest)) + 1)[1:-1]
+        between = between[np.abs(between) >= least]
+        parts += [between, np.array([b])]
+        count += len(between) + 1
+        places.append(count - 1)
+    return np.concatenate(parts), np.array(places)
+
+
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
     fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
-    changed = bool(curve.bench.relevant(values, True))
+    changed, exact = bool(curve.bench.relevant(values, True)), curve.exact()
     if coarse is None or (fine is None and not changed):
-        return curve.directly(values)
+        return exact.directly(values)
     places = curve.places(values)
     # The base model's is had but once at every sample.
-    found = curve.directly(curve.unchanged(values)) if fine is None else fine.samples(curve.run({}, fine), places)
+    found = exact.directly(curve.unchanged(values)) if fine is None else fine.samples(exact.run({}, fine), places)
     if changed:
         found = found + coarse.samples(curve.run(values, coarse) - curve.run({}, coarse), places)
     return found
