@@ -14,7 +14,8 @@ import llvmlite.binding as llvm
 
 from fmu_src.arrays import field_of
 from fmu_src.compiler import store
-from fmu_src.compiler.module import Module, emit_object, external_symbols, host_triple, optimised, target_machine
+from fmu_src.compiler.apart import object_code
+from fmu_src.compiler.module import Module, external_symbols, host_triple, optimised, target_machine
 from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import FLOAT, INTEGER, TRUTH, Group, KernelFault, Layout, Number, Record, Records, Type
 from fmu_src.progress import task
@@ -111,7 +112,7 @@ def compiled(what: str, key: tuple[str, ...], module: Module, fill: Callable[[Mo
             "constants": [[owner, name, repr(value)] for (owner, name), value in sorted(module.constants.items())],
         }  # fmt: skip
         for triple in missing:
-            found[triple] = (header, emit_object(optimised_module, triple))
+            found[triple] = (header, object_code(optimised_module, triple))
             store.write(names[triple], *found[triple])
     header = found[triples[0]][0]
     return Code({triple: code for triple, (_, code) in found.items()}, header["results"], header["needs"])
