@@ -104,6 +104,11 @@ def check_any_file(file: Path) -> list[Finding]:
     return [Finding(file, 1, text), *check_file(file, likely_unit(file))]
 
 
+def all_sound(folder: Path) -> bool:
+    """Whether nothing is wrong with any effect's file in a folder of effects."""
+    return not any(check_any_file(file) for unit in UNITS for file in (folder / unit).glob("[!.]*.py") if file.stem != "__init__")
+
+
 def likely_unit(file: Path) -> str:
     """The unit most of whose hooks a file has."""
     text = file.read_text(encoding="utf-8", errors="replace")
@@ -240,9 +245,18 @@ def of_variables(tree: ast.Module, file: Path, effect: Any, frame: Frame) -> lis
         if v.name in taken:
             findings.append(Finding(file, line_of(tree, v.name), f"{taken[v.name]} {v.name} already; choose another name"))
         taken[v.name] = f"the effect itself has {ROLE[v.role]}"
-        if said := wrong_unit(v, frame):
+        if said := wrong_unit(v, frame) or wrong_bounds(v):
             findings.append(Finding(file, line_of(tree, v.name), said))
     return findings
+
+
+def wrong_bounds(v: Variable) -> str:
+    """What is wrong with a variable's bounds, between which its start must lie."""
+    if v.minimum >= v.maximum:
+        return f"{v.name}: the lowest value, {v.minimum:g} {v.unit}, is not below the highest, {v.maximum:g} {v.unit}; change them round"
+    if not v.minimum <= v.start <= v.maximum:
+        return f"{v.name}: its start, {v.start:g} {v.unit}, lies outside of its bounds, {v.minimum:g} to {v.maximum:g} {v.unit}"
+    return ""
 
 
 def wrong_unit(v: Variable, frame: Frame) -> str:

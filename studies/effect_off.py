@@ -19,7 +19,7 @@ import numpy as np
 
 from fmu_src.child_process import command_of
 from fmu_src.effect import Effect
-from fmu_src.effect_check import Finding, check_any_file
+from fmu_src.effect_check import Finding, all_sound
 from fmu_src.source_hash import ROOT, USER_EFFECTS
 from reducers.reducer import load_reducer
 from rv_plant import effects as of_plant
@@ -45,7 +45,7 @@ def changes_when_off(file: Path) -> list[Finding]:
     With faulty files beside it no unit starts, so that nothing can be said.
     """
     folder = file.parent.parent
-    if any(check_any_file(beside) for unit in UNITS for beside in (folder / unit).glob("[!.]*.py") if beside.stem != "__init__"):
+    if not all_sound(folder):
         return []
     environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", USER_EFFECTS: str(folder)}
     try:

@@ -11,6 +11,7 @@ from cli.main import main
 from discrepancy.catalogue.documentation import PAGE, own_part
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
+from studies.effect_code import not_translated
 from studies.effect_off import changes_when_off
 
 HEAD = """import math
@@ -250,6 +251,19 @@ OFF = [
     ("wear_fmu", HEAD + "@kernel\ndef factor(r, surface, line_load, radius, speed, depth):\n    return 2.0 if line_load > 8e5 else 1.0 + r.my_size\n\n\n"
      "@kernel\ndef prepare(r):\n    if r.my_size != 0.0:\n        r.effects_on += 1\n", "factor returns 2, not 1.0 (surface 0, 1e+06 N/m"),
 ]  # fmt: skip
+
+
+def test_what_the_compiler_refuses_is_told_before_anything_is_built(tmp_path):
+    file = written(tmp_path, HEAD + "@kernel\ndef before(r):\n    r.crank_turn_added += r.my_size\n")
+    (found,) = not_translated(file)
+    assert (found.file, found.line) == (file, FIRST + 2) and "crank_turn_added is an array" in found.text
+    assert not not_translated(written(tmp_path, HEAD + "@kernel\ndef before(r):\n    r.crank_turn_added[0] += r.my_size\n"))
+
+
+@pytest.mark.parametrize("bounds, said", [("0.1, 1.0, 0.0", "not below the highest"), ("0.1, 0.5, 1.0", "outside of its bounds")])
+def test_bounds_that_cannot_be_are_told(tmp_path, bounds, said):
+    found = check_any_file(written(tmp_path, HEAD.replace("0.1, 0.0, 1.0", bounds)))
+    assert any(said in f.text and f.line == 9 for f in found)
 
 
 @pytest.mark.parametrize(("unit", "text", "said"), OFF)

@@ -54,7 +54,7 @@ def check_files(files: list[Path], as_json: bool) -> int:
     from cli.screen import json_text
     from fmu_src.effect_check import check_any_file
 
-    findings = {str(file): check_any_file(file) or tried_off(file) for file in files}
+    findings = {str(file): check_any_file(file) or tried(file) for file in files}
     if as_json:
         shown = {name: [{"line": f.line, "text": f.text} for f in found] for name, found in findings.items()}
         json_text({"findings": shown})
@@ -64,12 +64,15 @@ def check_files(files: list[Path], as_json: bool) -> int:
     return 2 if any(findings.values()) else 0
 
 
-def tried_off(file: Path) -> "list[Finding]":
-    """What an effect changes while it is off; only of files in which nothing else is wrong."""
+def tried(file: Path) -> "list[Finding]":
+    """What the compiler refuses of an effect, or what it changes while it is off; only of files in which nothing else is wrong."""
+    from studies.effect_code import not_translated
     from studies.effect_off import changes_when_off
 
+    with task(f"translating {file.name}"):
+        refused = not_translated(file.absolute())
     with task(f"trying {file.name} with its amplitudes off"):
-        return changes_when_off(file.absolute())
+        return refused or changes_when_off(file.absolute())
 
 
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":

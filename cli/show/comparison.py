@@ -19,6 +19,8 @@ from discrepancy.wording import base_texts, error_text, left_text, share_text
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
 WHOLE = 100.0
+# Of a dense table, edges included.
+BETWEEN = 2
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
@@ -65,11 +67,16 @@ def show_figures(figures: list[KeyFigure], out: Console) -> None:
         (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
         noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
         cells.append((signal, f.name, f.condition, measured, noise, model, unit, f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"))
-    for name, column in zip(("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"), zip(*cells)):
-        left = name in ("signal", "figure", "condition", "")
-        # A signal's words stay whole, and numbers; of the figure's words there are many short ones.
-        whole = [line for cell in column for line in cell.split()] if name == "signal" else [name, *column] if not left else []
-        table.add_column(name, justify="left" if left else "right", overflow="fold", no_wrap=not left, min_width=max(map(len, whole), default=None))
+    columns = dict(zip(("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"), zip(*cells)))
+    # A signal's words stay whole, and numbers; what is left of the line figure and condition share, whose words may fold.
+    whole = {name: max(len(line) for cell in (name, *column) for line in (cell.split() if name == "signal" else [cell]))
+             for name, column in columns.items() if name not in ("figure", "condition")}  # fmt: skip
+    left = out.width - sum(whole.values()) - BETWEEN * len(columns)
+    condition = min(max(len(cell) for cell in ("condition", *columns["condition"])), left // 2)
+    widths = {**whole, "condition": condition, "figure": left - condition}
+    for name in columns:
+        table.add_column(name, justify="left" if name in ("signal", "figure", "condition", "") else "right", overflow="fold", max_width=widths[name],
+                         min_width=whole.get(name))
     for row in cells:
         table.add_row(*row)
     out.print(table)
