@@ -269,4 +269,12 @@ def test_a_refused_step_that_is_asked_for_again_ends_the_unit(one_unit_fmus):
         logger=lambda *arguments: said.append(arguments[4].decode()),
     )  # fmt: skip
     assert 0.0 < found["time"][-1] < 0.009
-    assert any("worn through" in text for text in said) and "was asked for again: the unit is terminated" in said[-1] and len(said) == 2
+    assert any("worn through" in text for text in said) and "was asked for again: the unit is terminated" in said[-1] and len(said) == 3
+
+
+def test_an_importer_that_stops_at_a_refused_step_has_its_reason(one_unit_fmus, capfd):
+    """fmpy steps an FMI 3.0 unit no further; without debug logging, too, it shows why."""
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        fmpy.simulate_fmu(str(one_unit_fmus / "fmi3" / "RvReducer.fmu"), start_values={"acceleration": 1e12}, stop_time=0.01, step_size=1e-4)
+    shown = capfd.readouterr()
+    assert "worn through" in shown.out + shown.err

@@ -130,8 +130,9 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     }
     /* What lies beyond the guarded cells, worn surfaces, is not put back. */
     int is_lost = spoilt && unit.guarded_cells < unit.state_cells;
-    /* Why a unit ends is told without debug logging, too. */
-    enum status telling = is_again || is_lost ? ERROR : DISCARD;
+    /* Why a first step is refused, or a unit ends, is told without debug logging, too: many an importer stops there. */
+    enum status telling = is_again || is_lost || !i->has_refused ? ERROR : DISCARD;
+    i->has_refused = 1;
     if (code)
         report_fault(i, telling, code, time);
     else

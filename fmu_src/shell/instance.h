@@ -38,6 +38,7 @@ struct instance {
     double time, stop_time;
     enum status last_step;
     double refused_time, refused_duration; /* of the last step that could not be done; 0 long: none */
+    int has_refused; /* a step, since it was made or reset */
     enum pausing pausing; /* FMI 3: where a step may end before its time */
     int may_return_early;
     void (*update)(void); /* FMI 3: called between the parts of a step */

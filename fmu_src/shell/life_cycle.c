@@ -21,6 +21,7 @@ static void set_starts(struct instance *i)
     i->stop_time = INFINITY;
     i->last_step = OK;
     i->refused_time = i->refused_duration = 0.0;
+    i->has_refused = 0;
     i->cautioned = 0;
 }
 
