@@ -112,6 +112,20 @@ def test_one_line_above_a_table_may_state_several_conditions(line, found):
     assert stated_above((line,)) == found
 
 
+@pytest.mark.parametrize("above", ["Date,12.11.2026,", "15.10.2026,room 22 C,", "Load,50,N m", "Rig 3,,"])
+def test_figures_above_a_table_are_not_its_first_rows(tmp_path, above):
+    rows = "\n".join(f"{k + 1},{torque},{0.01 * torque:.2f}" for k, torque in enumerate([0, 50, 100, 150, 100, 50, 0, -50, -100, -150]))
+    (tmp_path / "hand.csv").write_text(f"Hysteresis RV-20E, input shaft clamped,,\n{above}\nNo.,Torque (N m),Twist (arcmin)\n{rows}\n")
+    table = table_of(tmp_path / "hand.csv")
+    assert list(table.columns) == ["No.", "Torque (N m)", "Twist (arcmin)"]
+    assert len(table.columns["No."]) == 10
+
+
+def test_a_pause_in_a_table_is_no_head(tmp_path):
+    (tmp_path / "a.csv").write_text("torque,turning\n" + "\n".join(f"{k},{2 * k}" for k in range(6)) + "\npause,pause\n" + "\n".join(f"{k},{k}" for k in range(40)))
+    assert len(table_of(tmp_path / "a.csv").columns["torque"]) == 47
+
+
 def test_a_long_line_above_a_table_keeps_nobody_waiting():
     started = time.process_time()
     assert stated_above((" " * 20_000 + "x", "a" + " " * 20_000 + "1", "Torque: 15 Nm")) == {"load": (15.0, "N.m")}

@@ -13,6 +13,8 @@ from discrepancy.campaign.readers import ReadFault
 from discrepancy.campaign.readers.csv import COMMENT, first_lines, opened, scan, sniff_delimiter
 
 MOST_LINES = 400
+# Of these lines above a table, which may hold figures too, its head is one.
+MOST_ABOVE = 12
 DELIMITERS = (";", "\t", "|", ",", " ")
 FIGURE = re.compile(r"[+-]?(?:\d[\d.,'’\u00a0\u202f]*|[.,]\d+)(?:[eE][+-]?\d+)?$|[+-]?(?:nan|inf)$", re.IGNORECASE)
 
@@ -96,11 +98,20 @@ def cut(lines: Sequence[str], delimiter: str, comments: set[int]) -> Cut | None:
     for first, (_, fields) in enumerate(rows):
         followers = rows[first : first + 30]
         alike = sum(len(f) == len(fields) and shares[first + k] > 0.0 for k, (_, f) in enumerate(followers))
-        if shares[first] >= 0.3 and alike >= 0.8 * len(followers):
+        if shares[first] >= 0.3 and alike >= 0.8 * len(followers) and not head_below(rows, shares, first):
             headed = first > 0 and fits(rows[first - 1][1], len(fields))
             average = sum(shares[first : first + 30]) / len(followers)
             return Cut(delimiter, rows, first, (headed or first == 0, round(average, 1), len(fields) > 1, len(followers), average))
     return None
+
+
+def head_below(rows: Sequence[tuple[int, list[str]]], shares: Sequence[float], first: int) -> bool:
+    """Whether what begins here are lines above a table (a date, a name and its value), whose head comes soon: words, and more figures below than here."""
+    for head in range(first + 1, min(first + MOST_ABOVE, len(rows) - 1)):
+        if shares[head] == 0.0 and fits(rows[head][1], len(rows[first][1])):
+            below = shares[head + 1 : head + 30]
+            return sum(below) / len(below) > sum(shares[first:head]) / (head - first)
+    return False
 
 
 def share(fields: Sequence[str]) -> float:
