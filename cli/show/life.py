@@ -15,24 +15,31 @@ def jump_line(life: Life) -> str:
     )
 
 
+# Columns between columns.
+BETWEEN = 2
 # Columns of the summary of a life: name of the figure, head of the column, digits.
 LIFE_COLUMNS = (
-    ("inner_raceway_um", "inner\nrace um", 3), ("outer_raceway_um", "outer\nrace um", 3),
-    ("disc_flank_um", "flank\num", 3), ("pin_um", "pin\num", 3), ("inner_peak_deg", "inner\nat deg", 0),
-    ("outer_peak_deg", "outer\nat deg", 0), ("disc_peak_deg", "flank\nat deg", 0),
-    ("peak_pin_force_N", "pin\nforce N", 0), ("mean_loaded_teeth", "loaded\nteeth", 1),
-    ("mean_lag_arcsec", "lag\narcsec", 1), ("transmission_error_pp_arcsec", "TE p-p\narcsec", 2),
-    ("torsional_stiffness_Nm_per_arcmin", "stiff Nm\nper arcmin", 0),
+    ("inner_raceway_um", "inner\nrace\num", 3), ("outer_raceway_um", "outer\nrace\num", 3),
+    ("disc_flank_um", "\nflank\num", 3), ("pin_um", "\npin\num", 3), ("inner_peak_deg", "inner\nat\ndeg", 0),
+    ("outer_peak_deg", "outer\nat\ndeg", 0), ("disc_peak_deg", "flank\nat\ndeg", 0),
+    ("peak_pin_force_N", "pin\nforce\nN", 0), ("mean_loaded_teeth", "\nloaded\nteeth", 1),
+    ("mean_lag_arcsec", "\nlag\narcsec", 1), ("transmission_error_pp_arcsec", "\nTE p-p\narcsec", 2),
+    ("torsional_stiffness_Nm_per_arcmin", "stiff\nNm per\narcmin", 0),
 )  # fmt: skip
 
 
 def life_table(dataset: xr.Dataset) -> None:
     """Growth over the hours."""
+    heads = ["\n\nhours", *(head for _, head, _ in LIFE_COLUMNS)]
+    rows = [
+        [f"{hours:.0f}", *(f"{float(dataset[name][i]):.{digits}f}" for name, _, digits in LIFE_COLUMNS)]
+        for i, hours in enumerate(dataset["hour"].values)
+    ]  # fmt: skip
+    widths = [max(map(len, [*head.split("\n"), *column])) for head, column in zip(heads, zip(*rows))]
     table = dense(dataset.attrs["title"])
-    table.add_column("hours", justify="right")
-    for _, head, _ in LIFE_COLUMNS:
-        table.add_column(head, justify="right")
-    for i, hours in enumerate(dataset["hour"].values):
-        cells = [f"{float(dataset[name][i]):.{digits}f}" for name, _, digits in LIFE_COLUMNS]
-        table.add_row(f"{hours:.0f}", *cells)
-    console(WIDTH).print(table)
+    for head, width in zip(heads, widths):
+        table.add_column(head, justify="right", no_wrap=True, min_width=width)
+    for row in rows:
+        table.add_row(*row)
+    # Numbers are never cut: much wear makes a wider table.
+    console(max(WIDTH, sum(widths) + BETWEEN * len(widths))).print(table)
