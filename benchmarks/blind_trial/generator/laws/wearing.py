@@ -117,7 +117,11 @@ class OldGrease(Wearing):
 
 
 class StuckPins(Wearing):
-    """Pins that stand for a share of the time: two bands in their print."""
+    """Pins that stand for a share of the time: two bands in their print.
+
+    The bands are those of pins that never turn, which their own wear has made wide and shallow; with the effect's share they are deeper.  So
+    the share is not the effect's number (an estimate is half of it).
+    """
 
     name, effect = "pins that stand", "pin_rotation"
     blocks, quantities = ("wear", "prints"), ("wear_profile",)
@@ -125,9 +129,6 @@ class StuckPins(Wearing):
 
     def standing(self, setting: Setting) -> float:
         return self.a
-
-    def parameters(self) -> dict[str, float]:
-        return {"pin_standing_share": self.a}
 
 
 class TenKelvin(Wearing):
