@@ -22,14 +22,14 @@ PINS = 40
 def random_pins(size: float = 2e-6, seed: int = 1) -> tuple[str, ...]:
     """Radius errors of all pins, normally distributed [m]."""
     errors = np.random.default_rng(seed).normal(0.0, size, PINS)
-    return tuple(f"pin_radius_error[{i + 1}]={value:.3e}m" for i, value in enumerate(errors))
+    return tuple(f"errors.pin.radius[{i + 1}]={value:.3e}m" for i, value in enumerate(errors))
 
 
 def eccentric_ring(size: float = 5e-6) -> tuple[str, ...]:
     """All pins displaced in one direction [m]."""
     angle = 2.0 * np.pi * np.arange(PINS) / PINS
     radial, along = size * np.cos(angle), -size * np.sin(angle)
-    return tuple(f"pin_position_error_{name}[{i + 1}]={row[i]:.3e}m" for name,
+    return tuple(f"errors.pin.{name}[{i + 1}]={row[i]:.3e}m" for name,
                  row in (("radial", radial), ("tangential", along)) for i in range(PINS))
 
 
