@@ -28,6 +28,10 @@ def styled(*parts: str | tuple[str, str]) -> Text:
     return Text.assemble(*parts)
 
 
+# Columns of the line that a dense table takes beside those of each of its columns, edges included.
+BETWEEN = 2
+
+
 def dense(title: str) -> Table:
     """A table of many columns, without lines between them; words that are too long for theirs go on below."""
     return Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)

@@ -10,6 +10,8 @@
 
 import time
 from collections.abc import Callable, Sequence
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 
 from fmu_src.faults import InputFault, nearest
@@ -52,8 +54,8 @@ def chosen(selected: list[str] | None) -> list[str]:
     selected = [name.upper() for name in selected or ()]
     for name in selected:
         if not any(known.startswith(name) for known in ids):
-            first_and_last = {known[0]: (next(i for i in ids if i[0] == known[0]), known) for known in ids}
-            there = ", ".join(f"{first} to {last}" for first, last in first_and_last.values())
+            groups = [list(group) for _, group in groupby(ids, key=itemgetter(0))]
+            there = ", ".join(f"{group[0]} to {group[-1]}" for group in groups)
             raise InputFault(f"claim {name!r}: there is none{nearest(name, ids) or f'; there are {there}'}; --list says what each is")
     return [known for known in ids if not selected or known.startswith(tuple(selected))]
 

@@ -5,8 +5,6 @@ effect's hooks change meanwhile is looked at from outside.
 """
 
 import json
-import os
-import subprocess
 import sys
 import traceback
 from collections.abc import Callable
@@ -17,14 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from fmu_src.child_process import command_of
 from fmu_src.effect import Effect
-from fmu_src.effect_check import Finding, all_sound
-from fmu_src.source_hash import ROOT, USER_EFFECTS
+from fmu_src.effect_check import Finding
 from reducers.reducer import load_reducer
 from rv_plant import effects as of_plant
 from rv_plant import plant
 from rv_reducer.exchange import PLANT_TO_WEAR
+from studies.effect_child import findings_by
 from wear_fmu import accumulator
 from wear_fmu import effects as of_wear
 
@@ -40,32 +37,14 @@ PROBES = ((0, 1, 2), (1e3, 1e4, 5e4, 2e5, 1e6, 1e7), (1e-3, 1e-2), (1e-3, 1.0), 
 
 
 def changes_when_off(file: Path) -> list[Finding]:
-    """What a sound effect's file changes with its amplitudes off, a line for each hook; the file lies in its unit's folder.
-
-    With faulty files beside it no unit starts, so that nothing can be said.
-    """
-    folder = file.parent.parent
-    if not all_sound(folder):
-        return []
-    environment = os.environ | {"RVWEAR_PLAIN_PYTHON": "1", USER_EFFECTS: str(folder)}
-    try:
-        done = subprocess.run(
-            # Of these sources, whatever unit's own copy of them this process has loaded.
-            command_of("studies.effect_off:main", [str(ROOT), *sys.path], str(file)),
-            capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment, timeout=PATIENCE, check=False,
-        )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return [Finding(file, 0, f"not tried with its amplitudes off: two steps take more than {PATIENCE:g} s")]
-    if done.returncode:
-        last = (done.stderr.strip() or "no word").splitlines()[-1]
-        return [Finding(file, 0, f"not tried with its amplitudes off: {last}")]
-    return [Finding(file, line, text) for line, text in json.loads(done.stdout.splitlines()[-1])]
+    """What a sound effect's file changes with its amplitudes off, a line for each hook; see ``findings_by``."""
+    return findings_by("studies.effect_off:main", file, "tried with its amplitudes off", PATIENCE, plain=True)
 
 
 def main(name: str) -> None:
     """In the process itself: prints the findings as JSON."""
     file = Path(name)
-    print(json.dumps(changes_of(file.parent.name, file.stem)[file.stem]))
+    print(json.dumps([(name, line, text) for line, text in changes_of(file.parent.name, file.stem)[file.stem]]))
 
 
 def changes_of(unit: str, *names: str) -> dict[str, list[tuple[int, str]]]:

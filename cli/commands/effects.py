@@ -70,9 +70,10 @@ def tried(file: Path) -> "list[Finding]":
     from studies.effect_off import changes_when_off
 
     with task(f"translating {file.name}"):
-        refused = not_translated(file.absolute())
+        if refused := not_translated(file.absolute()):
+            return refused
     with task(f"trying {file.name} with its amplitudes off"):
-        return refused or changes_when_off(file.absolute())
+        return changes_when_off(file.absolute())
 
 
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":

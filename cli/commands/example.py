@@ -80,7 +80,8 @@ def copy(name: str) -> Path:
     """Copy an example, with or without the ending of its name; InputFault where something of it is there already."""
     found = [known for known in EXAMPLES if name in (known, Path(known).stem)]
     if not found:
-        raise InputFault(f"no example {name!r}{nearest(name, EXAMPLES, 1) or f': give one of {chr(44).join(EXAMPLES)}'.replace(',', ', ')}")
+        every = ", ".join(EXAMPLES)
+        raise InputFault(f"no example {name!r}{nearest(name, EXAMPLES, 1) or f': give one of {every}'}")
     source, target = shipped() / found[0], TARGET / found[0]
     if target.exists():
         raise InputFault(f"{target} exists already and is not overwritten; move it away, or go to another folder")

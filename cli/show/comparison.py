@@ -3,7 +3,7 @@
 from rich.console import Console
 from rich.table import Table
 
-from cli.screen import WIDTH, console, dense, styled
+from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
@@ -19,8 +19,6 @@ from discrepancy.wording import base_texts, error_text, left_text, share_text
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
 WHOLE = 100.0
-# Of a dense table, edges included.
-BETWEEN = 2
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:

@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from cli.screen import WIDTH, console, dense
+from cli.screen import BETWEEN, WIDTH, console, dense
 from studies.life import Life
 
 
@@ -15,8 +15,6 @@ def jump_line(life: Life) -> str:
     )
 
 
-# Columns between columns.
-BETWEEN = 2
 # Columns of the summary of a life: name of the figure, head of the column, digits.
 LIFE_COLUMNS = (
     ("inner_raceway_um", "inner\nrace\num", 3), ("outer_raceway_um", "outer\nrace\num", 3),

@@ -6,20 +6,18 @@ A prediction is the base model's, at fine nodes and once, and what the values ch
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 from typing import Protocol, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
 from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.torque_way import entered, finely
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
-from studies.hysteresis import LOST_MOTION_SHARE
 
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
@@ -185,7 +183,7 @@ class OverTorque:
         return self.along(values, self.places(values))
 
     def along(self, values: Values, torques: Floats) -> Floats:
-        path, lead = entered(self.bench, torques)
+        path, lead = entered(torques, self.bench.rated_load)
         if not self.bench.remembers(values):
             return self.bench.held(self.condition, values, path)[lead:]
         step, least = (share * self.bench.rated_load for share in (TORQUE_STEP if self.is_exact else self.bench.torque_step, NEAR_NOTHING))
@@ -196,28 +194,6 @@ class OverTorque:
 def moved(angles: Floats, series: Floats, by: float) -> Floats:
     """What a ``series`` at ``angles`` [rad] is ``by`` [rad] further on."""
     return SplineNodes(angles).samples(series, angles + by) if by else series
-
-
-def entered(bench: Bench, torques: Floats) -> tuple[Floats, int]:
-    """The way into a loop and through it, and the length of the way in: from little torque, for with none the output floats."""
-    first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * bench.rated_load
-    lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
-    return np.concatenate([lead, torques]), len(lead)
-
-
-def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:
-    """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
-    the drive goes from sample to sample too.  Below ``least`` nothing is put in: the output floats there."""
-    if np.abs(np.diff(path)).max(initial=0.0) <= longest:
-        return path, np.arange(len(path))
-    parts, places, count = [path[:1]], [0], 1
-    for a, b in pairwise(path):
-        between = np.linspace(a, b, int(np.ceil(abs(b - a) / longest)) + 1)[1:-1]
-        between = between[np.abs(between) >= least]
-        parts += [between, np.array([b])]
-        count += len(between) + 1
-        places.append(count - 1)
-    return np.concatenate(parts), np.array(places)
 
 
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
@@ -345,7 +321,7 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
         return None
 
     def between(torques: Floats) -> Floats:
-        path, lead = entered(bench, torques)
+        path, lead = entered(torques, bench.rated_load)
         high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
         return high - low
 
@@ -359,7 +335,7 @@ def loop_error(bench: Bench, record: Record) -> Floats:
 
     def found() -> Floats:
         fine = nodes_of(curve, {})
-        path, lead = entered(bench, curve.places({}) if fine is None else fine.torques)
+        path, lead = entered(curve.places({}) if fine is None else fine.torques, bench.rated_load)
         halves = bench.held_halves(curve.condition, path)[lead:]
         return halves if fine is None else fine.samples(halves, curve.places({}))
 

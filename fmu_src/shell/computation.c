@@ -130,17 +130,18 @@ enum status do_step(struct instance *i, const char *function, double time, doubl
     }
     /* What lies beyond the guarded cells, worn surfaces, is not put back. */
     int is_lost = spoilt && unit.guarded_cells < unit.state_cells;
-    /* Why a first step is refused, or a unit ends, is told without debug logging, too: many an importer stops there. */
-    enum status telling = is_again || is_lost || !i->has_refused ? ERROR : DISCARD;
+    /* Why a first step is refused, or a unit ends: many an importer stops there. */
+    i->is_urgent = is_again || is_lost || !i->has_refused;
     i->has_refused = 1;
     if (code)
-        report_fault(i, telling, code, time);
+        report_fault(i, DISCARD, code, time);
     else
-        report(i, telling, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
+        report(i, DISCARD, "at time %.9g s: the step would make %s infinite or not a number; check the inputs%s", time, spoilt->name,
                is_lost ? "; the unit is terminated, reset it" : "");
     memcpy(i->cells, i->backup, GUARDED_BYTES);
     if (is_again)
-        report(i, telling, "at time %.9g s: the same step of %.9g s was asked for again: the unit is terminated", time, duration);
+        report(i, DISCARD, "at time %.9g s: the same step of %.9g s was asked for again: the unit is terminated", time, duration);
+    i->is_urgent = 0;
     if (is_lost || is_again)
         i->phase = TERMINATED;
     i->refused_time = time;

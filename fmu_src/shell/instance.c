@@ -19,7 +19,7 @@ enum status report(struct instance *i, enum status status, const char *format, .
 {
     char text[TEXT_SIZE];
     int index = category_index(CATEGORY[status]);
-    if (i->logging == NOTHING || (i->logging == ERRORS && status < ERROR) || i->muted >> index & 1)
+    if (i->logging == NOTHING || (i->logging == ERRORS && status < ERROR && !i->is_urgent) || i->muted >> index & 1)
         return status;
     va_list arguments;
     va_start(arguments, format);

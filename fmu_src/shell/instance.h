@@ -16,7 +16,7 @@ enum phase { INSTANTIATED, INITIALISING, STEPPING, TERMINATED };
 struct instance;
 struct state;
 
-/* What goes to the importer's log: without debug logging the reasons of errors alone. */
+/* What goes to the importer's log: without debug logging the reasons of errors alone, and what is urgent. */
 enum logging { NOTHING, ERRORS, ALL };
 
 /* Who asks. */
@@ -31,6 +31,7 @@ struct instance {
     struct importer importer;
     char *name;
     enum logging logging;
+    int is_urgent;
     uint32_t muted; /* one bit per category */
     enum phase phase;
     int is_set_up;   /* FMI 2: fmi2SetupExperiment was called */

@@ -103,6 +103,10 @@ static void messages_of_an_instance(void)
     WELL(fmi2EnterInitializationMode(quiet));
     WELL(fmi2ExitInitializationMode(quiet));
     SAYS(1, NULL, fmi2DoStep(quiet, 0.5, 1e-3, 1));
+    /* The first refused step is told, the second is not. */
+    set_mode(quiet, 3);
+    DISCARDS("code 99", fmi2DoStep(quiet, 0.501, 1e-3, 1));
+    SAYS(2, NULL, fmi2DoStep(quiet, 0.501, 5e-4, 1));
     WELL(fmi2SetDebugLogging(quiet, 0, 0, NULL));
     SAYS(3, NULL, fmi2ExitInitializationMode(quiet));
     fmi2FreeInstance(quiet);

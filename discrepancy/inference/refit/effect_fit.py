@@ -83,18 +83,22 @@ def _finished(space: Workspace, fit: Fit, least: float) -> Fit:
         promised = _promised(fit)
         if promised < UNFINISHED or fit.chi2 - HOPE * promised > least:
             break
-        columns = space.columns(fit.parameters, fit.values)
-        before, fit = fit.chi2, _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2, fresh=True)
+        before, fit = fit.chi2, _anew(space, fit, fit.candidates)
         if before - fit.chi2 < UNFINISHED:
             break
     return fit
 
 
+def _anew(space: Workspace, fit: Fit, names: tuple[str, ...]) -> Fit:
+    """The fit polished by sensitivities at its own values."""
+    columns = space.columns(fit.parameters, fit.values)
+    return _polish(space, fit.parameters, fit.values, columns, names, fit.converged, fit.chi2, fresh=True)
+
+
 def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
     """The same fit with sensitivities at its own values: for what is reported."""
     for _ in range(RENEWALS):
-        columns = space.columns(fit.parameters, fit.values)
-        renewed = _polish(space, fit.parameters, fit.values, columns, tuple(c.name for c in candidates), fit.converged, fit.chi2, fresh=True)
+        renewed = _anew(space, fit, tuple(c.name for c in candidates))
         gain, fit = fit.chi2 - renewed.chi2, renewed
         if gain < STILL:
             break

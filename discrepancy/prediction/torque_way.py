@@ -1,0 +1,31 @@
+"""The way of a held output's torque: into a loop, through it, and between its samples."""
+
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from fmu_src.arrays import Floats
+from studies.hysteresis import LOST_MOTION_SHARE
+
+
+def entered(torques: Floats, rated: float) -> tuple[Floats, int]:
+    """The way into a loop and through it, and the length of the way in: from little torque, for with none the output floats."""
+    first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * rated
+    lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
+    return np.concatenate([lead, torques]), len(lead)
+
+
+def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:
+    """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
+    the drive goes from sample to sample too.  Below ``least`` nothing is put in: the output floats there."""
+    if np.abs(np.diff(path)).max(initial=0.0) <= longest:
+        return path, np.arange(len(path))
+    parts, places, count = [path[:1]], [0], 1
+    for a, b in pairwise(path):
+        between = np.linspace(a, b, int(np.ceil(abs(b - a) / longest)) + 1)[1:-1]
+        between = between[np.abs(between) >= least]
+        parts += [between, np.array([b])]
+        count += len(between) + 1
+        places.append(count - 1)
+    return np.concatenate(parts), np.array(places)
