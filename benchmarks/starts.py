@@ -23,12 +23,11 @@ import numpy as np
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.results import end_line
-from benchmarks.blind_trial.tool import MODEL
+from benchmarks.blind_trial.tool import model_of
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.effect_fit import fit_effects, in_earnest
-from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Candidate, Parameter
 
@@ -89,7 +88,8 @@ def tried(law: str, strength: float) -> Tried:
             make(task, place / "campaigns", place / "sealed")
         except CannotMake:
             return Tried(law, strength, problem="cannot be made so strong")
-        model = PhysicalModel(load_model(MODEL), load_campaign(place / "campaigns" / task.name))
+        campaign = load_campaign(place / "campaigns" / task.name)
+        model = PhysicalModel(model_of(campaign), campaign)
     doctor = Diagnostician(model)
     doctor.prepare()
     forms = [c for c in doctor.candidates if c.name.partition(".")[0] == effect]

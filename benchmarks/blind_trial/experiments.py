@@ -33,12 +33,11 @@ from benchmarks.blind_trial.generator.reducer import HOUR, Setting
 from benchmarks.blind_trial.results import KINDS, end_line, finished, resolved
 from benchmarks.blind_trial.run import one as diagnosed
 from benchmarks.blind_trial.score import Case
-from benchmarks.blind_trial.tool import MODEL, answer_of
+from benchmarks.blind_trial.tool import answer_of, model_of
 from benchmarks.blind_trial.words import EXPERIMENTS, ONE, PROPOSED, RANDOM, RESULTS, SET
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.next_experiment import RivalLaw, rival_of
-from discrepancy.model_file import load_model
 from discrepancy.next_run import Measurement, NextRun, next_run, possible
 from discrepancy.prediction.physical_model import PhysicalModel
 from fmu_src.arrays import Floats
@@ -191,14 +190,14 @@ def one(result: dict[str, Any], folder: Path) -> dict[str, Any]:
         every: list[Run] = [{**run, "values": round_to(run["values"], run["series"].noise.quantum)} for run in runs + more]
         conditions = design.conditions | {run["series"].condition: run["series"].setting for run in more}
         target = folder / "experiments" / task.name / name.replace(" ", "_")
-        write_campaign(target, task.name, replace(design, conditions=conditions), every, result["seal"], rig=rig_of(made))
+        write_campaign(target, task.name, replace(design, conditions=conditions), every, result["seal"], rig=rig_of(made), reducer=task.base)
         return target
 
     found: dict[str, Any] = {"number": task.number, "law": list(task.laws), "strength": task.strength}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         campaign = load_campaign(write("before", []))
-        proposed = next_run(load_model(MODEL), campaign)
+        proposed = next_run(model_of(campaign), campaign)
         proposals = proposed.result.proposals if proposed.result else []
         if not proposals:
             return found | {"verdict": proposed.verdict}

@@ -13,13 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.blind_trial.tool import model_of
 from discrepancy.campaign.load import load_campaign
-from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
 from fmu_src.arrays import Floats
 
-MODEL = "RV20E-121-rigid"
 MOST_TERMS = 5
 # Of every candidate the numbers of its columns.
 Owners = list[tuple[str, list[int]]]
@@ -28,7 +27,7 @@ Owners = list[tuple[str, list[int]]]
 def library(folder: Path) -> tuple[Floats, Floats, Floats, Owners]:
     """(residual, nuisance columns, columns, [(candidate, its columns)]), quantities scaled to one residual size."""
     campaign = load_campaign(folder)
-    model = PhysicalModel(load_model(MODEL), campaign)
+    model = PhysicalModel(model_of(campaign), campaign)
     which = [i for i, r in enumerate(model.records) if not r.held_out]
     records = [model.records[i] for i in which]
     values = {p.name: p.off for p in model.nuisances}

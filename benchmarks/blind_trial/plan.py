@@ -27,6 +27,7 @@ class Entry(TypedDict, total=False):
     fault: str
     trouble: str
     rivals: bool
+    base: str
 
 
 def one_round(rng: np.random.Generator) -> list[Entry]:

@@ -65,7 +65,7 @@ def one(task: Task, folder: Path, keep: bool, peers: bool) -> dict[str, Any]:
 
 def shortened(answer: dict[str, Any]) -> dict[str, Any]:
     keys = ("verdict", "effects", "confusable", "alternatives", "captured", "held_out", "p_screen", "p_localise", "warnings", "reason",
-            "error", "times", "calls")
+            "error", "times", "calls", "base_off")
     return {k: answer[k] for k in keys if k in answer} | {"rejected": answer.get("rejected", [])[:4]}
 
 

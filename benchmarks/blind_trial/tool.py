@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.load import load_campaign
-from discrepancy.model_file import load_model
+from discrepancy.campaign.model import Campaign
+from discrepancy.model_file import ModelFile, load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
 from fmu_src.threads import Once
 
-MODEL = "RV20E-121-rigid"
 # Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
 SHARED = Once(4_000)
 # Seconds after which no answer is the answer: nobody waits longer.
@@ -32,7 +32,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
             warnings.simplefilter("ignore")
             campaign = load_campaign(folder)
             times["load"] = time.perf_counter() - started
-            file = load_model(MODEL)
+            file = model_of(campaign)
             model = PhysicalModel(file, campaign)
             model.bench.runs = model.rough_bench.runs = SHARED
             times["model"] = time.perf_counter() - started - times["load"]
@@ -41,6 +41,12 @@ def answer_of(folder: Path) -> dict[str, Any]:
         answer = {"verdict": "crash", "effects": [], "error": f"{type(problem).__name__}: {problem}"[:500]}
     times["whole"] = time.perf_counter() - started
     return {**answer, "times": times}
+
+
+def model_of(campaign: Campaign) -> ModelFile:
+    """The plain model of the reducer that the campaign says it is of."""
+    assert campaign.reducer is not None
+    return load_model(campaign.reducer.name)
 
 
 @contextmanager

@@ -8,10 +8,12 @@ own: found anew when the effect is fitted for good.
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from scipy.linalg import solve_toeplitz
+from scipy.signal import lfilter
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
-from discrepancy.prediction.curves import errors_of_cages
+from discrepancy.prediction.curves import OF_RIPPLE, errors_of_cages
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import ripple_of_cages, transmission_error
 from discrepancy.problem import Record
@@ -24,6 +26,13 @@ LONG = 40
 PLACES = 64
 # Parts of the pitch beside 0 at which the ripple is looked at.
 QUARTERS = (0.25, 0.5, 0.75)
+# A place that is known so well is looked for so far to either side once more, and again, by the ripple itself.
+KNOWN, BESIDE = 0.9, (0.08, 0.03)
+# What a ripple to first order misses may add to chi-square, root.
+SHOWS = 1.0
+# Samples that one of the noise remembers.
+LAGS = 10
+ONE = np.ones(1)
 # Share of itself by which a ripple errs at few nodes.
 RIPPLE_ERRS = 0.06
 
@@ -64,40 +73,83 @@ class Cages:
             there = transmission_error(self.bench, record, own)
             quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
         else:
-            there, (quarter, half, last) = self.roughly(few, own)
+            there, (quarter, half, last) = self.roughly(few, own, QUARTERS)
         middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
-        basis = np.column_stack([cosine - cosine.mean(), sine - sine.mean()])
-        misfit = few.values - there - middle
-        misfit -= misfit.mean()
-        times = len(record.values) // len(few.values)
-        share, sure = resultant(basis, misfit, times, max(float(np.var(record.values[: times * len(few.values)]) - np.var(few.values)), 0.0))
-        ripple = ripple_of_cages(self.bench, record, own, share)
+        basis = np.column_stack([cosine, sine])
+        misfit = few.values - there
+        share, sure = resultant(basis, misfit - middle)
+        exactly = False
+        for beside in BESIDE if sure > KNOWN else ():
+            around = [share - beside, share, share + beside]
+            if few is record:
+                ripples = [ripple_of_cages(self.bench, record, own, s, exactly) for s in around]
+                if not exactly and shows(OF_RIPPLE * ripples[1], misfit - ripples[1]):
+                    exactly, ripples = True, [ripple_of_cages(self.bench, record, own, s, True) for s in around]
+            else:
+                ripples = self.roughly(few, own, around)[1]
+            share = likeliest(around, ripples, misfit)
+        ripple = ripple_of_cages(self.bench, record, own, share, exactly)
         if few is not record:
             exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
-            ripples = [ripple_of_cages(self.bench, record, own, s) for s in QUARTERS] if exactly else self.roughly(record, own)[1]
+            ripples = [ripple_of_cages(self.bench, record, own, s) for s in QUARTERS] if exactly else self.roughly(record, own, QUARTERS)[1]
             middle = sum(ripples, np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple + (1.0 - sure) * middle
 
-    def roughly(self, record: Record, own: dict[str, float]) -> tuple[Floats, list[Floats]]:
-        """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``QUARTERS`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
+    def roughly(self, record: Record, own: dict[str, float], shares: Sequence[float]) -> tuple[Floats, list[Floats]]:
+        """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``shares`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
         pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-        there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *QUARTERS)])
+        there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *shares)])
         return there, [error - there for error in ahead]
 
 
-def resultant(basis: Floats, misfit: Floats, times: int = 1, within: float = 0.0) -> tuple[float, float]:
+def whitening(rest: Floats) -> Callable[[Floats], Floats]:
+    """Prediction error of the autoregression that the noise ``rest`` (n,) follows, of unit variance; of columns (n, k) too."""
+    rest = rest - rest.mean()
+    order = min(LAGS, len(rest) // 8)
+    products = np.array([rest[: len(rest) - lag] @ rest[lag:] for lag in range(order + 1)])
+    # A little more on the diagonal: without noise the equations would have no solution.
+    products[0] = products[0] * (1.0 + 1e-9) + 1e-300
+    taps = np.concatenate([[1.0], -solve_toeplitz(products[:-1], products[1:])])
+    error = lfilter(taps, ONE, rest)[order:]
+    scale = max(float(np.sqrt(error @ error / len(error))), 1e-150)
+
+    def white(columns: Floats) -> Floats:
+        found: Floats = lfilter(taps / scale, ONE, columns - columns.mean(axis=0), axis=0)[order:]
+        return found
+
+    return white
+
+
+def shows(error: Floats, rest: Floats) -> bool:
+    """Whether an ``error`` (n,) of a prediction would show in the noise ``rest`` (n,)."""
+    return float(np.linalg.norm(whitening(rest)(error))) > SHOWS
+
+
+def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
     """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
 
-    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain;
-    each stands for so many ``times`` samples with the variance ``within`` about it.
+    ``basis`` (n, 2) is the ripple's fundamental with the cages at 0 and a quarter of the pitch ahead, ``misfit`` (n,) what it shall explain.
+    Noise of an instrument is loud where nothing fast is: it is weighed by what one sample does not say of the next.
     """
+    basis, misfit = basis - basis.mean(axis=0), misfit - misfit.mean()
     parts, *_ = np.linalg.lstsq(basis, misfit, rcond=None)
-    noise = max(float(np.var(misfit - basis @ parts)) + within, 1e-300)
+    white = whitening(misfit - basis @ parts)
+    basis, misfit = white(basis), white(misfit)
     phases = np.linspace(0.0, 2.0 * np.pi, PLACES, endpoint=False)
     waves = np.array([np.cos(phases), np.sin(phases)])
     # Squares of what each place leaves, by their products: over all samples once.
-    chi2 = times * (np.sum((basis.T @ basis @ waves) * waves, axis=0) - 2.0 * (basis.T @ misfit) @ waves) / noise
+    chi2 = np.sum((basis.T @ basis @ waves) * waves, axis=0) - 2.0 * (basis.T @ misfit) @ waves
     weights = np.exp(-0.5 * (chi2 - chi2.min()))
     mean = complex(np.sum(weights * np.exp(1j * phases)) / np.sum(weights))
     return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)
+
+
+def likeliest(shares: Sequence[float], ripples: Sequence[Floats], misfit: Floats) -> float:
+    """The place between the three ``shares`` whose ripple, which is no sine, leaves least of the ``misfit``; by a parabola."""
+    white = whitening(misfit - ripples[1])
+    left = [float(np.sum(white(misfit - ripple) ** 2)) for ripple in ripples]
+    step, bend = 0.5 * (left[2] - left[0]), left[0] - 2.0 * left[1] + left[2]
+    if bend <= 0.0:
+        return shares[int(np.argmin(left))]
+    return shares[1] + (shares[2] - shares[1]) * float(np.clip(-step / bend, -1.0, 1.0))

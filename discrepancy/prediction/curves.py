@@ -284,12 +284,13 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     return change
 
 
-def cage_ripple(bench: Bench, record: Record, values: Values, cage: float) -> Floats:
-    """What cages that stand ``cage`` [rad] ahead change in the transmission error [rad]: to first order where nobody could see what that misses."""
+def cage_ripple(bench: Bench, record: Record, values: Values, cage: float, exactly: bool = False) -> Floats:
+    """What cages that stand ``cage`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody could
+    see what that misses."""
     curve, plain = (OverAngle(bench, record, "transmission_error", ahead) for ahead in (cage, 0.0))
     if cage == 0.0:
         return np.zeros(len(record.values))
-    if curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+    if not exactly and curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
         angles, samples = plain.support(nodes_of(plain, values), values)
         ahead, there = (bench.error_beside(curve.condition, values, angles, values, angles, c) for c in (cage, 0.0))
         change = ahead - there

@@ -46,9 +46,9 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
     return None if change is None else from_zero(record, change)
 
 
-def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float) -> Floats:
+def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float, exactly: bool = False) -> Floats:
     """What cages a ``share`` of their rollers' pitch ahead change in the transmission error."""
-    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers)
+    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers, exactly)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.designs import Design, Run
 from benchmarks.blind_trial.generator.laws.shared import RATIO
-from benchmarks.blind_trial.generator.reducer import HOUR
+from benchmarks.blind_trial.generator.reducer import HOUR, RIGID
 from benchmarks.blind_trial.generator.style import Style
 from fmu_src.arrays import Floats
 from fmu_src.units import conversion
@@ -43,11 +43,11 @@ def unit_of(name: str, style: Style) -> tuple[str, float]:
 
 
 def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], seal: str, description: str = "",
-                   rig: str = "") -> None:
-    """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one."""
+                   rig: str = "", reducer: str = RIGID) -> None:
+    """``runs`` have id, series, replicate, axes, values (SI); ``rig`` is that section of the file, if it has one; ``reducer`` the base model."""
     folder.mkdir(parents=True, exist_ok=True)
     style = design.style
-    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', 'reducer = "RV20E-121-rigid"', f'seal = "sha256:{seal}"', "", rig]
+    lines = ["[campaign]", f'name = "{name}"', f'description = "{description}"', f'reducer = "{reducer}"', f'seal = "sha256:{seal}"', "", rig]
     for key, at in design.conditions.items():
         speed = at.speed / RPM / (RATIO if style.speed_at == "output" else 1.0)
         lines += [f"[conditions.{key}]", f'{style.speed_at}_speed = "{speed:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',

@@ -15,6 +15,7 @@ from benchmarks.blind_trial.generator.folder import seal_of, write_campaign
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.noise import round_to
 from benchmarks.blind_trial.generator.outside import OUTSIDE
+from benchmarks.blind_trial.generator.reducer import RIGID, ROLLER_STIFFNESS, SOFT
 from benchmarks.blind_trial.generator.rivals import distances
 from benchmarks.blind_trial.generator.strength import Ruler
 from benchmarks.blind_trial.generator.truth import Bench, Truth
@@ -31,7 +32,7 @@ ATTEMPTS = 6
 class Task:
     """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design.
 
-    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single law.
+    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single law; ``base`` is the reducer.
     """
 
     number: int
@@ -43,6 +44,7 @@ class Task:
     fault: str = ""
     trouble: str = ""
     rivals: bool = False
+    base: str = RIGID
 
     @property
     def name(self) -> str:
@@ -87,7 +89,7 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
     design = dense_design(rng, blocks, task.kind == "outside") if task.size == "bench" else make_design(rng, blocks, task.size)
     trouble.spoil(task.trouble, design)
     parameters = true_parameters(rng, task, design)
-    bench = Bench(parameters)
+    bench = Bench(parameters, name=task.base)
     sizes = []
     rivals: dict[str, float] = {}
     if truths:
@@ -108,7 +110,7 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
             rivals = distances(ruler, truths[0], np.random.default_rng([task.seed, 41]))
     if task.trouble == trouble.WORN:
         truths = [trouble.SlightlyOff(rng)]
-    whole, parameters = trouble.bench_of(task.trouble, parameters, rng)
+    whole, parameters = trouble.bench_of(task.trouble, parameters, rng, task.base)
     return Drawn(rng, truths, design, whole, parameters, sizes, rivals)
 
 
@@ -121,7 +123,7 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, An
     truth = {
         "campaign": task.name, "kind": task.kind, "effects": [t.effect for t in truths if t.name != trouble.SlightlyOff.name],
         "trouble": task.trouble, "rivals": made.rivals, "laws": [t.facts() for t in truths],
-        "strength": task.strength, "d_prime": made.sizes, "fault": done, "base": made.parameters, "size": task.size,
+        "strength": task.strength, "d_prime": made.sizes, "fault": done, "reducer": task.base, "base": made.parameters, "size": task.size,
         "acceptable": sorted({name for t in truths for name in t.acceptable}), "seed": task.seed,
         "noise": {s.quantity: vars(s.noise) for s in design.series}, "samples": int(sum(len(r["values"]) for r in runs)),
         "conditions": len(design.conditions), "held_out": sorted(design.held_out),
@@ -131,7 +133,7 @@ def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, An
     text, seal = seal_of(truth)
     sealed.mkdir(parents=True, exist_ok=True)
     (sealed / f"{task.name}.json").write_text(text, encoding="utf-8")
-    write_campaign(folder / task.name, task.name, design, runs, seal)
+    write_campaign(folder / task.name, task.name, design, runs, seal, reducer=task.base)
     return {**truth, "seal": seal}
 
 
@@ -152,10 +154,12 @@ def blocks_for(rng: np.random.Generator, task: Task, truths: list[Truth]) -> lis
     if task.size in ("tiny", "small"):
         cheap = ["loops", "torque", "cage"]
         return blocks or [str(rng.choice(cheap if task.size == "tiny" else ["te", *cheap]))]
-    others = [b for b in ("te", "loops", "torque", "cage", "wear", "vibration") if b not in blocks and not (b == "wear" and "old" in blocks)]
-    odds = np.array([0.25, 0.25, 0.3, 0.1, 0.05 if blocks else 0.15, 0.05])[[("te", "loops", "torque", "cage", "wear", "vibration").index(b) for b in others]]
+    odds = {"te": 0.25, "loops": 0.25, "torque": 0.3, "cage": 0.1, "wear": 0.05 if blocks else 0.15, "vibration": 0.05}
+    # The plain reducer's vibration is none at all, which a soft one's is not.
+    others = [b for b in odds if b not in blocks and not (b == "wear" and "old" in blocks) and not (b == "vibration" and task.base == SOFT)]
+    share = np.array([odds[b] for b in others])
     count = 1 if blocks else int(rng.integers(1, 4))
-    extra = [str(b) for b in rng.choice(others, count, replace=False, p=odds / odds.sum())]
+    extra = [str(b) for b in rng.choice(others, count, replace=False, p=share / share.sum())]
     return blocks + (extra if not blocks or rng.random() < 0.5 else [])
 
 
@@ -174,7 +178,7 @@ def true_parameters(rng: np.random.Generator, task: Task, design: Design) -> dic
         unit = 1e-6 if entry["unit"] == "um" else 1.0
         found[name] = float(unit * np.clip(entry["start"] + entry["prior"] * rng.normal(0.0, 0.8), 1.1 * entry["lower"], 0.95 * entry["upper"]))
     if task.kind == "wrong base":
-        found["roller_stiffness"] = float(5.1e5 * np.exp(rng.choice([-1, 1]) * rng.uniform(0.15, 0.35)))
+        found["roller_stiffness"] = float(ROLLER_STIFFNESS[task.base] * np.exp(rng.choice([-1, 1]) * rng.uniform(0.15, 0.35)))
     return found
 
 

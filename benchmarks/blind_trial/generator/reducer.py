@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from benchmarks.blind_trial.generator import stepping
 from benchmarks.blind_trial.generator.stepping import COLUMNS
@@ -15,8 +16,11 @@ from rv_plant.gear_stage import total_ratio
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
-NAME = "RV20E-121-rigid"
+# With rigid supports and no losses, and as soft, as loose and as lossy as a real one.
+RIGID, SOFT = "RV20E-121-rigid", "RV20E-121"
 HOUR = 3600.0
+# Of the bearings' rollers [N], nominal.
+ROLLER_STIFFNESS = {RIGID: 5.1e5, SOFT: 2.37e5}
 # Not those of the tool's bench.
 RESOLUTION = Resolution(flank=72, pin=60, raceway=144)
 # Crank turns of a wear cycle and positions in each: quick, for the size of a law, and whole, for what is measured
@@ -24,6 +28,10 @@ RESOLUTION = Resolution(flank=72, pin=60, raceway=144)
 QUICK, WHOLE = (10, 30), (39, 48)
 TORQUE_POSITIONS = 20
 HELD_POSITIONS = 12
+# Longest step of a held torque where friction remembers its way, of the rated one: for the size of a law, and for what is measured.
+QUICK_STEP, WHOLE_STEP = 1.0 / 60.0, 1.0 / 250.0
+# Share of the rated torque below which a held output floats in its play, and no step ends.
+FLOATING = 0.01
 FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
 # Changes records before a run; factor on the wear of a surface ("flank", "race") in the course of a life.
 Change = Callable[[np.ndarray], None]
@@ -51,9 +59,10 @@ class Setting:
 class Plain:
     """One reducer with its true (not nominal) parameters."""
 
-    def __init__(self, parameters: dict[str, float] | None = None, cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION):
-        self.cycle = cycle
-        reducer = load_reducer(NAME)
+    def __init__(self, parameters: dict[str, float] | None = None, cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION,
+                 name: str = RIGID):
+        self.cycle, self.name = cycle, name
+        reducer = load_reducer(name)
         self.reducer = Reducer(**{**reducer.__dict__, "resolution": resolution})
         self.plants, self.wears = self.reducer.plant.new_records(), self.reducer.wear.new_records()
         for name, value in (parameters or {}).items():
@@ -64,6 +73,8 @@ class Plain:
         ratio = float(total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
         self.ratio, self.sense = abs(ratio), math.copysign(1.0, ratio)
         self.lobes = t.lobes
+        # A held output's place depends on the way there, and the input's torque is more than the load's share.
+        self.rubs = float(self.plants["mesh_friction"][0]) > 0.0
         self.rated_load, self.rated_speed = float(self.plants["load_torque"][0]), float(self.plants["input_speed"][0])
 
     def start(
@@ -130,6 +141,7 @@ class Plain:
 
     def held(self, setting: Setting, torques: Floats, parts: Change | None = None, surfaces: Change | None = None) -> Floats:
         """Turning [rad] under output torques in order, input held."""
+        torques, places = self.way_of(torques)
         total = np.zeros(len(torques))
         for k in range(HELD_POSITIONS):
             angle = 2.0 * math.pi * (k + 0.5) / (HELD_POSITIONS * self.lobes)
@@ -140,7 +152,19 @@ class Plain:
             turning = np.zeros(len(torques))
             require(stepping.load(p, torques, turning))
             total += turning / HELD_POSITIONS
-        return total
+        return total[places]
+
+    def way_of(self, torques: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:
+        """The way on which a drive goes from torque to torque, and where those are in it: one step each where nothing remembers."""
+        if not self.rubs:
+            return torques, np.arange(len(torques))
+        step = (QUICK_STEP if self.cycle == QUICK else WHOLE_STEP) * self.rated_load
+        counts = np.concatenate([[1], np.maximum(np.ceil(np.abs(np.diff(torques)) / step).astype(int), 1)])
+        way = np.interp(np.arange(counts.sum()), np.cumsum(counts) - 1, torques)
+        own = np.zeros(len(way), bool)
+        own[np.cumsum(counts) - 1] = True
+        kept = own | (np.abs(way) > FLOATING * self.rated_load)
+        return way[kept], np.flatnonzero(own[kept])
 
     def live(
         self, setting: Setting, inspections: list[float], rate: Rate | None = None, parts: Change | None = None, mild: Floats = ALL_WEAR

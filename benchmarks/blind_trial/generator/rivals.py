@@ -18,8 +18,9 @@ from fmu_src.arrays import Floats
 
 # Draws of a rival that are tried; draws that say which shapes it has; steps of the search from the best.
 DRAWS, RANGES, STEPS = 6, 60, 2
-# Share of the truth's size that is left by a rival which is searched no further.
+# Share of the truth's size that is left by a rival which is searched no further, and by its first draws if it is drawn no more.
 HOPELESS = 0.9
+FIRST, FAR = 2, 0.97
 # What a sensor of any quantity can do to all of its runs, per unit.
 SENSORS: dict[str, Callable[[Floats], Floats]] = {
     "sensor_gain": lambda y: y, "sensor_offset": np.ones_like, "sensor_drift": lambda y: np.linspace(-0.5, 0.5, len(y)),
@@ -52,7 +53,9 @@ def distance(ruler: Ruler, target: Floats, law: type[Truth], rng: np.random.Gene
     """d' between a column and the nearest that the law can make."""
     whole = float(np.linalg.norm(target))
     first: tuple[float, Truth] | None = None
-    for _ in range(DRAWS):
+    for k in range(DRAWS):
+        if k == FIRST and first is not None and first[0] > FAR * whole:
+            return min(first[0], whole)
         trial = law(rng)
         column = seen_by(ruler, trial)
         square = float(column @ column)

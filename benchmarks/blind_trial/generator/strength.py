@@ -86,7 +86,7 @@ class Ruler:
         for name, entry in self.design.nuisances.items():
             unit = 1e-6 if entry["unit"] == "um" else 1.0
             step = 0.01 * entry["start"] * unit
-            moved = Bench({**nominal, name: nominal[name] + step})
+            moved = Bench({**nominal, name: nominal[name] + step}, name=self.bench.plain.name)
             # Only what the parameter can touch.
             touched = ("wear_depth", "wear_profile") if name != "mesh_stiffness" else FREE_LEVEL
             changes = [(moved.values(s, []) - y) / step if s.quantity in touched else z for s, y, z in zip(self.series, self.base, zero)]

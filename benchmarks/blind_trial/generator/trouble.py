@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.designs import Design, Series
 from benchmarks.blind_trial.generator.laws.shared import WEAR
-from benchmarks.blind_trial.generator.reducer import QUICK, WHOLE, Setting
+from benchmarks.blind_trial.generator.reducer import QUICK, ROLLER_STIFFNESS, WHOLE, Setting
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 from fmu_src.arrays import Floats
 from wear_fmu.variables import Resolution
@@ -43,14 +43,14 @@ class SlightlyOff(Truth):
         return y * (1.0 + self.a + self.along * np.cos(2.0 * series.axes["depth_angle"] + self.phase))
 
 
-def bench_of(trouble: str, parameters: Mapping[str, float], rng: np.random.Generator) -> tuple[Bench, dict[str, float]]:
-    """The true reducer as it is measured, and its parameters."""
+def bench_of(trouble: str, parameters: Mapping[str, float], rng: np.random.Generator, base: str) -> tuple[Bench, dict[str, float]]:
+    """The true reducer as it is measured, of the ``base`` model but for what is wrong, and its parameters."""
     found = dict(parameters)
     if trouble == STIFF:
-        found["roller_stiffness"] = float(5.1e5 * (1.0 + rng.uniform(*OFF) * rng.choice([-1.0, 1.0])))
+        found["roller_stiffness"] = float(ROLLER_STIFFNESS[base] * (1.0 + rng.uniform(*OFF) * rng.choice([-1.0, 1.0])))
     if trouble == COARSE:
-        return Bench(found, QUICK, COARSER), found
-    return Bench(found, WHOLE), found
+        return Bench(found, QUICK, COARSER, base), found
+    return Bench(found, WHOLE, name=base), found
 
 
 def spoil(trouble: str, design: Design) -> None:

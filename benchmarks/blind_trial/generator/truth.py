@@ -9,13 +9,15 @@ import numpy as np
 
 from benchmarks.blind_trial.generator import reducer as bench
 from benchmarks.blind_trial.generator.designs import Series
-from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, RESOLUTION, Change, Gaps, Plain, Setting, both
+from benchmarks.blind_trial.generator.reducer import HOUR, QUICK, RESOLUTION, RIGID, Change, Gaps, Plain, Setting, both
 from benchmarks.blind_trial.generator.stepping import COLUMNS
 from fmu_src.arrays import Floats
 from wear_fmu.variables import Resolution
 
 TE, DRIVE, FX, FY, CAGE, ROLLERS = range(len(COLUMNS))
 SPECTRUM = 4096
+# Quantities that a life leads to.
+LIVED = ("wear_depth", "wear_profile")
 HOUSING_MASS = 10.0
 
 
@@ -33,6 +35,10 @@ class Truth:
     low, high = 0.0, math.inf
     typical = 1.0
     acceptable: tuple[str, ...] = ()
+    # Numbers of a reducer file that are the law's own: where they have a range, "the base is off, here" says the same.
+    numbers: tuple[str, ...] = ()
+    # Reckoned with rigid supports, or about what a soft reducer shows without it: not hidden in one.
+    rigid_only = False
 
     def __init__(self, rng: np.random.Generator):
         self.a = self.typical
@@ -76,8 +82,9 @@ class Truth:
 class Bench:
     """Computes series of one true reducer with hidden laws."""
 
-    def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION):
-        self.plain = Plain(parameters, cycle, resolution)
+    def __init__(self, parameters: dict[str, float], cycle: tuple[int, int] = QUICK, resolution: Resolution = RESOLUTION, name: str = RIGID):
+        self.plain = Plain(parameters, cycle, resolution, name)
+        self.itself: dict[tuple[Hashable, ...], Floats] = {}
         # By rows, laws with their strengths, and whether parts are ideal.
         self.kept: dict[tuple[Hashable, tuple[tuple[int, float], ...], bool], list[np.ndarray]] = {}
 
@@ -102,8 +109,15 @@ class Bench:
         for t in truths:
             parts = both(parts, bound(t.parts, series.setting))
             surfaces = both(surfaces, bound(t.surfaces, series.setting))
-        found: Floats = getattr(self, series.quantity)(series, truths, cage, axes, parts, surfaces)
-        return found
+        compute = getattr(self, series.quantity)
+        if series.quantity in LIVED or parts is not None or surfaces is not None or gaps_of(truths, series.setting) is not None:
+            found: Floats = compute(series, truths, cage, axes, parts, surfaces)
+            return found
+        # The reducer itself, for every law that adds to what it shows.
+        key = (series.quantity, series.setting, tuple(series.rows), cage, tuple((name, at.tobytes()) for name, at in axes.items()))
+        if key not in self.itself:
+            self.itself[key] = compute(series, truths, cage, axes, parts, surfaces)
+        return self.itself[key].copy()
 
     def transmission_error(
         self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
@@ -120,6 +134,8 @@ class Bench:
     def input_torque(
         self, series: Series, truths: list[Truth], cage: float, axes: dict[str, Floats], parts: Change | None, surfaces: Change | None
     ) -> Floats:
+        if self.plain.rubs:
+            return np.array([abs(self.plain.means(s)["drive_torque"]) for s in series.rows])
         # Ideal and free of losses: the load over the ratio.
         return np.array([abs(s.load) / self.plain.ratio for s in series.rows])
 

@@ -110,7 +110,10 @@ class Workspace:
         nuisances = self.model.nuisances
         values = {p.name: p.off for p in nuisances}
         sensitivities = None
-        for _ in range(passes):
+        for k in range(passes):
+            if k == 1:
+                # What the model corrects for itself it found where the nuisances start.
+                self.predictions.settle(values)
             self.noise = estimate(self.records, *self.raw_residuals(values))
             self.lay_out()
             if not nuisances:

@@ -16,6 +16,8 @@ class Flange(Truth):
 
     name, effect, blocks, quantities = "soft flange", "support_compliance", ("loops",), ("hysteresis",)
     typical, low, high = 5e-8, 1e-9, 1e-5
+    # Which spring of the drive yields no loop can tell.
+    numbers = ("carrier_twist_compliance", "ring_seat_compliance", "crank_seat_compliance", "tooth_compliance")
 
     def draw(self, rng: np.random.Generator) -> None:
         self.settle = float(rng.uniform(0.0, 0.05))
@@ -47,6 +49,7 @@ class TeethPlay(Truth):
 
     name, effect, blocks, quantities = "play of the first stage", "first_stage_error", ("loops",), ("hysteresis",)
     typical, low, high = 5 * UM, 0.1 * UM, 200 * UM
+    numbers = ("tooth_backlash",)
 
     def draw(self, rng: np.random.Generator) -> None:
         self.width = float(rng.uniform(0.3, 1.5))

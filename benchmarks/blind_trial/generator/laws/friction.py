@@ -36,6 +36,7 @@ class DryFriction(Truth):
 
     name, effect, blocks, quantities = "friction with a velocity minimum", "stribeck_friction", ("torque",), ("input_torque", "hysteresis")
     typical, low, high = 0.01, 1e-5, 0.12
+    rigid_only = True
 
     def draw(self, rng: np.random.Generator) -> None:
         self.static = float(rng.uniform(0.5, 2.0))
