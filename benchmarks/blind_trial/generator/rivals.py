@@ -25,6 +25,8 @@ FIRST, FAR = 2, 0.97
 SENSORS: dict[str, Callable[[Floats], Floats]] = {
     "sensor_gain": lambda y: y, "sensor_offset": np.ones_like, "sensor_drift": lambda y: np.linspace(-0.5, 0.5, len(y)),
 }  # fmt: skip
+# A number of a soft reducer's file, and where it shows.
+SEALS, DRIVE = "base.input_seal_torque", "input_torque"
 # Step of a difference, in shares of a shape's range or of the strength.
 STEP = 0.03
 
@@ -40,13 +42,20 @@ def distances(ruler: Ruler, truth: Truth, rng: np.random.Generator) -> dict[str,
             continue
         d = distance(ruler, target, law, rng)
         found[law.effect] = min(d, found.get(law.effect, np.inf))
-    for effect, shape in SENSORS.items():
-        for quantity in seen if effect != truth.effect else ():
-            column = ruler.projected([shape(y) if s.quantity == quantity else np.zeros(len(y)) for s, y in zip(ruler.series, ruler.base)])
-            square = float(column @ column)
-            left = target - column * (column @ target) / square if square > 0.0 else target
-            found[effect] = min(float(np.linalg.norm(left)), found.get(effect, np.inf))
+    others = [(effect, quantity) for effect in SENSORS if effect != truth.effect for quantity in seen]
+    for effect, quantity in others:
+        found[effect] = min(beyond(ruler, target, SENSORS[effect], quantity), found.get(effect, np.inf))
+    if ruler.bench.plain.rubs and DRIVE in seen:
+        # The seals' torque, which nobody knows for sure, is constant as well.
+        found[SEALS] = beyond(ruler, target, np.ones_like, DRIVE)
     return found
+
+
+def beyond(ruler: Ruler, target: Floats, shape: Callable[[Floats], Floats], quantity: str) -> float:
+    """d' between a column and the nearest that a ``shape`` of one quantity can make."""
+    column = ruler.projected([shape(y) if s.quantity == quantity else np.zeros(len(y)) for s, y in zip(ruler.series, ruler.base)])
+    square = float(column @ column)
+    return float(np.linalg.norm(target - column * (column @ target) / square if square > 0.0 else target))
 
 
 def distance(ruler: Ruler, target: Floats, law: type[Truth], rng: np.random.Generator) -> float:

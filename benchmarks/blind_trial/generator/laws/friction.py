@@ -66,6 +66,7 @@ class Drag(Truth):
 
     name, effect, blocks, quantities = "drag of seals and grease", "drag", ("torque",), ("input_torque",)
     typical, low, high = 0.02, 1e-5, 0.8
+    numbers = ("input_seal_torque", "input_churning_torque")
 
     def draw(self, rng: np.random.Generator) -> None:
         self.seal = float(rng.uniform(0.0, 0.6))
