@@ -80,12 +80,13 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
         names = [name for name in own[0] if all(name in run for run in own)]
         if not names:
             continue
-        drawn = with_noise(space, indices[0], predictions[indices[0]], reading[0])
+        # Noise widens a span and lengthens an amplitude, whatever is measured: drawn about the model.  A stiffness errs as the measured one does.
+        about = np.asarray(space.records[indices[0]].values, float) if LOOP_UNITS.keys() & set(names) else predictions[indices[0]]
+        drawn = with_noise(space, indices[0], about, reading[0])
         for name in names:
             values = [run[name] for run in own]
             by_samples = np.array([d.get(name, np.nan) for d in drawn])
             noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples)))
-            # Noise widens a span and lengthens an amplitude, whatever is measured.
             model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in LOOP_UNITS else by_samples
             found.append(KeyFigure(signal, condition, name, LOOP_UNITS.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
                                    noise / np.sqrt(len(values)), len(values), (signal, name) in spread))  # fmt: skip
@@ -132,8 +133,8 @@ def robust(deviations: Floats) -> float:
     return float(np.sqrt(np.mean(deviations[kept] ** 2))) if kept.any() and np.any(deviations[kept]) else float(np.sqrt(np.mean(deviations**2)))
 
 
-def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) -> list[dict[str, float]]:
-    """Figures of the model as they would be read with the noise of a run's samples, drawn several times."""
+def with_noise(space: Workspace, i: int, values: Floats, reading: Reading) -> list[dict[str, float]]:
+    """Figures of ``values`` as they would be read with the noise of a run's samples, drawn several times."""
     whitener = space.noise.whiteners[i]
     stream = space.noise.streams[whitener.quantity]
     scale = float(np.median(whitener.scale))
@@ -143,10 +144,10 @@ def with_noise(space: Workspace, i: int, predicted: Floats, reading: Reading) ->
     random = np.random.default_rng(0)
     found = []
     for _ in range(DRAWS):
-        slow = random.standard_normal(len(predicted))
+        slow = random.standard_normal(len(values))
         carry_on(slow, rho, float(np.sqrt(1.0 - rho**2)))
-        noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(predicted)))
-        found.append(reading(predicted + noise))
+        noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(values)))
+        found.append(reading(values + noise))
     return found
 
 

@@ -122,3 +122,26 @@ def test_what_is_left_is_looked_for_beside_the_calibrated_base():
     assert {e.name for e in found.effects} == {"support_compliance.housing", "stribeck_friction.mesh", "pin_position_errors"}
     ring = next(e for e in found.effects if e.name == "pin_position_errors").parameters["ring"]
     assert ring["interval"][0] < 1e-5 < ring["interval"][1] and found.verdict == "several effects"
+
+
+def test_a_single_loop_typed_by_hand_has_the_noise_of_its_samples_however_wrong_the_base():
+    """Eight torques a quarter, uneven at the ends, against a base that is stiffer by a factor of eight: no repetition, no stated noise."""
+    quarter = np.array([20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0, 167.0])
+    way = np.concatenate([quarter, quarter[-2::-1], -quarter, -quarter[-2::-1], quarter])
+    sigma = 3e-6
+    values = loop(way, 4e-6, play=2e-5, width=8e-5) + sigma * np.random.default_rng(4).standard_normal(len(way))
+    record = Record("typed", "hysteresis", "rad", "cold", 1, values, {"torque": way}, {})
+
+    class Stiff(Bench):
+        def one(self, record, v):
+            return loop(way, 5e-7)
+
+    model = Stiff([record])
+    space = Workspace(model)
+    space.fit_base()
+    assert 0.7 * sigma < space.noise.streams["hysteresis"].scale < 2.5 * sigma
+    by_name = {f.name: f for f in key_figures(space, model.predict({}), ORDERS, RATED)}
+    # 1/4e-6 N m/rad, read from eight samples of 2 to 7.5 arcsec: known within a few percent.
+    assert by_name[STIFFNESS].measured == pytest.approx(1.0 / 4e-6, rel=0.03)
+    assert 0.001 < by_name[STIFFNESS].noise / by_name[STIFFNESS].measured < 0.04
+    assert by_name[WIDTH].off > 10.0 and by_name[LOST_MOTION].noise < 2.5 * sigma

@@ -17,8 +17,8 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import diagnose
 from fmu_src.threads import Once
 
-# Runs of the reducer that campaigns with equal conditions share in one process: they change no number, only the time.
-SHARED = Once(4_000)
+# Runs of each reducer that campaigns with equal conditions share in one process: they change no number, only the time.
+SHARED: dict[str, Once] = {}
 # Seconds after which no answer is the answer: nobody waits longer.
 LONGEST = 900.0
 
@@ -34,7 +34,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
             times["load"] = time.perf_counter() - started
             file = model_of(campaign)
             model = PhysicalModel(file, campaign)
-            model.bench.runs = model.rough_bench.runs = SHARED
+            model.bench.runs = model.rough_bench.runs = SHARED.setdefault(file.reducer.name, Once(4_000))
             times["model"] = time.perf_counter() - started - times["load"]
             answer = plain(diagnose(file, campaign, model=model).in_si())
     except Exception as problem:  # noqa: BLE001 - a crash is a result of the trial

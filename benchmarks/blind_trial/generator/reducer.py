@@ -73,6 +73,7 @@ class Plain:
         ratio = float(total_ratio(float(self.plants["first_stage_ratio"][0]), t.pins, t.lobes))
         self.ratio, self.sense = abs(ratio), math.copysign(1.0, ratio)
         self.lobes = t.lobes
+        self.torque_step = QUICK_STEP if cycle == QUICK else WHOLE_STEP
         # A held output's place depends on the way there, and the input's torque is more than the load's share.
         self.rubs = float(self.plants["mesh_friction"][0]) > 0.0
         self.rated_load, self.rated_speed = float(self.plants["load_torque"][0]), float(self.plants["input_speed"][0])
@@ -158,7 +159,7 @@ class Plain:
         """The way on which a drive goes from torque to torque, and where those are in it: one step each where nothing remembers."""
         if not self.rubs:
             return torques, np.arange(len(torques))
-        step = (QUICK_STEP if self.cycle == QUICK else WHOLE_STEP) * self.rated_load
+        step = self.torque_step * self.rated_load
         counts = np.concatenate([[1], np.maximum(np.ceil(np.abs(np.diff(torques)) / step).astype(int), 1)])
         way = np.interp(np.arange(counts.sum()), np.cumsum(counts) - 1, torques)
         own = np.zeros(len(way), bool)

@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmarks.blind_trial.generator.designs import Design, Series
 from benchmarks.blind_trial.generator.laws.shared import WEAR
-from benchmarks.blind_trial.generator.reducer import QUICK, ROLLER_STIFFNESS, WHOLE, Setting
+from benchmarks.blind_trial.generator.reducer import QUICK, ROLLER_STIFFNESS, WHOLE, WHOLE_STEP, Setting
 from benchmarks.blind_trial.generator.truth import Bench, Truth
 from fmu_src.arrays import Floats
 from wear_fmu.variables import Resolution
@@ -49,7 +49,10 @@ def bench_of(trouble: str, parameters: Mapping[str, float], rng: np.random.Gener
     if trouble == STIFF:
         found["roller_stiffness"] = float(ROLLER_STIFFNESS[base] * (1.0 + rng.uniform(*OFF) * rng.choice([-1.0, 1.0])))
     if trouble == COARSE:
-        return Bench(found, QUICK, COARSER, base), found
+        coarse = Bench(found, QUICK, COARSER, base)
+        # It is surfaces that are coarse: a loop is measured as it is.
+        coarse.plain.torque_step = WHOLE_STEP
+        return coarse, found
     return Bench(found, WHOLE, name=base), found
 
 

@@ -15,7 +15,7 @@ from discrepancy.inference.noise.correlation import autoregression_of, correlati
 from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
 from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
-from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.series import fast_part, path_of, position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
 from discrepancy.problem import ORDERS, Record
@@ -156,10 +156,8 @@ def _signals(
             rows = np.flatnonzero(masks[i])
             if rows.size < SHORT:
                 continue
-            values = residuals[i][rows]
-            fast = np.zeros_like(values)
-            fast[1:-1] = (values[1:-1] - 0.5 * (values[:-2] + values[2:])) / np.sqrt(1.5)
-            deviations.append(Deviation(i, position_of(records[i])[rows], fast, rows, 1.0, records[i].condition, False))
+            inner, fast = fast_part(path_of(records[i])[rows], residuals[i][rows])
+            deviations.append(Deviation(i, position_of(records[i])[rows[inner]], fast, rows[inner], 1.0, records[i].condition, False))
     detrended = [detrended_values(d.position, d.values) for d in deviations]
     size = np.median([robust_scale(v) for v in detrended])
     size = max(size, 1e-9 * max(np.max(np.abs(predictions[i])) for i in indices), 1e-300)
@@ -180,7 +178,8 @@ def _signals(
     for condition in {d.condition for d in deviations}:
         own = [(e, d) for e, d in zip(inside, deviations) if d.condition == condition]
         dof = sum(d.share * e.size for e, d in own)
-        variance = np.mean([_tail_variance(e) for e, _ in own])
+        # What stands out of the fast part is a kink that the model lacks, not noise.
+        variance = np.mean([_tail_variance(e) if replicated else robust_scale(e) ** 2 for e, _ in own])
         scales[condition] = np.sqrt((dof * variance + 20 * common**2) / (dof + 20))
     scale = float(np.sqrt(np.mean(np.square(list(scales.values())))))
     source = "replicates"
