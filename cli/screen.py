@@ -42,9 +42,9 @@ def json_text(content: Mapping[str, object]) -> None:
     print(plain_json(content, indent=1))
 
 
-def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] = MappingProxyType({})) -> None:
-    """What, how much, and the unit: that of ``units``, or what the name ends in."""
-    table = Table(title=title, title_justify="left")
+def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] = MappingProxyType({}), how: str = "") -> None:
+    """What, how much, and the unit: that of ``units``, or what the name ends in; below it ``how`` a figure is read that others read otherwise."""
+    table = Table(title=title, title_justify="left", caption=how or None, caption_justify="left")
     table.add_column("figure")
     table.add_column("value", justify="right")
     table.add_column("unit")

@@ -23,7 +23,8 @@ from fmu_src.kernel import kernel
 from studies.hysteresis import LOST_MOTION_SHARE
 
 STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "width of the loop", "peak to peak"
-# Stiffness is that between half and all of the torque, as catalogues and GB/T 35089 have it; the width that up to half of it.
+# Stiffness is that between half and all of the torque, loading, as catalogues, GB/T 35089 and ``rvwear hysteresis`` have it: friction makes a
+# reducer stiffer unloading.  The width is that up to half of the torque.
 FROM = 0.5
 # So many torques at which the two ways of a loop are held against each other, and draws of noise where nothing is repeated.
 TORQUES, DRAWS = 21, 25
@@ -179,6 +180,7 @@ def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: flo
 
 # loops ------------------------------------------------------------------------------------
 BRANCHES = {(1, True): "forward, loading", (1, False): "forward, unloading", (-1, True): "backward, loading", (-1, False): "backward, unloading"}
+LOADING = [name for (_, loading), name in BRANCHES.items() if loading]
 LOOP_UNITS = {
     STIFFNESS: "N.m/rad", **{f"{STIFFNESS}, {branch}": "N.m/rad" for branch in BRANCHES.values()}, LOST_MOTION: "rad", WIDTH: "rad",
 }  # fmt: skip
@@ -205,7 +207,8 @@ def of_loop(torque: Floats, rated: float) -> Reading:
         positive = {name: value for name, value in slope.items() if value > 0.0}
         found = {f"{STIFFNESS}, {name}": 1.0 / value for name, value in positive.items()}
         if positive:
-            found[STIFFNESS] = 1.0 / float(np.mean(list(positive.values())))
+            loading = [value for name, value in positive.items() if name in LOADING]
+            found[STIFFNESS] = 1.0 / float(np.mean(loading or list(positive.values())))
         if up is None or down is None:
             return found
         low, high = max(up.torque[0], down.torque[0]), min(up.torque[-1], down.torque[-1])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.complete import UNITS, ring_over_torque
+from reducers.completion.complete import TORQUE_SHARE, UNITS, ring_over_torque
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import Given
 from reducers.reducer import Reducer, numbers_of
@@ -38,8 +38,8 @@ SPANS = (
     ("disc.equidistant_modification", -3e-4, 3e-4, "a few tens of um"),
     ("disc.shift_modification", -3e-4, 3e-4, "a few tens of um"),
 )
-# Pin circle radius [mm] over the cube root of the torque [N mm], and the fastest output that catalogues permit, with a margin.
-TORQUE_SHARE, TORQUE_USUAL, FASTEST_RPM = (0.6, 1.8), "0.85 to 1.3 (cycloid handbooks)", 150.0
+# The fastest output that catalogues permit, with a margin.
+FASTEST_RPM = 150.0
 
 
 @dataclass(frozen=True)
@@ -112,8 +112,8 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
     share = ring_over_torque(MM * n["pin.circle_radius"], torque) if torque else TORQUE_SHARE[0]
     if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
         found.append(
-            f"pin.circle_radius in mm is {share:.3g} times the cube root of output.load_torque = {torque:.6g} N.m in N mm, where {TORQUE_USUAL} is usual:"
-            " look at the units of both"
+            f"pin.circle_radius in mm is {share:.3g} times the cube root of output.load_torque = {torque:.6g} N.m in N mm,"
+            f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks): look at the units of both"
         )
     if speed > FASTEST_RPM:
         told = shown(reducer, "input.speed", n["input.speed"])

@@ -131,6 +131,18 @@ def test_life_writes_result_and_figures(capsys, tmp_path):
     assert again == figures
 
 
+def test_a_result_of_other_settings_stays_under_the_next_name(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    arguments = ["life", "--reducer", "RV20E-121-rigid", "--positions", "8", "--tolerance", "0.5", "--no-report", "-q", "--hours"]
+    for hours in ("20", "30", "30", "40"):
+        assert main([*arguments, hours]) == 0
+    folder = tmp_path / "results"
+    assert {p.name: round(float(read(p)["hour"][-1]), 6) for p in folder.glob("*.nc")} == {
+        "RV20E-121-rigid_life_1.nc": 20.0, "RV20E-121-rigid_life_2.nc": 30.0, "RV20E-121-rigid_life.nc": 40.0,
+    }  # fmt: skip
+    assert "it stays as" in capsys.readouterr().err
+
+
 def test_unfinished_run_is_not_overwritten(capsys, tmp_path):
     path = tmp_path / "life.nc"
     path.with_suffix(".checkpoint").write_bytes(b"precious")

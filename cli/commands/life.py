@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +33,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
                        help="error of the depths over those at the end (default 0.01)")
     hours.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
     hours.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
-    hours.add_argument("--output", help="result file (default results/NAME_life.nc); the report stands beside it")
+    hours.add_argument("--output", help="result file, the report stands beside it (default results/NAME_life.nc; an earlier one of other"
+                       " settings stays as NAME_life_1.nc)")
     hours.add_argument("--no-report", action="store_true", help="write no HTML report")
     start = hours.add_mutually_exclusive_group()
     start.add_argument("--resume", action="store_true", help="go on from the checkpoint beside the output")
@@ -93,12 +95,23 @@ def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path
     resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, wanted.inputs))
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
+    if not options.output and path.exists() and known_result(path, wanted.inputs) is None and path.exists():
+        print(f"{path} was of other settings: it stays as {stands_aside(path)}", file=sys.stderr)
     try:
         dataset = live_to(path, wanted, resume, lambda state: say(jump_line(state)))
     except Paused as interruption:
         print(f"interrupted at {interruption.hours:g} h; go on with --resume", file=sys.stderr)
         return exit_code(interruption)
     return show_life(options, dataset, path)
+
+
+def stands_aside(path: Path) -> Path:
+    """An earlier result and its page under the next free name; nobody named this one, so nobody meant it to be lost."""
+    place = next(p for k in count(1) if not (p := path.with_name(f"{path.stem}_{k}.nc")).exists())
+    path.rename(place)
+    if (page := path.with_suffix(".html")).exists():
+        page.rename(place.with_suffix(".html"))
+    return place
 
 
 def known_result(path: Path, inputs: dict[str, Any]) -> "xr.Dataset | None":

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+# Two stiffnesses of one reducer: what friction holds is none of the running one's.
+RUNNING = "stiffness: running, between half and all of the torque; with the input held, rvwear hysteresis"
+HELD = "stiffness: input held, loading, between half and all of the torque; running, rvwear solve"
+
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     turn = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
@@ -49,7 +53,7 @@ def solve(options: argparse.Namespace) -> int:
     if options.json:
         screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures)
     else:
-        screen.figures(f"{reducer.name} over one crank turn", found.figures)
+        screen.figures(f"{reducer.name} over one crank turn", found.figures, how=RUNNING)
     export(options, found.dataset)
     return 0
 
@@ -69,7 +73,7 @@ def hysteresis(options: argparse.Namespace) -> int:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
         screen.json_text({"reducer": reducer.name} | figures | curve)
     else:
-        screen.figures(f"{reducer.name}: torque up and down, input locked", figures)
+        screen.figures(f"{reducer.name}: torque up and down, input locked", figures, how=HELD)
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
 

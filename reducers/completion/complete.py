@@ -44,6 +44,8 @@ PALMGREN = 8.06e4
 STEEL = 7.85e-6
 # By so many teeth a sun may have more than the fewest (assumed).
 SUN_MORE = 10
+# Pin circle radius [mm] over the cube root of the torque [N mm] that is usual (cycloid handbooks).
+TORQUE_SHARE = (0.85, 1.3)
 
 
 @dataclass(frozen=True)
@@ -213,9 +215,9 @@ def doubts_of(given: Given, values: Mapping[str, float]) -> list[str]:
     """What does not fit the rules and yet may be so."""
     found = []
     share = ring_over_torque(values["pin.circle_radius"], given.rated)
-    if not 0.85 <= share <= 1.3:
+    if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
         found.append(
-            f"pin circle radius {values['pin.circle_radius']:.4g} mm is {share:.3g} times the cube root of {given.rated:g} N m in N mm, where 0.85 to 1.3 is"
-            " usual: look at rated torque and diameter, and their units"
+            f"pin circle radius {values['pin.circle_radius']:.4g} mm is {share:.3g} times the cube root of {given.rated:g} N m in N mm,"
+            f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual: look at rated torque and diameter, and their units"
         )
     return found
