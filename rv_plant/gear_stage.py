@@ -30,12 +30,12 @@ def variables(sizes: Sizes) -> list[Variable]:
         Variable("sun_teeth", "parameter", "1", "teeth of the sun: order of the first stage's mesh", 12.0, minimum=4.0,
                  maximum=1000.0, source="assumed: usual for a ratio of 3", path="first_stage.sun_teeth"),
         local("tooth_force", "N", "tangential force of the sun on a planet", **crank, nominal=100.0, path="first_stage.tooth_force"),
-        state("tooth_gap", "m", "what sun and planet lack along the line of action", **crank),
-        state("tooth_gap_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
-        state("tooth_play", "m", "play of sun and planet beyond that of all", **crank),
-        state("tooth_play_rate", "m", "its growth with the sun's turning against the carrier, per radian", **crank),
-        state("crank_turn_added", "rad", "a crank's turning by what its teeth lack", **crank),
-        state("crank_turn_rate", "1", "its growth with the sun's turning against the carrier", **crank),
+        state("tooth_gap", "m", "what sun and planet lack along the line of action, on the flank that drives: above 0 the planet lags", **crank),
+        state("tooth_gap_rate", "m", "growth of the gap with the sun's turning against the carrier, per radian", **crank),
+        state("tooth_play", "m", "play of sun and planet beyond that of all, along the normal: above 0 looser", **crank),
+        state("tooth_play_rate", "m", "growth of the play with the sun's turning against the carrier, per radian", **crank),
+        state("crank_turn_added", "rad", "a crank's turning by what its teeth lack, counter-clockwise: at rest", **crank),
+        state("crank_turn_rate", "1", "growth of that with the sun's turning against the carrier", **crank),
         state("pressure_cosine", "1", "cosine of the first stage's pressure angle"),
     ]
 

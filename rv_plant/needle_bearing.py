@@ -38,8 +38,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("cage.speed", "rad/s", "speed of the roller cages against the discs"),
         output("roller.force", "N", "force on a roller", **roller, nominal=100.0),
         # What effects add to the ideal parts.
-        state("roller_gap_added", "m", "added to a bearing's clearance", **roller),
-        state("roller_gap_now", "m", "the same at the present angle, with what depends on it", **roller),
+        state("roller_gap_added", "m", "added to a bearing's radial clearance, by roller: above 0 looser", **roller),
+        state("roller_gap_now", "m", "radial clearance of a bearing at the present angle, by roller, with what depends on it: above 0 looser", **roller),
         state("cage_share", "1", "speed of the cages over that of pure rolling"),
         state("cage", "rad", "angle of the cages"),
         state("cage_power", "W", "power of the cages' prescribed motion"),

@@ -20,12 +20,12 @@ def variables(sizes: Sizes) -> list[Variable]:
         deviation("carrier_hole_error_radial", "crank's seat in the carrier outwards", **crank, path="errors.carrier_hole.radial"),
         deviation("carrier_hole_error_tangential", "crank's seat in the carrier along its circle", **crank, path="errors.carrier_hole.tangential"),
         # What effects add to the ideal parts.
-        state("throw_added", "m", "added to a lobe's throw", **bearing),
-        state("lobe_turn_added", "rad", "added to a lobe's direction", **bearing),
-        state("hole_tangential_added", "m", "hole in the disc displaced along its circle", **bearing),
+        state("throw_added", "m", "added to a lobe's throw: above 0 more eccentric", **bearing),
+        state("lobe_turn_added", "rad", "added to a lobe's direction, above 0 counter-clockwise", **bearing),
+        state("hole_tangential_added", "m", "hole in the disc displaced along its circle, above 0 counter-clockwise", **bearing),
         state("hole_radial_added", "m", "hole in the disc displaced outwards", **bearing),
         state("seat_radial_added", "m", "crank's seat displaced outwards", **crank),
-        state("seat_tangential_added", "m", "crank's seat displaced along its circle", **crank),
+        state("seat_tangential_added", "m", "crank's seat displaced along its circle, above 0 counter-clockwise", **crank),
     ]
 
 

@@ -13,8 +13,10 @@ from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_be
 from fmu_src.variables import Variable
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
 from rv_plant.effects import HOOKS as PLANT_HOOKS
+from rv_plant.variables import own_variables as plant_variables
 from wear_fmu.effects import ALLOWED as WEAR_ALLOWED
 from wear_fmu.effects import HOOKS as WEAR_HOOKS
+from wear_fmu.variables import own_variables as wear_variables
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "effects.md"
 COMPUTED = "**Computed**"
@@ -43,6 +45,13 @@ STAGES = {
     "factor": "for every contact, if any effect added 1 to `effects_on`: returns the factor on the wear coefficient, 1.0 where it is off;"
     " for the surfaces that `NAME_surfaces` (NAME: the effect's file) chooses, a parameter that every effect with a factor gets",
 }
+# The rate that belongs to a field.
+RATES = {"tooth_gap": "tooth_gap_rate", "tooth_play": "tooth_play_rate", "crank_turn_added": "crank_turn_rate"}
+# Work arrays, which have no description where they are declared.
+MORE = {
+    "residual_vector": "forces and moments that must vanish, by coordinate of `z` (see `rv_plant/assembly.py`), N or N m: what resists counts positive",
+    "tangent": "their derivatives by the coordinates of `z`",
+}  # fmt: skip
 OWN = """## Your own effect
 
 A file in a folder `DIR/rv_plant/` (what happens in the reducer) or `DIR/wear_fmu/` (how it wears), and `RVWEAR_EFFECTS=DIR` in the
@@ -83,6 +92,16 @@ for all effects before the next begins:
 
 STAGES
 
+Each of the fields, by what its indices count. Places and directions are those of a drawing with the ring's centre at the origin and
+angles counter-clockwise, at output angle 0; a disc's lobes are counted in its own frame.
+
+FIELDS
+
+What changes with the angle has a rate beside it, which bodies in motion (`numerics.fidelity = "dynamic"`) need: an effect that adds to a
+gap, a play or a crank's turning sets both, or its teeth close without a speed, and the damping of their contact is wrong;
+`fall_back(r, lag, rate)` of `rv_plant.gear_stage` sets all four for an output that falls back. Equilibria read `crank_turn_rate`
+alone, for the drive torque.
+
 Within a stage effects add (`+=`, `-=`) or multiply (`*=`, `/=`) and read nothing that others change there, so that neither the
 order of the effects nor their names matter. An effect sets (`=`) its own states alone (`states=` of `EFFECT`), at any stage but `hold` and
 `factor`. It may read everything else of the record ([variables](variables.md), and the states that the files in `rv_plant/` declare),
@@ -105,7 +124,23 @@ def own_part() -> str:
         for name, (arguments, _) in hooks.items():
             by = {operator: [f"`{f}`" for f, o in allowed[name].items() if o == operator] for operator in ("+=", "*=")}
             rows.append((part, f"`{name}({arguments})`", STAGES[name], ", ".join(by["+="]) or "-", ", ".join(by["*="]) or "-"))
-    return OWN.replace("STAGES\n", table(("unit", "kernel", "called", "adds to", "multiplies"), rows))
+    return OWN.replace("STAGES\n", table(("unit", "kernel", "called", "adds to", "multiplies"), rows)).replace("FIELDS\n", field_table())
+
+
+def field_table() -> str:
+    """Every field that a hook may change: unit, what its indices count, meaning with sign and place, and the hooks."""
+    rows = []
+    for own, allowed in ((plant_variables, PLANT_ALLOWED), (wear_variables, WEAR_ALLOWED)):
+        known = {v.name: v for v in own()}
+        fields = dict.fromkeys(f for changes in allowed.values() for f in changes if f in known)
+        for field in fields:
+            v = known[field]
+            hooks = ", ".join(f"`{hook}`" for hook, changes in allowed.items() if field in changes)
+            operator = next(changes[field] for changes in allowed.values() if field in changes)
+            meaning = MORE.get(field, v.description) + (f"; its rate: `{RATES[field]}`" if field in RATES else "")
+            indexed = f"{field}[{', '.join(v.axes)}]" if any(v.axes) else field
+            rows.append((f"`{indexed}`", f"{operator} in {hooks}", "" if v.unit == "1" else v.unit, meaning))
+    return table(("field", "how, where", "unit", "meaning"), rows)
 
 
 def static_part(entry: Entry) -> str:
