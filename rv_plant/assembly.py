@@ -38,7 +38,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("housing.force_x", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
         output("housing.force_y", "N", "force of the pins on their ring, with unbalance", nominal=100.0),
         state("z", "1", "departures from ideal kinematics, see assembly", **sizes.over(coordinate=z)),
-        state("compliance", "1", "compliance of each coordinate of z, m/N or rad/(N m): of the carrier's and ring's turning, seats of carrier and cranks, teeth", **sizes.over(coordinate=z)),
+        state("compliance", "1", "compliance of each coordinate of z [m/N, rad/(N m)]: turning of carrier and ring, seats, teeth", **sizes.over(coordinate=z)),
         state("potential", "J", "energy of deformation"),
         state("dissipation", "W", "power lost in damping"),
         # Large enough for the bodies in motion too.

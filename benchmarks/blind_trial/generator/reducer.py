@@ -156,15 +156,17 @@ class Plain:
         return total[places]
 
     def way_of(self, torques: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:
-        """The way on which a drive goes from torque to torque, and where those are in it: one step each where nothing remembers."""
+        """The way on which a drive goes from hardly any torque to the first and from torque to torque, and where those are in it: one step each where
+        nothing remembers."""
         if not self.rubs:
             return torques, np.arange(len(torques))
-        step = self.torque_step * self.rated_load
-        counts = np.concatenate([[1], np.maximum(np.ceil(np.abs(np.diff(torques)) / step).astype(int), 1)])
-        way = np.interp(np.arange(counts.sum()), np.cumsum(counts) - 1, torques)
+        least, step = FLOATING * self.rated_load, self.torque_step * self.rated_load
+        stations = np.concatenate([[math.copysign(least, torques[0])], torques])
+        counts = np.concatenate([[1], np.maximum(np.ceil(np.abs(np.diff(stations)) / step).astype(int), 1)])
+        way = np.interp(np.arange(counts.sum()), np.cumsum(counts) - 1, stations)
         own = np.zeros(len(way), bool)
-        own[np.cumsum(counts) - 1] = True
-        kept = own | (np.abs(way) > FLOATING * self.rated_load)
+        own[np.cumsum(counts)[1:] - 1] = True
+        kept = own | (np.abs(way) >= 0.999 * least)
         return way[kept], np.flatnonzero(own[kept])
 
     def live(
