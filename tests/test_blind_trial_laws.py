@@ -10,14 +10,19 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from benchmarks.blind_trial.generator.designs import Series  # noqa: E402
+from benchmarks.blind_trial.generator.designs import Series, there_and_back  # noqa: E402
 from benchmarks.blind_trial.generator.laws.rig import SoftCoupling  # noqa: E402
+from benchmarks.blind_trial.generator.laws.shared import ARCSEC  # noqa: E402
 from benchmarks.blind_trial.generator.laws.supports import AskewRing, HangingWeight, SlippingSeat, SoftSeat  # noqa: E402
 from benchmarks.blind_trial.generator.laws.wearing import MildWear  # noqa: E402
 from benchmarks.blind_trial.generator.noise import Noise  # noqa: E402
-from benchmarks.blind_trial.generator.reducer import HOUR, Setting  # noqa: E402
+from benchmarks.blind_trial.generator.reducer import HOUR, SOFT, WHOLE, Plain, Setting  # noqa: E402
 from benchmarks.blind_trial.generator.truth import TE, Bench  # noqa: E402
 from discrepancy.effects.torsional_resonance import filtered, transfer_of  # noqa: E402
+from discrepancy.model_file import load_model  # noqa: E402
+from discrepancy.prediction.bench import Bench as ToolBench  # noqa: E402
+from discrepancy.prediction.curves import OverTorque, signal  # noqa: E402
+from discrepancy.problem import Record  # noqa: E402
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)
 SPEED = 121 * 8 * math.pi / 30.0
@@ -119,3 +124,25 @@ def test_mild_wear_spares_what_is_loaded_little(bench):
     flank = float(mild["flank_volume"][0] / whole["flank_volume"][0])
     race = float(mild["inner_race_volume"][0] / whole["inner_race_volume"][0])
     assert 0.1 < flank < 0.8 and race > flank
+
+
+def test_a_soft_reducer_goes_from_torque_to_torque_in_short_steps():
+    plain = Plain(cycle=WHOLE, name=SOFT)
+    torques = there_and_back(200.0, 10)
+    way, places = plain.way_of(torques)
+    assert way[places] == pytest.approx(torques, rel=1e-12, abs=0)
+    assert np.abs(way).min() >= 0.0099 * plain.rated_load and abs(way[0]) < 0.011 * plain.rated_load
+    across = np.sign(way[1:]) != np.sign(way[:-1])
+    assert np.abs(np.diff(way))[~across].max() <= plain.torque_step * plain.rated_load * (1.0 + 1e-9)
+
+
+def test_the_loop_of_a_soft_reducer_is_what_the_tool_predicts():
+    """Two ways to one loop: 250 steps a quarter and 12 places of the cranks here, 80 and 16 there."""
+    torques = there_and_back(200.0, 10)
+    here = Plain(cycle=WHOLE, name=SOFT).held(Setting(200.0, 167.0), torques)
+    record = Record("loop", "hysteresis", "rad", "cold", 1, here, axes={"torque": torques},
+                    factors={"speed": 200.0, "load": 167.0, "temperature": 293.15}, tags={"locked": "input"})  # fmt: skip
+    bench = ToolBench(load_model(SOFT).reducer, {})
+    there = signal(OverTorque(bench, record), {})
+    off = (here - here.mean()) - (there - there.mean())
+    assert np.abs(off).max() < 0.15 * ARCSEC and np.ptp(here) > 400.0 * ARCSEC

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician, diagnose
 from discrepancy.inference.refit.refit import leave_condition_out
 from discrepancy.inference.verdict import Settings
@@ -102,3 +103,35 @@ def test_what_one_condition_alone_determines_stays_within_its_range_without_it()
     # Both runs of 200 rad/s off by less than the whole range of the parameter.
     largest = 2.0 * (30.0 / 10.0 / 0.05) ** 2
     assert errors["200"] < 1.5 * (largest + 400.0)
+
+
+def test_what_a_model_corrects_for_itself_is_found_anew_once_the_nuisances_are_known():
+    """A correction that was found where a zero starts would stay there, and look like an effect."""
+
+    class Ripple:
+        """A wave about an unknown zero, with a ripple whose place the model finds for itself: from the zero that it believes in."""
+
+        candidates = ()
+        nuisances = (Parameter("zero", "rad", 0.0, -1.0, 1.0, 1e-2, 0, None),)
+        angle = np.linspace(0.0, 2.0 * np.pi, 300, endpoint=False)
+
+        def __init__(self):
+            self.believed = 0.0
+            random = np.random.default_rng(1)
+            noisy = [self.at(0.05, 0.05) + 1e-3 * random.standard_normal(300) for _ in range(2)]
+            self.records = [Record(f"te/{k}", "transmission_error", "rad", "a", k, y, {"angle": self.angle}, {}) for k, y in enumerate(noisy, 1)]
+
+        def at(self, zero, believed):
+            return np.cos(3.0 * (self.angle - zero)) + 0.02 * np.cos(40.0 * (self.angle - believed))
+
+        def predict(self, values, which=None):
+            return [self.at(values.get("zero", 0.0), self.believed) for _ in (range(2) if which is None else which)]
+
+        def settle(self, values):
+            self.believed = values.get("zero", 0.0)
+            return True
+
+    space = Workspace(Ripple())
+    base = space.fit_base()
+    assert base.values["zero"] == pytest.approx(0.05, abs=1e-3)
+    assert base.chi2 < 1.3 * 600

@@ -9,7 +9,7 @@ from discrepancy.inference.misfit.features import features, samples_of_a_wave
 from discrepancy.inference.misfit.localise import Localiser, step_of, stepped
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.cages import resultant
+from discrepancy.prediction.cages import likeliest, resultant
 from discrepancy.prediction.conditions import distinct_conditions, row_conditions
 from discrepancy.prediction.curves import OverAngle, level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer
@@ -119,3 +119,24 @@ def test_the_cages_ripple_is_computed_at_nodes_too(monkeypatch):
     monkeypatch.setattr(Bench, "running_places", lambda self, c, v, angles, *a, **more: lengths.append(len(angles)) or running(self, c, v, angles, *a, **more))
     ripple = ripple_of_cages(bench, record, {}, 0.3)
     assert np.std(ripple) > 1e-8 and max(lengths) < 20_000
+
+
+def test_the_place_of_the_cages_is_seen_through_slow_noise():
+    """Noise of an encoder is slow: a ripple of a twentieth of it is plain to see where the noise is not."""
+    random = np.random.default_rng(5)
+    phase = 140.0 * np.linspace(0.0, TURN, 500, endpoint=False)
+    basis = np.column_stack([np.cos(phase), np.sin(phase)])
+    slow = np.convolve(random.normal(0.0, 1.0, 540), np.hanning(41), "valid")[:500]
+    ripple = 0.05 * float(np.std(slow)) * np.cos(phase - 2.0)
+    share, sure = resultant(basis, slow + ripple + 0.005 * random.normal(0.0, 1.0, 500))
+    assert share * TURN == pytest.approx(2.0, abs=0.1) and sure > 0.98
+
+
+def test_between_three_places_the_likeliest_is_found():
+    random = np.random.default_rng(6)
+    phase = 140.0 * np.linspace(0.0, TURN, 500, endpoint=False)
+    # No sine: a kink in every wave.
+    kinked = lambda share: np.abs(np.sin(0.5 * (phase - TURN * share)))
+    shares = [0.22, 0.3, 0.38]
+    found = likeliest(shares, [kinked(s) for s in shares], kinked(0.337) + 0.05 * random.normal(0.0, 1.0, 500))
+    assert found == pytest.approx(0.337, abs=0.01)
