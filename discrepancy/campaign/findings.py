@@ -82,6 +82,7 @@ LEVELS = (
      "with up to 3 loads a cubic stiffness and a backlash fit equally well"),
     ("load", ("input_torque", "efficiency"), 3, "friction that grows with load and drag that does not are not told apart"),
     ("speed", FRICTION, 3, "a Stribeck minimum, viscous drag and a constant are not told apart"),
+    ("speed", ("transmission_error",), 2, "a resonance of rig or load, which lifts other orders at another speed, is not told from orders that are off"),
     ("temperature", PLAY + FRICTION, 2, "nothing that follows temperature (expansion, viscosity) shows"),
     ("hours", PLAY + WEAR, 2, "wear and what was there from the start are not told apart"),
     ("hours", WEAR, 3, "running-in, steady wear and late acceleration are not told apart"),

@@ -37,6 +37,8 @@ EFFECT = Effect(
         shape("resonance_damping", "1", "z: its damping ratio", 0.05, 1e-3, 2.0, "assumed: 0.01 to 0.1", grid=(0.05,)),
     ),
     signals=("transmission_error",),
+    # At one speed any order may be off by anything: it is by following a frequency that a resonance shows.
+    needs="speeds",
 )  # fmt: skip
 # Steps that differ by less are even, turns that differ by less from whole ones are whole.
 EVEN = 1e-6

@@ -20,6 +20,8 @@ NOT_SEARCHED = {"proud", "constant moment"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
 PATTERNS = {"harmonics": (ERROR, ORDERS)}
 MOST_CRANKS = 3
+# From this on two speeds are two.
+SPEEDS_DIFFER = 1.1
 
 
 def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
@@ -59,7 +61,9 @@ def candidates(
     candidate again.
     """
     quantities = list(dict.fromkeys(r.quantity for r in records))
-    there = {"": True, "output pins": output_pins > 0, "locked output": any(r.tags.get("locked") == "output" for r in records)}
+    there = {
+        "": True, "output pins": output_pins > 0, "locked output": any(r.tags.get("locked") == "output" for r in records), "speeds": several_speeds(records),
+    }  # fmt: skip
     # Groups of cranks and holes that this reducer does not have.
     beyond = {f"{part} {k}" for part in ("crank", "hole") for k in range(cranks + 1, MOST_CRANKS + 1)}
     found = []
@@ -93,6 +97,12 @@ def candidates(
                 shape_grid(estimated), seen, part,
             ))  # fmt: skip
     return tuple(found)
+
+
+def several_speeds(records: Iterable[Record]) -> bool:
+    """Whether transmission errors were measured at speeds that differ by more than a tenth."""
+    speeds = [abs(r.factors["speed"]) for r in records if r.quantity in (ERROR, ORDERS) and "speed" in r.factors]
+    return bool(speeds) and max(speeds) > SPEEDS_DIFFER * min(speeds)
 
 
 def chain_candidates(
