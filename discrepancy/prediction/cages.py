@@ -26,8 +26,8 @@ LONG = 40
 PLACES = 64
 # Parts of the pitch beside 0 at which the ripple is looked at.
 QUARTERS = (0.25, 0.5, 0.75)
-# A place that is known so well is looked for so far to either side once more, and again, by the ripple itself.
-KNOWN, BESIDE = 0.9, (0.08, 0.03)
+# A place that is known so well is looked for so far to either side once more, and closer again.
+KNOWN, BESIDE, CLOSE_BESIDE = 0.9, 0.08, 0.05
 # What a ripple to first order misses may add to chi-square, root.
 SHOWS = 1.0
 # Samples that one of the noise remembers.
@@ -79,15 +79,12 @@ class Cages:
         misfit = few.values - there
         share, sure = resultant(basis, misfit - middle)
         exactly = False
-        for beside in BESIDE if sure > KNOWN else ():
-            around = [share - beside, share, share + beside]
-            if few is record:
-                ripples = [ripple_of_cages(self.bench, record, own, s, exactly) for s in around]
-                if not exactly and shows(OF_RIPPLE * ripples[1], misfit - ripples[1]):
-                    exactly, ripples = True, [ripple_of_cages(self.bench, record, own, s, True) for s in around]
-            else:
-                ripples = self.roughly(few, own, around)[1]
-            share = likeliest(around, ripples, misfit)
+        if sure > KNOWN and few is record:
+            # To first order, and if what that misses would show, by the ripple itself.
+            share, ripple = self.nearer(record, own, misfit, share, BESIDE, False)
+            exactly = shows(OF_RIPPLE * ripple, misfit - ripple)
+            if exactly:
+                share, _ = self.nearer(record, own, misfit, share, CLOSE_BESIDE, True)
         ripple = ripple_of_cages(self.bench, record, own, share, exactly)
         if few is not record:
             exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
@@ -95,6 +92,12 @@ class Cages:
             middle = sum(ripples, np.zeros(len(record.values))) / 4.0
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple + (1.0 - sure) * middle
+
+    def nearer(self, record: Record, own: dict[str, float], misfit: Floats, share: float, beside: float, exactly: bool) -> tuple[float, Floats]:
+        """The likeliest place about ``share``, and the ripple there before."""
+        around = [share - beside, share, share + beside]
+        ripples = [ripple_of_cages(self.bench, record, own, s, exactly) for s in around]
+        return likeliest(around, ripples, misfit), ripples[1]
 
     def roughly(self, record: Record, own: dict[str, float], shares: Sequence[float]) -> tuple[Floats, list[Floats]]:
         """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``shares`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
