@@ -20,6 +20,27 @@ def test_null_is_none():
     assert result.verdict == "none" and not result.effects
 
 
+def test_what_only_rough_predictions_show_is_no_effect():
+    """To first order a clearance seems to bend the curve as the noise happens to; in earnest it gains nothing."""
+    model, _ = campaign(11, "null")
+    chance = {r.name: 6.0 * np.std(r.values) * np.random.default_rng(k).standard_normal(np.size(r.values)) for k, r in enumerate(model.records)}
+
+    class Rough(Toy):
+        def predict_beside(self, values, base, which, roughly=False):
+            found = self.predict(values, which)
+            if values.get("clearance", 0.0) == base.get("clearance", 0.0):
+                return found
+            off = values.get("clearance", 0.0) - base.get("clearance", 0.0)
+            return [y + off * (self.records[i].values - law(self.records[i], {}) + 1e-3 * chance[self.records[i].name]) for i, y in zip(which, found)]
+
+        def predict_roughly(self, values, which):
+            return self.predict_beside(values, {}, which)
+
+    result = diagnose(Rough(model.records))
+    assert result.p_screen < 1e-6
+    assert result.verdict in ("none", "unknown") and not result.effects
+
+
 def test_one_effect_is_named_with_its_parameters():
     model, hidden = campaign(12, "effect", 20, "stribeck")
     result = diagnose(model)

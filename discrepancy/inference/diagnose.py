@@ -4,6 +4,8 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from scipy.stats import chi2
+
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement, against, widening
@@ -19,6 +21,8 @@ from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, STOPP
 from discrepancy.problem import BASE, Candidate, Model
 from fmu_src.progress import say
 
+# Level of what is gained in earnest: far from that of the screening, which is the test.
+BY_CHANCE = 0.2
 # So many of the nearest effects are said on the way.
 NEAREST = 3
 
@@ -127,11 +131,7 @@ class Diagnostician:
         # where the misfit is beyond doubt, naming needs less
         by_candidate = p_screen < (settings.naming_level if by_place else settings.screen_level)
         if not by_candidate:
-            verdict, reason = decide(False, by_place, 0, 0, 0.0, True, settings)
-            if verdict == NONE and computed_wrongly(self.space.base, settings.coverage):
-                verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
-            rivals = self.selection.singles() if by_place else []
-            return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
+            return self.nothing_named(by_place, self.selection.singles() if by_place else [], p_screen, p_local)
         selection, judgement = self.selection, self.judgement
         self.doing = "fitting effects alone"
         if start is None:
@@ -140,6 +140,8 @@ class Diagnostician:
         say(f"best alone: {start.name}, {start.gain:.0f} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.simplified(selection.several(start, len(start.candidates) if first else 0))
+        if not self.beyond_chance(final):
+            return self.nothing_named(by_place, rivals, p_screen, p_local)
         self.doing = f"looking for what could stand in place of {final.name}"
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
@@ -184,6 +186,17 @@ class Diagnostician:
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else judgement.held_out(members)
         return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def beyond_chance(self, final: Refit) -> bool:
+        """Whether a fit gains in earnest more than the best of all candidates may by chance: scores are made of rough predictions."""
+        return float(chi2.sf(max(final.gain, 0.0), len(final.own))) * len(self.refits.scores) < BY_CHANCE
+
+    def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float) -> Diagnosis:
+        """No candidate explains anything; ``by_place`` something is off all the same."""
+        verdict, reason = decide(False, by_place, 0, 0, 0.0, True, self.settings)
+        if verdict == NONE and computed_wrongly(self.space.base, self.settings.coverage):
+            verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
+        return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
 
     def say_place(self) -> None:
         """Where the misfit is, as soon as it is known."""
