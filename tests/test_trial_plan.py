@@ -22,9 +22,10 @@ from benchmarks.blind_trial.generator.outside import NEW, OUTSIDE
 from benchmarks.blind_trial.generator.strength import LONG, Ruler, axis_variance, whitener
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES, STIFF, TAILS
 from benchmarks.blind_trial.generator.truth import Bench
+from benchmarks.blind_trial.results import finished, pack, unpack
 from benchmarks.blind_trial.score import cases_of, misses, score
 from benchmarks.blind_trial.targets import APART, TARGETS, Target, reached
-from benchmarks.blind_trial.words import ABOUT, BASE_OFF
+from benchmarks.blind_trial.words import ABOUT, BASE_OFF, RESULTS, SEALS
 from discrepancy.campaign.load import load_campaign
 
 
@@ -242,3 +243,16 @@ def test_a_folder_belongs_to_one_plan(tmp_path):
     assert trial_run.other_plan(tmp_path / ABOUT, 1, False) == ""
     assert "seed 1" in trial_run.other_plan(tmp_path / ABOUT, 2, False)
     assert trial_run.other_plan(tmp_path / ABOUT, 1, True)
+
+
+def test_a_trial_goes_on_from_what_was_packed(tmp_path):
+    first, second, place = tmp_path / "first", tmp_path / "second", tmp_path / "kept.json.xz"
+    first.mkdir()
+    (first / ABOUT).write_text(json.dumps({"commit": "abc", "seed": 7, "final": True, "campaigns": 3}), encoding="utf-8")
+    (first / SEALS).write_text("ff  campaign_00001\n", encoding="utf-8")
+    (first / RESULTS).write_text(json.dumps({"number": 1, "answer": {"verdict": "none"}}) + "\n{\"numb", encoding="utf-8")
+    pack(first, place)
+    unpack(second, place)
+    assert finished(second) == finished(first) == {1: {"number": 1, "answer": {"verdict": "none"}}}
+    assert (second / SEALS).read_text(encoding="utf-8") == (first / SEALS).read_text(encoding="utf-8")
+    assert trial_run.commits(second / ABOUT).startswith("abc, ")

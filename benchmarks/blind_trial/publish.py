@@ -63,10 +63,11 @@ def page(results: dict[int, dict[str, Any]], cases: list[Case], figures: dict[st
               f"{percent(figures['false_alarms_poor']['share'])} of {figures['false_alarms_poor']['of']}.", "",
               f"Time of a diagnosis, with other jobs on the machine: median {number(figures['seconds']['median'], 1)} s, 90 % within "
               f"{number(figures['seconds']['90 %'], 1)} s, longest {number(figures['seconds']['longest'], 1)} s. Making, diagnosing and judging them took {figures['cpu'] / 3600.0:.1f} h of CPU.", ""]  # fmt: skip
-    lines += ["## By size and trouble", ""]
-    lines += table(["size", "campaigns", "false alarms", "right name first, d' from 10", "set holds it", "set's size", "seconds (median)"], [
-        [size, f["all"], alarms_of(f["alarms"]), percent(f["first"], 0), percent(f["set"], 0), number(f["size"]), number(f["seconds"], 1)]
-        for size, f in figures["by_size"].items()])  # fmt: skip
+    lines += ["## By base model, size and trouble", ""]
+    for title, key in (("base model", "by_base"), ("size", "by_size")):
+        lines += table([title, "campaigns", "false alarms", "right name first, d' from 10", "set holds it", "set's size", "seconds (median)"], [
+            [kind, f["all"], alarms_of(f["alarms"]), percent(f["first"], 0), percent(f["set"], 0), number(f["size"]), number(f["seconds"], 1)]
+            for kind, f in figures[key].items()])  # fmt: skip
     lines += table(["data without an effect", "false alarms", "95 % interval"], [
         [name or "nothing is wrong", alarms_of(f), f"{percent(f['interval'][0], 0)} to {percent(f['interval'][1], 0)}"]
         for name, f in figures["alarms_by_trouble"].items() if f["of"]])  # fmt: skip

@@ -1,12 +1,13 @@
 """What a trial and its experiments leave in their folder."""
 
 import json
+import lzma
 from pathlib import Path
 from typing import Any
 
 from benchmarks.blind_trial.criteria import CRITERIA
 from benchmarks.blind_trial.score import counted
-from benchmarks.blind_trial.words import EXPERIMENTS, PROPOSED, RANDOM, RESULTS
+from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, PROPOSED, RANDOM, RESULTS, SEALS
 
 # Who chooses an experiment.
 KINDS = (PROPOSED, RANDOM, *CRITERIA)
@@ -24,6 +25,28 @@ def finished(folder: Path) -> dict[int, dict[str, Any]]:
                 continue
             found[result["number"]] = result
     return found
+
+
+# What a final trial has done so far, with its seals, for whoever goes on with it or judges it anew.
+PACKED = Path(__file__).parent / "final.json.xz"
+
+
+def pack(folder: Path, place: Path = PACKED) -> None:
+    """Keeps a folder's results, seals and plan in one file."""
+    content = {
+        "about": json.loads((folder / ABOUT).read_text(encoding="utf-8")), "seals": (folder / SEALS).read_text(encoding="utf-8").splitlines(),
+        "results": [result for _, result in sorted(finished(folder).items())],
+    }  # fmt: skip
+    place.write_bytes(lzma.compress(json.dumps(content, sort_keys=True).encode(), preset=9))
+
+
+def unpack(folder: Path, place: Path = PACKED) -> None:
+    """Lays the kept results into a folder that has none."""
+    content = json.loads(lzma.decompress(place.read_bytes()))
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / ABOUT).write_text(json.dumps(content["about"]), encoding="utf-8")
+    (folder / SEALS).write_text("".join(f"{line}\n" for line in content["seals"]), encoding="utf-8")
+    (folder / RESULTS).write_text("".join(json.dumps(result) + "\n" for result in content["results"]), encoding="utf-8")
 
 
 def end_line(path: Path) -> None:

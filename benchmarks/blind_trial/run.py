@@ -25,7 +25,7 @@ from benchmarks.blind_trial.final import SEED as FINAL_SEED
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
-from benchmarks.blind_trial.results import end_line, finished, resolved
+from benchmarks.blind_trial.results import PACKED, end_line, finished, pack, resolved, unpack
 from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, RESULTS, SEALS
 
 
@@ -91,6 +91,12 @@ def commit() -> str:
     return found.stdout.strip() or "unknown"
 
 
+def commits(about: Path) -> str:
+    """This code, after that with which the folder was begun."""
+    before = json.loads(about.read_text(encoding="utf-8"))["commit"].split(", ") if about.is_file() else []
+    return ", ".join(dict.fromkeys([*before, commit()]))
+
+
 def trial(tasks: list[Task], folder: Path, keep: bool = False, peers: Set[int] = frozenset(), jobs: int = -1, scheduler: str = "",
           quiet: bool = False) -> dict[int, dict[str, Any]]:
     """Runs what is missing; returns all results by number."""
@@ -150,6 +156,7 @@ def main() -> int:
     parser.add_argument("--peers", type=int, default=0, help="every nth campaign is also given to the peers")
     parser.add_argument("--keep", action="store_true", help="keep the campaign folders")
     parser.add_argument("--publish", action="store_true", help="write docs/blind_trial.md from the results")
+    parser.add_argument("--pack", action="store_true", help="keep the final trial's results in the repository, from where --final goes on")
     arguments = parser.parse_args()
     # Workers of joblib share the cores; more threads in each would only wait.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -167,6 +174,11 @@ def main() -> int:
     if arguments.numbers:
         tasks = [t for t in tasks if t.number in arguments.numbers]
     arguments.folder.mkdir(parents=True, exist_ok=True)
+    if arguments.final and len(tasks) == arguments.campaigns and PACKED.is_file() and not (arguments.folder / RESULTS).is_file():
+        unpack(arguments.folder)
+    if arguments.pack:
+        pack(arguments.folder)
+        return 0
     if arguments.publish:
         from benchmarks.blind_trial.publish import publish
 
@@ -177,7 +189,7 @@ def main() -> int:
         return 0
     if problem := other_plan(arguments.folder / ABOUT, arguments.seed, arguments.final):
         parser.error(problem)
-    (arguments.folder / ABOUT).write_text(json.dumps({"commit": commit(), "seed": arguments.seed, "final": arguments.final, "campaigns": arguments.campaigns}), encoding="utf-8")
+    (arguments.folder / ABOUT).write_text(json.dumps({"commit": commits(arguments.folder / ABOUT), "seed": arguments.seed, "final": arguments.final, "campaigns": arguments.campaigns}), encoding="utf-8")
     peers = {t.number for t in tasks if arguments.peers and t.number % arguments.peers == 0}
     trial(tasks, arguments.folder.resolve(), arguments.keep, peers, arguments.jobs, arguments.scheduler)
     return 0

@@ -15,6 +15,7 @@ import numpy as np
 
 from benchmarks.blind_trial.answers import read_answers, results_of
 from benchmarks.blind_trial.generator.make import LAWS
+from benchmarks.blind_trial.generator.reducer import RIGID
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES
 from benchmarks.blind_trial.targets import APART, reached
 from benchmarks.blind_trial.words import BASE_OFF, CRASH, INCOMPLETE, NONE, ONE, SET, SEVERAL
@@ -46,6 +47,8 @@ class Case:
         self.kind: str = truth["kind"]
         self.size: str = truth["size"]
         self.strength: float = truth["strength"]
+        # Of the base model; a trial before there were several had one.
+        self.base: str = truth.get("reducer", RIGID)
         self.laws: list[str] = [law["law"] for law in truth["laws"]]
         self.effects: list[str] = [e for e in truth["effects"] if e]
         self.acceptable = set(truth["acceptable"]) | set(self.effects)
@@ -166,7 +169,7 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
         "first_without_set": counted([c for c in strong if c.verdict != SET], lambda c: c.first),
         "pairs_one": counted(pairs, lambda c: any(e in c.set for e in c.effects)),
         "wrong_base_not_misnamed": counted(of["wrong base"], lambda c: not c.plainly or c.first),
-        "by_strength": {}, "by_size": {}, "outside": {}, "held_out": {},
+        "by_strength": {}, "by_size": {}, "by_base": {}, "outside": {}, "held_out": {},
         "poor": {"campaigns": len(poor), "set": share(poor, lambda c: c.covered), "misnamed": share(poor, lambda c: c.plainly and not c.first)},
         "seconds": {"median": quantile(cases, 0.5), "90 %": quantile(cases, 0.9), "longest": quantile(cases, 1.0)},
         "cpu": sum(c.cpu for c in cases),
@@ -178,11 +181,12 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
         figures["held_out"][s] = {"campaigns": len(errors), "median_ratio": mean([b / a for a, b in errors], np.median),
                                   "worse": mean([b > a for a, b in errors])}  # fmt: skip
         figures["judged"][f"held_out_{s:g}"] = {"share": figures["held_out"][s]["median_ratio"], "of": len(errors)}
-    for size in sorted({c.size for c in cases}):
-        here = [c for c in of["effect"] if c.size == size and c.strength >= 10]
-        alarms = counted([c for c in nulls if c.size == size], lambda c: c.alarm)
-        figures["by_size"][size] = {"all": sum(c.size == size for c in cases), "alarms": alarms, **found_in(here),
-                                    "seconds": quantile([c for c in cases if c.size == size], 0.5)}  # fmt: skip
+    for key, own in (("by_size", "size"), ("by_base", "base")):
+        for kind in sorted({getattr(c, own) for c in cases}):
+            those = [c for c in cases if getattr(c, own) == kind]
+            here = [c for c in those if c.kind == "effect" and c.strength >= 10]
+            alarms = counted([c for c in nulls if getattr(c, own) == kind], lambda c: c.alarm)
+            figures[key][kind] = {"all": len(those), "alarms": alarms, **found_in(here), "seconds": quantile(those, 0.5)}
     for s in sorted({c.strength for c in outside}):
         figures["outside"][s] = figures["judged"][f"outside_{s:g}"]
     return figures
