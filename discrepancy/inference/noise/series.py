@@ -40,7 +40,7 @@ def fast_part(path: Floats, values: Floats) -> tuple[npt.NDArray[np.intp], Float
         before, after = np.ones_like(before), np.ones_like(after)
         onward = np.ones(len(before), bool)
     inner = np.flatnonzero(onward) + 1
-    share = (before / (before + after))[onward]
+    share = before[onward] / (before + after)[onward]
     off = values[inner] - (1.0 - share) * values[inner - 1] - share * values[inner + 1]
     return inner, off / np.sqrt(1.0 + (1.0 - share) ** 2 + share**2)
 
