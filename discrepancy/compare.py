@@ -96,8 +96,7 @@ def runs_of(space: Workspace, predictions: Sequence[Floats]) -> list[dict[str, A
     for record, predicted, whitener in zip(space.records, predictions, space.noise.whiteners):
         kept = whitener.kept
         error = float(np.sqrt(np.mean((record.values - predicted)[kept] ** 2))) if kept.any() else float("nan")
-        stream = space.noise.streams[whitener.quantity]
-        floor = float(np.sqrt(np.mean(whitener.scale**2) * (1.0 + sum(stream.patterns.values()))))
+        floor = whitener.floor
         runs.append({
             "run": record.name, "signal": stream_of(record), "condition": record.condition, "replicate": record.replicate,
             "held_out": record.held_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),

@@ -47,7 +47,7 @@ class Record:
     ``mounting`` share its phases.  ``held_out`` runs are never used for fitting.
     ``stated_noise`` is the standard deviation that the campaign states, if it does.
     ``tags`` say what is meant (surface, disc, crank, lobe ...).  ``zero_known``: the mean counts, too, of a quantity whose
-    zero is free otherwise.
+    zero is free otherwise; ``zero_noise`` is the standard deviation by which that zero differs from run to run.
     """
 
     name: str
@@ -63,6 +63,7 @@ class Record:
     stated_noise: float | None = None
     tags: Mapping[str, str] = field(default_factory=dict)
     zero_known: bool = False
+    zero_noise: float = 0.0
 
     @property
     def free_zero(self) -> bool:

@@ -132,6 +132,6 @@ def curve_table(signal: str, indices: Sequence[int], space: Workspace, predictio
     for name, rows in stacks.items():
         joined = np.concatenate([np.asarray(row, float)[w.kept] for row, w in zip(rows, whiteners)])
         columns.append(Column(name, scale.unit, scale.factor * joined + scale.offset))
-    between = [np.sqrt(1.0 + sum(space.noise.streams[w.quantity].patterns.values())) for w in whiteners]
+    between = [np.sqrt(1.0 + w.between) for w in whiteners]
     columns.append(Column("noise", scale.unit, scale.factor * np.concatenate([np.broadcast_to(w.scale, n) * b for w, n, b in zip(whiteners, counts, between)])))
     return Table("_".join(part for part in signal.replace("[", "_").replace("]", "").replace("=", "_").replace(",", "_").split()), tuple(columns))

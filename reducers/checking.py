@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.complete import TORQUE_SHARE, UNITS, ring_over_torque
+from reducers.completion.complete import UNITS, ring_doubt
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import Given
 from reducers.reducer import Reducer, numbers_of
@@ -109,12 +109,7 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
         for name, low, high, usual in SPANS if name in n and not low <= n[name] <= high
     ]  # fmt: skip
     torque, speed = abs(n["output.load_torque"]), output_rpm(n, ratio)
-    share = ring_over_torque(MM * n["pin.circle_radius"], torque) if torque else TORQUE_SHARE[0]
-    if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
-        found.append(
-            f"pin.circle_radius in mm is {share:.3g} times the cube root of output.load_torque = {torque:.6g} N.m in N mm,"
-            f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks): look at the units of both"
-        )
+    found += ring_doubt(MM * n["pin.circle_radius"], torque)
     if speed > FASTEST_RPM:
         told = shown(reducer, "input.speed", n["input.speed"])
         found.append(f"input.speed = {told} turns the output at {speed:.4g} rpm, where 5 to 100 is usual: look at its unit")

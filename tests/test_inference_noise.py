@@ -131,3 +131,22 @@ def test_repetition_that_stands_out_makes_no_noise_and_counts_less():
     weights = {r.name: float(np.median(w.weight)) ** 2 for r, w in zip(records, noise.whiteners)}
     assert weights["b3"] < 0.2 and all(w > 0.95 for name, w in weights.items() if name != "b3")
     assert any("run b3 stands out" in text for text in noise.warnings)
+
+
+def test_a_zero_that_jumps_from_run_to_run_counts_for_what_it_says():
+    """A constant over a run weighs 1/zero_noise^2 whatever its samples; in a table of orders the mean has a noise of its own."""
+    x, left = np.linspace(0.0, 2.0 * np.pi, 200), 0.1 * np.random.default_rng(2).standard_normal(200)
+    plain, jumping = (
+        estimate([Record("r", "transmission_error", "rad", "c", 1, left, {"angle": x}, {}, stated_noise=0.1, zero_known=True, zero_noise=zero)],
+                 [left], [np.zeros(200)]).whiteners[0]
+        for zero in (0.0, 5.0)
+    )  # fmt: skip
+    constant, wave = np.ones(200), np.sin(7 * x)
+    assert np.sum(jumping(constant) ** 2) == pytest.approx(1.0 / 5.0**2, rel=0.1) and np.sum(plain(constant) ** 2) > 100.0 * np.sum(jumping(constant) ** 2)
+    assert np.sum(jumping(wave) ** 2) == pytest.approx(np.sum(plain(wave) ** 2), rel=0.02)
+    assert jumping.floor == pytest.approx(5.0, rel=0.01)
+    order, part = np.array([0.0, 1.0, 1.0, 39.0, 39.0]), np.array([0.0, 0.0, 1.0, 0.0, 1.0])
+    records = [Record(f"r{k}", "transmission_order", "rad", str(k), 1, np.zeros(5), {"order": order, "part": part}, {}, stated_noise=0.3,
+                      zero_known=True, zero_noise=0.4) for k in range(3)]  # fmt: skip
+    table = estimate(records, [np.zeros(5)] * 3, [np.zeros(5)] * 3).whiteners[0]
+    assert np.allclose(table.scale, [0.5, 0.3, 0.3, 0.3, 0.3])

@@ -9,7 +9,7 @@ from discrepancy.inference.misfit.features import features, samples_of_a_wave
 from discrepancy.inference.misfit.localise import Localiser, step_of, stepped
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.cages import likeliest, resultant
+from discrepancy.prediction.cages import likeliest, resultant, whitening
 from discrepancy.prediction.conditions import distinct_conditions, row_conditions
 from discrepancy.prediction.curves import OverAngle, level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer
@@ -138,5 +138,7 @@ def test_between_three_places_the_likeliest_is_found():
     # No sine: a kink in every wave.
     kinked = lambda share: np.abs(np.sin(0.5 * (phase - TURN * share)))
     shares = [0.22, 0.3, 0.38]
-    found = likeliest(shares, [kinked(s) for s in shares], kinked(0.337) + 0.05 * random.normal(0.0, 1.0, 500))
+    misfit = kinked(0.337) + 0.05 * random.normal(0.0, 1.0, 500)
+    ripples = [kinked(s) for s in shares]
+    found = likeliest(shares, ripples, misfit, whitening(misfit - ripples[1]))
     assert found == pytest.approx(0.337, abs=0.01)

@@ -126,7 +126,7 @@ def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
 
 
 def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
-    assert "usual: look at rated torque and diameter" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    assert "usual (cycloid handbooks): look at both" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
     assert complete(Given(81, 40, 1600.0)).doubts == []
 
 

@@ -11,6 +11,7 @@ from discrepancy.compare import compare
 from discrepancy.model_file import load_model
 from discrepancy.prediction.order_curves import turns_of
 from discrepancy.prediction.physical_model import PhysicalModel
+from fmu_src.faults import InputFault
 
 ARCSEC = math.pi / 648000.0
 ORDERS = (1, 2, 3, 39, 40, 78, 80, 120, 156, 160)
@@ -126,6 +127,21 @@ def test_the_mean_counts_where_the_zero_is_known(tmp_path):
     model = PhysicalModel(load_model("RV20E-121-rigid"), write(tmp_path, CONDITIONS, table, 'zero = "absolute"'))
     means = [values[0] for values in model.predict({})]
     assert means[1] < means[2] < 0.0 < means[3]
+
+
+def test_how_well_a_zero_is_known(tmp_path):
+    table = {name: {0: 0j, **found} for name, found in empty(CONDITIONS).items()}
+    write(tmp_path, CONDITIONS, table)
+    path = tmp_path / "campaign.toml"
+    given = path.read_text()
+    path.write_text(given + '[quantities.transmission_order]\nzero = "absolute"\nzero_noise = "8 arcsec"\n')
+    assert [r.zero_noise for r in load_campaign(tmp_path).records] == pytest.approx([8.0 * ARCSEC] * 4)
+    path.write_text(given + '[quantities.transmission_order]\nzero_noise = "8 arcsec"\n')
+    with pytest.raises(InputFault, match='state zero = "absolute"'):
+        load_campaign(tmp_path)
+    path.write_text(given + '[quantities.transmission_order]\nzero = "absolute"\nzero_noise = "8 N"\n')
+    with pytest.raises(InputFault, match="zero_noise"):
+        load_campaign(tmp_path)
 
 
 def test_candidates_of_transmission_errors_are_looked_for(made):

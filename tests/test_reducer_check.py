@@ -119,7 +119,7 @@ def test_torque_and_speed_in_other_units_are_doubted():
     doubts = check(replace(reducer, starts={**starts, "load_torque": 1e3 * starts["load_torque"], "input_speed": 10.0 * starts["input_speed"]})).doubts
     soft = check(replace(reducer, starts={**starts, "elastic_modulus": 0.1 * starts["elastic_modulus"]})).doubts
     assert any("material.elastic_modulus = 20.7 GPa, where 200 to 212 GPa for steel is usual" in d for d in soft)
-    assert any("times the cube root of output.load_torque" in d for d in doubts) and any("turns the output at 165.3 rpm" in d for d in doubts)
+    assert any("times the cube root of the torque" in d for d in doubts) and any("turns the output at 165.3 rpm" in d for d in doubts)
 
 
 def test_a_decimal_comma_in_quotes_and_a_file_that_is_not_there_are_told(tmp_path):

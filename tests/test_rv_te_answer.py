@@ -92,7 +92,24 @@ def test_numbers_are_counted_and_saved(example, prepared, tmp_path):
     fitted = physics.Fitted(tuple(numbers), {n.name: n.start for n in numbers}, np.eye(len(numbers)), [])
     answer.save_model(answer.model_file(prepared, fitted), tmp_path / "model.toml")
     again = load_model(tmp_path / "model.toml")
-    assert set(again.effects) == {r.effect for r in physics.LADDER} and set(again.effects) & set(CHAIN)
+    assert set(again.effects) == {r.effect for r in physics.LADDER} - {physics.ZERO} and set(again.effects) & set(CHAIN)
+
+
+def test_rungs_are_steps_of_the_model(example, prepared, tmp_path):
+    """`rvwear ladder` reads them; a rung that earns in the waves alone has helped, although the means got worse."""
+    answer, physics, _ = example
+    before, *rungs = (
+        {kind: {"whole": {"forward": whole, "backward": whole}, "waves": {"forward": waves, "backward": waves}} for kind in ("training", "held_out")}
+        for whole, waves in ((110.0, 40.0), (11.0, 40.0), (11.5, 5.0), (11.4, 4.95))
+    )
+    rungs = [row | {"effect": rung.effect, "says": rung.says, "numbers": 1} for row, rung in zip(rungs, physics.LADDER)]
+    whole = physics.numbers_of(physics.LADDER)
+    fitted = physics.Fitted(tuple(whole), {n.name: n.start for n in whole}, np.eye(len(whole)), [])
+    answer.save_model(answer.model_file(prepared, fitted, answer.steps_of(before, rungs)), tmp_path / "model.toml")
+    again = load_model(tmp_path / "model.toml").steps
+    assert [s["effects"] for s in again] == [[r.effect] for r in physics.LADDER[:3]]
+    assert [s["verdict"] for s in again] == ["helped", "helped", "did not help"]
+    assert again[0]["held_out_before"] == pytest.approx(100.0) and again[0]["held_out_after"] == pytest.approx(again[1]["held_out_before"])
 
 
 @pytest.mark.campaign

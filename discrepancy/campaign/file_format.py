@@ -8,7 +8,7 @@ import difflib
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
 from discrepancy.problem import WITH_ZERO
@@ -145,6 +145,13 @@ class QuantityEntry(Strict):
     """What holds for all runs of a quantity that do not state it themselves."""
 
     zero: Literal["free", "absolute"] = "free"
+    zero_noise: Stated | None = None
+
+    @model_validator(mode="after")
+    def of_a_known_zero(self) -> "QuantityEntry":
+        if self.zero_noise is not None and self.zero != "absolute":
+            raise ValueError('zero_noise says how well a known zero is known: state zero = "absolute" with it, or leave it out')
+        return self
 
 
 class NuisanceEntry(Strict):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.campaign.amount import split, to_si
-from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, read_campaign_file
+from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, Stated, read_campaign_file
 from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
 from discrepancy.campaign.order_tables import as_asked, given_quantity
 from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
@@ -50,7 +50,7 @@ def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
             condition, zero = conditions[run.condition], zero_known(run, content, place)
             direction = int(DIRECTIONS[run.direction] if run.direction is not None else condition.factors["direction"])
             record = record_of(run, condition, as_asked(run, series, zero, direction, place), scales, place)
-            records.append(replace(record, zero_known=zero))
+            records.append(replace(record, zero_known=zero, zero_noise=zero_noise(run, content, path) if zero else 0.0))
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
         conditions, tuple(records), rows, unfilled,
@@ -76,6 +76,14 @@ def zero_known(run: Run, content: CampaignFile, place: str) -> bool:
         raise InputFault(f"{place}.zero = {run.zero!r}: {run.quantity} has no zero to declare; {', '.join(WITH_ZERO)} have; leave it out")
     general = content.quantities.get(run.quantity)
     return (run.zero or (general.zero if general else "free")) == "absolute"
+
+
+def zero_noise(run: Run, content: CampaignFile, path: Path) -> float:
+    """Standard deviation, SI, by which a known zero of a run's quantity differs from run to run; 0 if it is not stated."""
+    general = content.quantities.get(run.quantity)
+    if general is None or general.zero_noise is None:
+        return 0.0
+    return deviation(general.zero_noise, QUANTITIES[run.quantity], f"{path}: quantities.{run.quantity}.zero_noise")
 
 
 def sources_of(run: Run, scales: Scales, place: str) -> dict[str, Source]:
@@ -203,15 +211,16 @@ def record_of(run: Run, condition: Condition, series: Series, scales: Scales, pl
 
 
 def noise_of(run: Run, quantity: Quantity, place: str) -> float | None:
-    if run.noise is None:
-        return None
-    number, unit = split(run.noise, quantity.usual_unit, f"{place}.noise")
+    return None if run.noise is None else deviation(run.noise, quantity, f"{place}.noise")
+
+
+def deviation(stated: Stated, quantity: Quantity, place: str) -> float:
+    """A stated standard deviation in SI."""
+    number, unit = split(stated, quantity.usual_unit, place)
     # A standard deviation is a difference: degC has its zero, a noise has not.
-    noise = to_si(unit, quantity.unit, f"{place}.noise = {number:g} {unit}")[0] * number
+    noise = to_si(unit, quantity.unit, f"{place} = {number:g} {unit}")[0] * number
     if not 0.0 < noise < float("inf"):
-        raise InputFault(
-            f"{place}.noise = {number:g} {unit}: a standard deviation must be positive; leave it out if unknown"
-        )
+        raise InputFault(f"{place} = {number:g} {unit}: a standard deviation must be positive; leave it out if unknown")
     return noise
 
 

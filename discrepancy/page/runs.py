@@ -53,8 +53,7 @@ def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
         kept = whitener.kept
         measured = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0)
-        between = sum(space.noise.streams[whitener.quantity].patterns.values())
-        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + between), speed))
+        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + whitener.between), speed))
     return found
 
 

@@ -81,8 +81,8 @@ class Cages:
         exactly = False
         if sure > KNOWN and few is record:
             # To first order, and if what that misses would show, by the ripple itself.
-            share, ripple = self.nearer(record, own, misfit, share, BESIDE, False)
-            exactly = shows(OF_RIPPLE * ripple, misfit - ripple)
+            share, missed = self.nearer(record, own, misfit, share, BESIDE, False)
+            exactly = missed > SHOWS
             if exactly:
                 share, _ = self.nearer(record, own, misfit, share, CLOSE_BESIDE, True)
         ripple = ripple_of_cages(self.bench, record, own, share, exactly)
@@ -93,11 +93,12 @@ class Cages:
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple + (1.0 - sure) * middle
 
-    def nearer(self, record: Record, own: dict[str, float], misfit: Floats, share: float, beside: float, exactly: bool) -> tuple[float, Floats]:
-        """The likeliest place about ``share``, and the ripple there before."""
+    def nearer(self, record: Record, own: dict[str, float], misfit: Floats, share: float, beside: float, exactly: bool) -> tuple[float, float]:
+        """The likeliest place about ``share``, and what a ripple to first order would miss there, in units of the noise."""
         around = [share - beside, share, share + beside]
         ripples = [ripple_of_cages(self.bench, record, own, s, exactly) for s in around]
-        return likeliest(around, ripples, misfit), ripples[1]
+        white = whitening(misfit - ripples[1])
+        return likeliest(around, ripples, misfit, white), float(np.linalg.norm(white(OF_RIPPLE * ripples[1])))
 
     def roughly(self, record: Record, own: dict[str, float], shares: Sequence[float]) -> tuple[Floats, list[Floats]]:
         """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``shares`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
@@ -124,11 +125,6 @@ def whitening(rest: Floats) -> Callable[[Floats], Floats]:
     return white
 
 
-def shows(error: Floats, rest: Floats) -> bool:
-    """Whether an ``error`` (n,) of a prediction would show in the noise ``rest`` (n,)."""
-    return float(np.linalg.norm(whitening(rest)(error))) > SHOWS
-
-
 def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
     """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
 
@@ -148,9 +144,8 @@ def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
     return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)
 
 
-def likeliest(shares: Sequence[float], ripples: Sequence[Floats], misfit: Floats) -> float:
+def likeliest(shares: Sequence[float], ripples: Sequence[Floats], misfit: Floats, white: Callable[[Floats], Floats]) -> float:
     """The place between the three ``shares`` whose ripple, which is no sine, leaves least of the ``misfit``; by a parabola."""
-    white = whitening(misfit - ripples[1])
     left = [float(np.sum(white(misfit - ripple) ** 2)) for ripple in ripples]
     step, bend = 0.5 * (left[2] - left[0]), left[0] - 2.0 * left[1] + left[2]
     if bend <= 0.0:

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 from answer_page import page_of
-from named_physics import ARCSEC, LADDER, Fitted, Fitter, Rung
+from named_physics import ARCSEC, LADDER, ZERO, Fitted, Fitter, Rung
 from rivals import RIVALS, count, predictions
+from steps import steps_of
 
 from discrepancy.campaign.from_rv_te import measured_in
 from discrepancy.campaign.load import load_campaign
@@ -125,25 +126,32 @@ def intervals(fitted: Fitted) -> dict[str, tuple[float, float, float]]:
     return {n.name: (fitted.values[n.name], fitted.values[n.name] - h, fitted.values[n.name] + h) for n, h in zip(fitted.numbers, half)}
 
 
-def model_file(model: PhysicalModel, fitted: Fitted) -> ModelFile:
+def model_file(model: PhysicalModel, fitted: Fitted, steps: Sequence[dict[str, Any]] = ()) -> ModelFile:
+    """The fitted numbers as a model; the encoders' zero is the campaign's, not the reducer's, and calibrated there."""
     known, found = every_effect(), intervals(fitted)
     effects: dict[str, dict[str, dict[str, Any]]] = {}
     for rung in LADDER:
+        if rung.effect == ZERO:
+            continue
         units = {p.variable.name: p.variable.unit for p in known[rung.effect].parameters}
         effects[rung.effect] = {
             n.name: dict(zip(("value", "low", "high"), found[n.name])) | {"unit": units[n.name.partition("[")[0]]} for n in rung.numbers
         }  # fmt: skip
-    return replace(model.file, name="rig of ratio 81", effects=effects)
+    return replace(model.file, name="rig of ratio 81", effects=effects, steps=tuple(steps))
 
 
-def climbed(fitter: Fitter, held: Sequence[int]) -> list[tuple[Rung, Errors, Errors]]:
-    """(rung, errors on training, errors on held-out conditions) with all rungs up to this one."""
-    records, training = fitter.records, others(fitter.records, held)
-    found = []
-    for count_of_rungs in range(1, len(LADDER) + 1):
-        fitted = fitter.fit(LADDER[:count_of_rungs], training)
-        found.append((LADDER[count_of_rungs - 1], *(errors(records, {i: fitted.predicted[i] for i in which}) for which in (training, held))))
-    return found
+def climbed(fitter: Fitter, held: Sequence[int]) -> list[tuple[Rung, Fitted]]:
+    """Each rung, and the fit of all rungs up to it."""
+    training = others(fitter.records, held)
+    return [(rung, fitter.fit(LADDER[: place + 1], training)) for place, rung in enumerate(LADDER)]
+
+
+def row_of(rung: Rung | None, records: Sequence[Record], predicted: Sequence[Floats], held: Sequence[int]) -> dict[str, Any]:
+    """Errors on fitted and on held-out conditions, with all rungs up to this one; without any, if it is None."""
+    found = {
+        kind: vars(errors(records, {i: predicted[i] for i in which})) for kind, which in (("training", others(records, held)), ("held_out", held))
+    }  # fmt: skip
+    return found | ({"effect": rung.effect, "says": rung.says, "numbers": len(rung.numbers)} if rung else {})
 
 
 def main() -> None:
@@ -158,7 +166,7 @@ def main() -> None:
     fitter = Fitter(model)
     with task("ladder"):
         ladder = climbed(fitter, held)
-    fitted = fitter.fit(LADDER, others(records, held))
+    fitted = ladder[-1][1]
     rivals = of_rivals(records, held)
     spread: dict[str, list[Errors]] = {name: [] for name in ("named physics", *RIVALS)}
     for seed in range(options.splits):
@@ -174,12 +182,13 @@ def main() -> None:
         "numbers": {name: dict(zip(("value", "low", "high"), found)) for name, found in intervals(fitted).items()},
         "errors": {"named physics": vars(ours)} | {name: vars(e) for name, e in rivals.items()},
         "fitted_numbers": {"named physics": str(len(fitted.numbers))} | {name: count(name, records) for name in RIVALS},
-        "ladder": [{"effect": rung.effect, "says": rung.says, "numbers": len(rung.numbers), "training": vars(a), "held_out": vars(b)} for rung, a, b in ladder],
+        "ladder": [row_of(rung, records, found.predicted, held) for rung, found in ladder],
         "splits": {name: [vars(e) for e in found] for name, found in spread.items()},
         "orders": by_order(records, fitted),
     }  # fmt: skip
     (options.output / "answer.json").write_text(json.dumps(result, indent=1))
-    save_model(model_file(model, fitted), options.output / "model.toml")
+    steps = steps_of(row_of(None, records, fitter.predict({}), held), result["ladder"])
+    save_model(model_file(model, fitted, steps), options.output / "model.toml")
     curves = {i: (curve(records[i], np.asarray(records[i].values)) / ARCSEC, curve(records[i], fitted.predicted[i]) / ARCSEC) for i in held}
     (options.output / "answer.html").write_text(rendered_sections(page_of(result, records, curves)))
     print(text_of(result))

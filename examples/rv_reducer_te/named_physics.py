@@ -40,8 +40,9 @@ class Rung:
     numbers: tuple[Number, ...]
 
 
+ZERO = "sensor_offset"
 LADDER = (
-    Rung("sensor_offset", "zero of the encoders", (Number("sensor_offset[transmission_error]", 0.0, 0.01),)),
+    Rung(ZERO, "zero of the encoders", (Number("sensor_offset[transmission_error]", 0.0, 0.01),)),
     Rung("support_compliance", "mean over the torque: all springs that it cannot tell apart", (Number("carrier_compliance", 3e-7, 1e-8, 0.0),)),
     Rung("encoder_eccentricity", "order 1, at any load and speed", (Number("encoder_cos1[1]", 0.0, 1e-5), Number("encoder_sin1[1]", 0.0, 1e-5))),
     Rung("friction_windup", "mean: steeper over the torque at creeping speed", (Number("friction_windup", 3e-8, 5e-9, 0.0),)),

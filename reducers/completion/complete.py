@@ -92,7 +92,7 @@ def complete(given: Given) -> Completion:
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
-    return Completion(given, dials, numbers, doubts_of(given, values))
+    return Completion(given, dials, numbers, ring_doubt(values["pin.circle_radius"], given.rated))
 
 
 def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
@@ -206,18 +206,12 @@ def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, 
     return hole, roller
 
 
-def ring_over_torque(radius: float, torque: float) -> float:
-    """Pin circle radius [mm] over the cube root of the torque [N m] in N mm: the dial ``ring_torque``."""
-    return radius / math.cbrt(1e3 * torque)
-
-
-def doubts_of(given: Given, values: Mapping[str, float]) -> list[str]:
-    """What does not fit the rules and yet may be so."""
-    found = []
-    share = ring_over_torque(values["pin.circle_radius"], given.rated)
-    if not TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
-        found.append(
-            f"pin circle radius {values['pin.circle_radius']:.4g} mm is {share:.3g} times the cube root of {given.rated:g} N m in N mm,"
-            f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual: look at rated torque and diameter, and their units"
-        )
-    return found
+def ring_doubt(radius: float, torque: float) -> list[str]:
+    """That a ring of this radius [mm] is unusual for this torque [N m], if it is."""
+    share = radius / math.cbrt(1e3 * torque) if torque else TORQUE_SHARE[0]
+    if TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
+        return []
+    return [
+        f"pin.circle_radius = {radius:.4g} mm is {share:.3g} times the cube root of the torque (rated, output.load_torque) of {torque:.6g} N m in N mm,"
+        f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks): look at both, and at their units"
+    ]  # fmt: skip

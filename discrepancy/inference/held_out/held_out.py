@@ -145,8 +145,7 @@ class HeldOutJudge:
             kept = whitener.kept
             cell["before"].append(float(np.mean((record.values - b)[kept] ** 2)))
             cell["after"].append(float(np.mean((record.values - n)[kept] ** 2)))
-            stream = self.space.noise.streams[whitener.quantity]
-            cell["floor"].append(float(np.mean(whitener.scale**2)) * (1 + sum(stream.patterns.values())))
+            cell["floor"].append(whitener.floor**2)
         return {s: {k: float(np.sqrt(np.mean(v))) for k, v in cell.items()} for s, cell in sums.items()}
 
 

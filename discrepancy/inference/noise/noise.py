@@ -273,9 +273,15 @@ def _whitener(
     scale = np.full(rows, max(level, rounded))
     if stream.proportional:
         scale = np.maximum(level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300)), rounded)
-    names = list(stream.patterns)
+    between = dict(stream.patterns)
+    if record.zero_noise and record.quantity == ORDERS:
+        mean = np.asarray(record.axes["order"])[kept] == 0.0
+        scale[mean] = np.hypot(scale[mean], record.zero_noise)
+    elif record.zero_noise:
+        between["offset"] = between.get("offset", 0.0) + (record.zero_noise / level) ** 2
+    names = list(between)
     patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
-    variances = np.array([stream.patterns[n] for n in names]) if patterns.shape[1] else np.zeros(0)
+    variances = np.array([between[n] for n in names]) if patterns.shape[1] else np.zeros(0)
     return whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
                     np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
                     tuple((key, n) for n in names), key)

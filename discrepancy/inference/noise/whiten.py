@@ -71,7 +71,10 @@ def correlations(position: Floats, length: float) -> Floats:
 
 @dataclass(frozen=True)
 class Whitener:
-    """Whitening of one record: ``kept`` rows, divided by ``scale``, innovations, weights, patterns."""
+    """Whitening of one record: ``kept`` rows, divided by ``scale``, innovations, weights, patterns.
+
+    ``between``: variance of all patterns together, by which whole runs differ, in units of scale^2.
+    """
 
     kept: Mask
     scale: Floats
@@ -84,6 +87,12 @@ class Whitener:
     shrink: Floats
     components: tuple[tuple[str, str], ...]
     quantity: str
+    between: float = 0.0
+
+    @property
+    def floor(self) -> float:
+        """Root mean square of its noise, in units of the record."""
+        return float(np.sqrt(np.mean(self.scale**2) * (1.0 + self.between)))
 
     @property
     def size(self) -> int:
@@ -134,4 +143,5 @@ def whitener(
     owner = np.abs(directions.T @ (inside / np.maximum(np.linalg.norm(inside, axis=0), 1e-300)))
     booked = tuple(components[i] for i in np.argmax(owner, axis=1))
     shrink = 1.0 - 1.0 / np.sqrt(1.0 + np.maximum(values, 0.0))
-    return Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity)
+    return Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity,
+                    float(np.sum(variances)))
