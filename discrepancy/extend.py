@@ -81,7 +81,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     effects = {k: dict(v) for k, v in file.effects.items()}
     numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
     settings_found = dict(file.settings)
-    for candidate in chosen:
+    for candidate in fit.candidates:
         if candidate.part == BASE:
             # A number of the reducer file that was assumed: from now on as it was measured.
             settings_found |= {p.name: float(fit.fit.values[p.name]) for p in candidate.parameters}

@@ -15,7 +15,8 @@ from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_exp
 from discrepancy.inference.noise.correlation import autoregression_of
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.refit.refits import Refits
-from discrepancy.inference.screening.screen import cone_statistic
+from discrepancy.inference.screening.screen import Block, Columns, cone_statistic
+from discrepancy.inference.screening.seen import only_seen
 from discrepancy.problem import Candidate, Parameter, Record
 
 
@@ -180,3 +181,17 @@ def test_each_line_of_a_spectrum_is_looked_at_by_itself():
     assert found["orders: sun"].sum() == 2.0
     seen = np.hstack([columns for name, columns in found.items() if name.startswith("order")])
     assert np.count_nonzero(seen.sum(axis=1)) == 381, "every whole order up to 400"
+
+
+def test_amplitudes_that_a_campaign_cannot_see_are_left_off():
+    """An order that no table has would else be sent to its bounds; what has a fit already keeps what it had."""
+    cos1, cos2 = (Parameter(name, "rad", 0.0, -1e-2, 1e-2, 2e-5) for name in ("cos1", "cos2"))
+    play = Parameter("play", "m", 0.0, 0.0, 1e-4, 1e-6, sign=1)
+    wave, none = np.full(50, 3.0), np.full(50, 1e-12)
+    candidates = [Candidate("eccentricity", "", (cos1, cos2)), Candidate("play", "", (play,))]
+    columns = Columns(np.column_stack([wave, none, none]), (Block(0, {}, slice(0, 2), (0, 0)), Block(1, {}, slice(2, 3), (1,))))
+    reduced, seen = only_seen(candidates, columns, {})
+    assert [c.amplitudes for c in reduced] == [(cos1,), (play,)]
+    assert seen.values.shape == (50, 2) and [(b.columns, b.signs) for b in seen.blocks] == [(slice(0, 1), (0,)), (slice(1, 2), (1,))]
+    again, whole = only_seen(candidates, columns, {"eccentricity": candidates[0]})
+    assert again == candidates and whole.values.shape == (50, 3)

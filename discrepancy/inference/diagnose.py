@@ -15,6 +15,7 @@ from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bou
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
+from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
@@ -56,6 +57,8 @@ class Diagnostician:
         self.started = time.perf_counter()
         self.space = Workspace(model)
         self.candidates = list(model.candidates)
+        # Candidates as far as the campaign can see them.
+        self.seen: dict[str, Candidate] = {}
         # Said if it is interrupted.
         self.doing = "fitting the base model"
         self.refits = Refits(self.space, self.candidates)
@@ -80,7 +83,10 @@ class Diagnostician:
         self.chosen = self.candidates if candidates is None else list(candidates)
         fit, exclude = (self.space.base, []) if beside is None else (beside.fit, [c.name for c in beside.candidates])
         with self.space.predictions.roughly():
-            self.columns = candidate_columns(self.space, self.chosen, fit.values)
+            columns = candidate_columns(self.space, self.chosen, fit.values)
+        self.chosen, self.columns = only_seen(self.chosen, columns, self.seen)
+        self.seen |= {c.name: c for c in self.chosen}
+        self.refits.by_name |= self.seen
         self.screening = screen(self.space, self.chosen, self.columns, fit, self.settings.seed, self.settings.draws, exclude)
         self.refits.scores = {**self.refits.scores, **{s.name: s for s in self.screening.scores}}
         return self.screening

@@ -243,6 +243,6 @@ class Selection:
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
-        rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s]), chosen)
         near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member) + self.refits.gained_in_earnest(final)
+        rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
         return [self.refits.renewed(r) if r.fit.chi2 < near else r for r in rivals]

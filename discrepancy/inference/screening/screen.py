@@ -140,10 +140,12 @@ def _opposite(space: Workspace, candidate: Candidate, at: Mapping[str, float], w
 
 def _reach(candidate: Candidate, block: Floats) -> float:
     """Size, in noise units, of the effect at the bounds of its parameters."""
-    return max(
-        float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
-        for p, column in zip(candidate.amplitudes, block.T)
-    )
+    return max(reach(p, column) for p, column in zip(candidate.amplitudes, block.T))
+
+
+def reach(p: Parameter, column: Floats) -> float:
+    """Size, in noise units, of what an amplitude does at the further of its bounds."""
+    return float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
 
 
 def _step(p: Parameter, size: float) -> float:
