@@ -23,6 +23,8 @@ ERROR, ORDERS = "transmission_error", "transmission_order"
 WITH_ZERO = (*FREE_ZERO, ORDERS)
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
 BASE = "base"
+# ``part`` of an error of the instruments and not of the reducer.
+CHAIN = "chain"
 
 
 @contextmanager

@@ -7,7 +7,7 @@ import pytest
 
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.judgement import against
-from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible
+from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible, unsettled
 from discrepancy.inference.refit.starts import halved
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
 from discrepancy.problem import Candidate, Parameter
@@ -45,11 +45,11 @@ class Rival:
         return [p for c in self.candidates for p in c.parameters]
 
 
-def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None, known=0.1):
+def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None, known=0.1, part="plant"):
     amplitude = Parameter(f"{name}_size", "1", 0.0, -1e3, 1e3, scale)
     shapes = () if shape is None else (Parameter(f"{name}_shape", "1", 1.0, 0.1, 100.0, 1.0),)
     values = {f"{name}_size": size} | ({} if shape is None else {f"{name}_shape": shape})
-    return Rival(name, Fit(chi2, values, bounds, [amplitude, *shapes]), candidates=(Candidate(name, name, (amplitude,), shapes),), known=known)
+    return Rival(name, Fit(chi2, values, bounds, [amplitude, *shapes]), candidates=(Candidate(name, name, (amplitude,), shapes, part=part),), known=known)
 
 
 def names(rivals):
@@ -85,6 +85,26 @@ def test_effects_with_unknown_shapes_that_fit_equally_well_are_told_together():
     """Two depths: neither when grease aged nor by which power wear grew is known, and nothing simpler comes near."""
     aged, grown, gain = rival("aged", 99.0, shape=5.0, known=30.0), rival("grown", 99.2, shape=5.0, known=30.0), rival("gain", 125.0)
     assert names([aged, grown, gain]) == ["aged", "grown"]
+
+
+def left_open(final, *rivals):
+    return [r.name for r in unsettled(rivals, [final], final)]
+
+
+def test_what_is_as_well_supported_but_for_a_bound_stays_in_the_set():
+    wear = rival("wear grows", 100.0)
+    assert left_open(wear, rival("starved", 99.0, shape=99.9)) == ["starved"]
+    assert left_open(wear, rival("starved", 100.5, shape=99.9)) == []
+    assert left_open(wear, rival("starved", 99.0, shape=5.0, known=30.0)) == ["starved"]
+
+
+def test_what_puts_the_cause_elsewhere_stays_in_the_set_over_the_whole_margin():
+    """Drag that knows no temperature is a constant, as a wrong zero is: no measurement of that campaign tells instrument from seal."""
+    offset = rival("offset", 100.0, part="chain")
+    assert left_open(offset, rival("drag", 100.0, shape=99.9)) == ["drag"]
+    assert left_open(offset, rival("gain", 101.0, shape=99.9, part="chain")) == []
+    assert left_open(offset, rival("drag", 105.0, shape=99.9)) == []
+    assert left_open(offset, rival("base.stiffness", 99.0, part="base")) == []
 
 
 def judged(before, after, p=0.5):

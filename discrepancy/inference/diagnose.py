@@ -11,15 +11,15 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement, against, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
-from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised
+from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import Teller
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, STOPPED, UNKNOWN, Diagnosis, Settings, decide
-from discrepancy.problem import BASE, Candidate, Model
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
+from discrepancy.problem import BASE, CHAIN, Candidate, Model
 from fmu_src.progress import say
 
 # Level of what is gained in earnest: far from that of the screening, which is the test.
@@ -153,6 +153,7 @@ class Diagnostician:
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = min((e.dof for e in estimates(self.space, final)), default=1e6)
         alternatives: dict[str, list[str]] = {}
+        open_ones: list[Refit] = []
         # What is left speaks for none of the rivals; it may have hidden no more than all of it.
         widened = min(inflation, 1.0 + size / settings.margin) if over else 1.0
         if len(final.candidates) == 1:
@@ -162,6 +163,8 @@ class Diagnostician:
             if final not in members:
                 members.insert(0, final)
             members += selection.adequate(rivals, members)
+            open_ones = unsettled(rivals, members, final, settings.margin)
+            members += open_ones
         else:
             members = [final]
             for c in final.candidates:
@@ -176,7 +179,7 @@ class Diagnostician:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
         judgement.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
-        one_sensor = all(c.part == "chain" for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
+        one_sensor = all(c.part == CHAIN for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
         named = sum(c.part != BASE for c in final.candidates)
         verdict, reason = decide(True, by_place, named, len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
         if verdict == BASE_OFF:
@@ -184,9 +187,8 @@ class Diagnostician:
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
-        level = [r.name for r in rivals if r not in members and penalised(r) - penalised(final) <= settings.margin]
-        if verdict == ONE and level:
-            reason = f"one effect explains the misfit; as good, but with a value at a bound or one that this campaign says nothing about: {', '.join(level)}"
+        if verdict in (ONE, SET) and open_ones:
+            reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.

@@ -5,7 +5,7 @@ from itertools import product
 
 from discrepancy.effects import MODULES
 from discrepancy.model_file import every_effect, halves_of
-from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
+from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
 
@@ -68,7 +68,7 @@ def candidates(
     beyond = {f"{part} {k}" for part in ("crank", "hole") for k in range(cranks + 1, MOST_CRANKS + 1)}
     found = []
     for name, effect in every_effect().items():
-        part = "chain" if name in MODULES else "plant" if name in PLANT else "wear"
+        part = CHAIN if name in MODULES else "plant" if name in PLANT else "wear"
         halves = [half for half in halves_of(name) if set(shown_by(half)) & set(quantities)]
         if len(halves) == 1:
             # Of the other half nothing shows: its parameters would stay where they are, its shapes are no shapes here.
@@ -76,7 +76,7 @@ def candidates(
         signals = shown_by(effect)
         if (signals and not set(signals) & set(quantities)) or not there[effect.needs]:
             continue
-        if part == "chain":
+        if part == CHAIN:
             # Where nobody knows a zero an offset shows nothing.
             # Nor in orders without the mean.
             known = {r.quantity for r in records if (r.zero_known if r.quantity == ORDERS else not r.free_zero)}
@@ -124,12 +124,12 @@ def chain_candidates(
     if per == "mounting":
         amplitudes = tuple(parameter_of(p, 0.0, called(p, m)) for m in places for p in effect.amplitudes())
         taken = any(a.name in taken_names for a in amplitudes)
-        return [] if taken else [Candidate(name, effect.title, amplitudes, (), (), signals, "chain")]
+        return [] if taken else [Candidate(name, effect.title, amplitudes, (), (), signals, CHAIN)]
     return [
         Candidate(
             f"{name}.{place}" if place else name, f"{effect.title}: {place}" if place else effect.title,
             tuple(parameter_of(p, 0.0, called(p, place)) for p in effect.amplitudes()), *shapes(place),
-            SHOWN_BY.get(place, (place,)) if place else signals, "chain",
+            SHOWN_BY.get(place, (place,)) if place else signals, CHAIN,
         )
         for place in places if not any(called(p, place) in taken_names for p in effect.amplitudes())
     ]  # fmt: skip

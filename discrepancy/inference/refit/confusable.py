@@ -8,7 +8,7 @@ from scipy.special import ndtr, stdtrit
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import UNDETERMINED, Refit
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.problem import BASE, CHAIN, Candidate, Parameter
 from fmu_src.arrays import Floats
 
 MARGIN = 6.0
@@ -23,6 +23,8 @@ IDLE = 0.25
 """A shape known no better than this share of its whole range, in the logarithm, is not known."""
 NEAR = 0.01
 """Share of a parameter's range in the logarithm that counts as its bound."""
+SUPPORTED = 2.0
+"""Within this of the best, price of the parameters included, a model is as well supported (Burnham and Anderson 2002)."""
 FORM = 5e-4
 """Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
 
@@ -94,6 +96,23 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
         margin = stdtrit(max(dof, 2.0), ndtr(-np.sqrt(margin))) ** 2
     near = [r for r in inside if penalised(r) - penalised(best) <= margin * max(1.0, inflation)]
     return near if best in near else [best, *near]
+
+
+def unsettled(rivals: Sequence[Refit], members: Sequence[Refit], final: Refit, margin: float = MARGIN) -> list[Refit]:
+    """Effects that are no plain members, for a value ends at a bound or is told by nothing, but cannot be left out of a set either.
+
+    Mostly such a fit is a simpler effect in disguise (a seat that never slips is a spring); it stands beside that one where the data
+    support it as well, or where it puts the cause elsewhere: into the reducer and not into the instruments, or the other way round.
+    """
+    part = final.candidates[0].part
+    found = []
+    for r in rivals:
+        other = r.candidates[0].part
+        if r not in members and BASE not in (part, other):
+            elsewhere = (part == CHAIN) != (other == CHAIN)
+            if penalised(r) - penalised(final) <= (margin if elsewhere else SUPPORTED):
+                found.append(r)
+    return found
 
 
 def canonical_correlation(space: Workspace, a: Refit, b: Refit) -> float:
