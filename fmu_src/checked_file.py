@@ -165,7 +165,7 @@ def read(place: Path, mark: bytes) -> bytes | None:
             content = file.read()
         # Its age says when it was last of use.
         os.utime(place)
-        return unchecked(content, mark, place)
+        return unchecked(content, named(mark, place), place)
     except (OSError, Damaged):
         return None
 
@@ -173,4 +173,9 @@ def read(place: Path, mark: bytes) -> bytes | None:
 def write(place: Path, mark: bytes, content: bytes) -> None:
     """At once or not at all; a folder that cannot be written, or a full disk, ends nothing."""
     with contextlib.suppress(InputFault, RunFault), replacing(place) as partial:
-        partial.write_bytes(checked(content, mark))
+        partial.write_bytes(checked(content, named(mark, place)))
+
+
+def named(mark: bytes, place: Path) -> bytes:
+    """A mark that holds for one name alone: an entry under another's name, however sound, is foreign there."""
+    return mark + place.name.encode() + b"\n"

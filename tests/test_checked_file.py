@@ -171,6 +171,18 @@ def test_checked_content_is_told_from_damaged(tmp_path):
             checked_file.unchecked(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :], b"mark\n", tmp_path)
 
 
+def test_a_cached_entry_under_another_name_is_foreign(tmp_path):
+    """Two swapped entries of object code, each of them sound, ran in each other's place."""
+    for name in ("plant", "wear"):
+        checked_file.write(tmp_path / name, b"mark\n", name.encode())
+    plant, wear = ((tmp_path / name).read_bytes() for name in ("plant", "wear"))
+    (tmp_path / "plant").write_bytes(wear)
+    (tmp_path / "wear").write_bytes(plant)
+    assert [checked_file.read(tmp_path / name, b"mark\n") for name in ("plant", "wear")] == [None, None]
+    checked_file.write(tmp_path / "plant", b"mark\n", b"anew")
+    assert checked_file.read(tmp_path / "plant", b"mark\n") == b"anew"
+
+
 def rvwear(*words: object, **more: object) -> "subprocess.Popen[str]":
     return subprocess.Popen([sys.executable, "-m", "cli", *map(str, words)], env=os.environ | {"PYTHONPATH": str(ROOT)}, text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more)  # fmt: skip

@@ -16,15 +16,20 @@ from typing import Any
 from benchmarks.blind_trial.answers import Answer, read_answers, seals_of, write_answers
 from benchmarks.blind_trial.publish_open import CAMPAIGNS
 from benchmarks.blind_trial.score import effect_of
-from benchmarks.blind_trial.words import NONE, ONE, SEVERAL
+from benchmarks.blind_trial.words import NONE, ONE, SEVERAL, UNKNOWN
 from fmu_src.faults import InputFault
 
 RVWEAR = "rvwear diagnose"
-PEERS = ("BIC, white noise", "PEtab Select, forward by AIC", "PEtab Select, forward by BIC", "PySINDy STLSQ")
+PEERS = (
+    "BIC, white noise", "PEtab Select, forward by AIC", "PEtab Select, forward by BIC", "PySINDy STLSQ", "sbi, misspecification by MMD",
+    "sbi, misspecification by density",
+)  # fmt: skip
 
 
 def by_names(names: Sequence[str]) -> Answer:
-    """The answer of a method that can only name terms: none, one, or several of them."""
+    """The answer of a method that can only name terms, none, one or several, or only say that something is missing."""
+    if list(names) == [UNKNOWN]:
+        return {"verdict": UNKNOWN, "effects": []}
     found = list(dict.fromkeys(map(effect_of, names)))
     return {"verdict": NONE if not found else ONE if len(found) == 1 else SEVERAL, "effects": [{"name": n} for n in found]}
 
@@ -48,7 +53,7 @@ def answer_of(method: str, folder: Path) -> Answer | None:
 
     named = peers_of(folder, [method])
     if method not in named and "error" not in named:
-        raise InputFault(f"{method}: its package is not installed; pip install pysindy petab-select")
+        raise InputFault(f"{method}: its package is not installed; pip install pysindy petab-select sbi")
     return by_names(named[method]) if method in named else None
 
 

@@ -1,89 +1,24 @@
-"""The same campaigns put through methods that others use: BIC with white noise, PySINDy, selection as PEtab Select does it.
+"""The same campaigns put through methods that others use: BIC with white noise, PySINDy, selection as PEtab Select does it, sbi's tests.
 
 All get the residual of the calibrated base model and the same library: the response of every candidate at
-every shape of its grid, by finite differences.  None of them knows the noise from replicates.
+every shape of its grid, by finite differences.  Those that name terms do not know the noise from replicates; sbi's tests, which
+name nothing, do (``misspecified.py``).
 """
 
 import contextlib
 import tempfile
 import time
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.blind_trial.tool import model_of
-from discrepancy.campaign.load import load_campaign
-from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Record
+from benchmarks.blind_trial import misspecified
+from benchmarks.blind_trial.library import Library, Owners, library_of
 from fmu_src.arrays import Floats
 
 MOST_TERMS = 5
-# Of every candidate the numbers of its columns.
-Owners = list[tuple[str, list[int]]]
-
-
-def library(folder: Path) -> tuple[Floats, Floats, Floats, Owners]:
-    """(residual, nuisance columns, columns, [(candidate, its columns)]), quantities scaled to one residual size."""
-    campaign = load_campaign(folder)
-    model = PhysicalModel(model_of(campaign), campaign)
-    which = [i for i, r in enumerate(model.records) if not r.held_out]
-    records = [model.records[i] for i in which]
-    values = {p.name: p.off for p in model.nuisances}
-    quantities = [r.quantity for r in records]
-
-    def stack(arrays: Iterable[Floats]) -> Floats:
-        return np.concatenate([np.asarray(a, np.float64) for a in arrays])
-
-    def difference(change: dict[str, float], base: list[Floats]) -> Floats:
-        return stack([a - b for a, b in zip(model.predict({**values, **change}, which), base)])
-
-    measured = stack([r.values for r in records])
-    nuisances = []
-    for _ in range(2):
-        base = model.predict(values, which)
-        residual = measured - stack(base)
-        nuisances = [difference({p.name: values[p.name] + 0.01 * p.scale}, base) / (0.01 * p.scale) for p in model.nuisances]
-        if not nuisances:
-            break
-        scale = np.array([p.scale for p in model.nuisances])
-        weights = weights_of(residual, quantities, records)
-        shift = np.linalg.lstsq(np.column_stack(nuisances) * scale * weights[:, None], residual * weights, rcond=None)[0] * scale
-        values = {p.name: float(np.clip(values[p.name] + s, p.lower, p.upper)) for p, s in zip(model.nuisances, shift)}
-    base = model.predict(values, which)
-    residual = measured - stack(base)
-    weights = weights_of(residual, quantities, records)
-    columns: list[Floats] = []
-    owners: Owners = []
-    for c in (c for c in model.candidates if c.part != BASE):
-        own = []
-        for shapes in c.shape_grid or ({},):
-            for p in c.amplitudes:
-                step = 0.1 * p.scale * (-1.0 if p.sign < 0 else 1.0)
-                column = difference({**shapes, p.name: p.off + step}, base) * weights
-                size = np.linalg.norm(column)
-                if size > 1e-9:
-                    own.append(len(columns))
-                    columns.append(column / size)
-        if own:
-            owners.append((c.name, own))
-    ok = np.isfinite(residual)
-    free = np.column_stack(nuisances)[ok] * weights[ok, None] if nuisances else np.zeros((ok.sum(), 0))
-    return (residual * weights)[ok], free, np.column_stack(columns)[ok], owners
-
-
-def weights_of(residual: Floats, quantities: Sequence[str], records: Sequence[Record]) -> Floats:
-    """One over the size of the residual of a record's quantity: no quantity outweighs another by its unit."""
-    sizes: dict[str, float] = {}
-    parts: dict[str, list[Floats]] = {}
-    start = 0
-    for q, r in zip(quantities, records):
-        parts.setdefault(q, []).append(residual[start : start + len(r.values)])
-        start += len(r.values)
-    for q, found in parts.items():
-        sizes[q] = float(np.nanstd(np.concatenate(found))) or 1.0
-    return np.concatenate([np.full(len(r.values), 1.0 / sizes[q]) for q, r in zip(quantities, records)])
 
 
 def squares(residual: Floats, columns: Floats) -> float:
@@ -189,28 +124,30 @@ def write_problem(folder: Path, parameters: list[str], kind: str) -> Path:
     return path
 
 
-Method = Callable[[Floats, Floats, Floats, Owners], list[str]]
+Method = Callable[[Library], list[str]]
 # What of each is not installed is left out.
 METHODS: dict[str, Method] = {
-    "BIC, white noise": lambda residual, free, columns, owners: forward(residual, free, columns, owners, "BIC", 1),
-    "PEtab Select, forward by AIC": lambda residual, free, columns, owners: petab(residual, free, columns, owners, "AIC"),
-    "PEtab Select, forward by BIC": lambda residual, free, columns, owners: petab(residual, free, columns, owners, "BIC"),
-    "PySINDy STLSQ": sparse,
+    "BIC, white noise": lambda given: forward(given.residual, given.nuisances, given.columns, given.owners, "BIC", 1),
+    "PEtab Select, forward by AIC": lambda given: petab(given.residual, given.nuisances, given.columns, given.owners, "AIC"),
+    "PEtab Select, forward by BIC": lambda given: petab(given.residual, given.nuisances, given.columns, given.owners, "BIC"),
+    "PySINDy STLSQ": lambda given: sparse(given.residual, given.nuisances, given.columns, given.owners),
+    "sbi, misspecification by MMD": misspecified.by_discrepancy,
+    "sbi, misspecification by density": misspecified.by_density,
 }
 
 
 def peers_of(folder: Path, methods: Iterable[str] = METHODS) -> dict[str, list[str]]:
-    """Names by method, best first; empty: nothing is missing."""
+    """Names by method, best first; empty: nothing is missing; ``UNKNOWN`` alone: something is, said without a name."""
     started = time.perf_counter()
     found: dict[str, list[str]] = {}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            given = library(folder)
+            given = library_of(folder)
         except Exception as problem:  # noqa: BLE001
             return {"error": [str(problem)[:200]]}
         for name in methods:
             with contextlib.suppress(ImportError):
-                found[name] = METHODS[name](*given)
+                found[name] = METHODS[name](given)
     found["seconds"] = [f"{time.perf_counter() - started:.1f}"]
     return found

@@ -7,16 +7,29 @@ from typing import Any
 
 from benchmarks.blind_trial.criteria import CRITERIA
 from benchmarks.blind_trial.score import counted
-from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, PROPOSED, RANDOM, RESULTS, SEALS
+from benchmarks.blind_trial.words import ABOUT, BESIDE, EXPERIMENTS, PROPOSED, RANDOM, RESULTS, SEALS
 
 # Who chooses an experiment.
 KINDS = (PROPOSED, RANDOM, *CRITERIA)
 
 
 def finished(folder: Path) -> dict[int, dict[str, Any]]:
-    """Results so far; a last line that was cut off is ignored."""
+    """Results so far, with what peers said afterwards."""
+    found = by_number(folder / RESULTS)
+    for number, peers in peers_in(folder).items():
+        if number in found:
+            found[number]["peers"] = peers
+    return found
+
+
+def peers_in(folder: Path) -> dict[int, dict[str, list[str]]]:
+    """What the peers said of campaigns of a trial after it, by number."""
+    return {number: line["peers"] for number, line in by_number(folder / BESIDE).items()}
+
+
+def by_number(path: Path) -> dict[int, dict[str, Any]]:
+    """The lines of a file; a last one that was cut off is ignored."""
     found = {}
-    path = folder / RESULTS
     if path.is_file():
         for line in path.read_text(encoding="utf-8").splitlines():
             try:

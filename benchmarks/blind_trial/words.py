@@ -7,4 +7,4 @@ NONE, ONE, SET, SEVERAL, INCOMPLETE, UNKNOWN, CRASH = (
 # Who chooses an experiment, beside the criteria of the literature.
 PROPOSED, RANDOM = "proposed", "random"
 # Files in a trial's folder.
-RESULTS, SEALS, ABOUT, EXPERIMENTS = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl"
+RESULTS, SEALS, ABOUT, EXPERIMENTS, BESIDE = "results.jsonl", "seals.txt", "about.json", "experiments.jsonl", "peers.jsonl"
