@@ -5,7 +5,7 @@ import pytest
 
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.noise.outliers import usable
-from discrepancy.inference.noise.whiten import whitener
+from discrepancy.inference.noise.whiten import SLOW, whitener
 from discrepancy.problem import Record
 
 
@@ -150,3 +150,34 @@ def test_a_zero_that_jumps_from_run_to_run_counts_for_what_it_says():
                       zero_known=True, zero_noise=0.4) for k in range(3)]  # fmt: skip
     table = estimate(records, [np.zeros(5)] * 3, [np.zeros(5)] * 3).whiteners[0]
     assert np.allclose(table.scale, [0.5, 0.3, 0.3, 0.3, 0.3])
+
+
+def test_slow_noise_of_few_short_runs_is_known_little():
+    """Two pairs of 48 samples that forget over ten: their slow waves are known far less than quick ones."""
+    rng = np.random.default_rng(4)
+    x = np.arange(48.0)
+    records, residuals = [], []
+    for c in range(2):
+        for k in range(2):
+            state, e = rng.standard_normal(), np.zeros(48)
+            for i in range(48):
+                state = 0.9 * state + np.sqrt(0.19) * rng.standard_normal()
+                e[i] = state
+            records.append(Record(f"{c}{k}", "te", "1", str(c), k, e, {"angle": x}, {}))
+            residuals.append(e)
+    noise = estimate(records, residuals, [np.zeros(48)] * 4)
+    stream, mapped = noise.streams["te"], noise.whiteners[0]
+    assert stream.dof[SLOW] == pytest.approx(96 / 2 * np.tanh(0.5 / stream.length)) and stream.dof[SLOW] < 10.0 < stream.dof["main"]
+    slow = [k for k, component in enumerate(mapped.components) if component == ("te", SLOW)]
+    basis = mapped.directions
+    assert np.allclose(basis.T @ basis, np.eye(basis.shape[1]), atol=1e-9)
+    # They are only booked apart: the map is what it was.
+    assert np.all(mapped.shrink[slow] == 0.0)
+    wave = mapped(np.cos(2 * np.pi * x / 48))
+    assert np.sum((basis.T @ wave) ** 2) > 0.8 * np.sum(wave**2)
+
+
+def test_many_samples_leave_slow_noise_as_well_known_as_any():
+    rng = np.random.default_rng(1)
+    records, residuals = replicated(rng, 0.8, 1.0)
+    assert SLOW not in estimate(records, residuals, [np.zeros(400)] * len(records)).streams["te"].dof

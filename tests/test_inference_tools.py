@@ -12,7 +12,7 @@ from discrepancy.inference.law.closed_forms import propose
 from discrepancy.inference.law.splines import additive
 from discrepancy.inference.misfit.features import features
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
-from discrepancy.inference.noise.correlation import autoregression_of
+from discrepancy.inference.noise.correlation import autoregression_of, trend_of
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic
@@ -71,7 +71,7 @@ def test_autoregression_leaves_no_resonance():
         for i in range(2, 500):
             y[i] = 2 * 0.85 * np.cos(2 * np.pi * 0.07) * y[i - 1] - 0.85**2 * y[i - 2] + white[i] + 0.4 * white[i - 1]
         series.append(y / y.std())
-    taps = autoregression_of(series)
+    taps = autoregression_of(series, [np.ones((500, 1))] * 4, [1.0] * 4)
     left = []
     for y in series:
         e = y.copy()
@@ -80,6 +80,15 @@ def test_autoregression_leaves_no_resonance():
         left.append(np.abs(np.fft.rfft(e[20:] / taps[-1])) ** 2 / 480)
     bands = np.mean(left, axis=0)[1:241].reshape(12, 20).mean(axis=1)
     assert np.all(np.abs(bands - 1.0) < 0.4)
+
+
+def test_short_runs_without_their_trends_are_white():
+    """Forty runs of white noise that lack level and slope: their neighbours go together less than not at all, and no tap is made of that."""
+    rng = np.random.default_rng(2)
+    trend = trend_of(np.arange(48.0))
+    basis = np.linalg.qr(trend)[0]
+    series = [e - basis @ (basis.T @ e) for e in rng.standard_normal((40, 48))]
+    assert autoregression_of(series, [trend] * 40, [1.0] * 40).size == 0
 
 
 def test_additive_splines_find_each_component():

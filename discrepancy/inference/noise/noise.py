@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values
+from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values, trend_of
 from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
 from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
 from discrepancy.inference.noise.series import fast_part, path_of, position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
-from discrepancy.inference.noise.whiten import Whitener, autoregress, correlations, gains, innovations, whitener
+from discrepancy.inference.noise.whiten import SLOW, Whitener, autoregress, correlations, gains, innovations, slow_waves, whitener
 from discrepancy.problem import ORDERS, Record
 from discrepancy.repetitions import outlying
 from discrepancy.rounding import noise_of, step_of
@@ -31,6 +31,8 @@ UNSEEN = {"offset": 0.25, "drift": 0.1}
 """By what runs differ where none is repeated (assumed: half and a third of the noise): a drifting zero of one run proves nothing."""
 SPECTRUM_DOF = 100.0
 """Of a signal's noise, however long: its spectrum is a fitted form, known at single orders to a seventh."""
+FEW = 50.0
+"""Degrees of freedom of the slow part of the noise from which on it counts as known."""
 KNOWN = 1e6
 
 
@@ -165,11 +167,14 @@ def _signals(
         length, nugget = correlation_of(deviations, [np.clip(v / (robust_scale(v) + 1e-300), -4, 4) for v in detrended])
     else:
         length, nugget = 0.0, 0.0
-    inside = []
+    inside, trends = [], []
     for d, v in zip(deviations, detrended):
         rho = correlations(d.position, length)
-        inside.append(innovations(v[:, None], rho, *gains(rho, nugget))[:, 0])
-    taps = autoregression_of([e / max(robust_scale(e), 1e-300) for e in inside]) if replicated else np.zeros(0)
+        whole = innovations(np.column_stack([v, trend_of(d.position)]), rho, *gains(rho, nugget))
+        inside.append(whole[:, 0])
+        trends.append(whole[:, 1:])
+    shares = [d.share for d in deviations]
+    taps = autoregression_of([e / max(robust_scale(e), 1e-300) for e in inside], trends, shares) if replicated else np.zeros(0)
     inside = [autoregress(e[:, None], taps)[:, 0] for e in inside]
     # scale by condition, drawn towards the common one
     common = np.median([robust_scale(e) for e in inside])
@@ -183,7 +188,9 @@ def _signals(
         scales[condition] = np.sqrt((dof * variance + 20 * common**2) / (dof + 20))
     scale = float(np.sqrt(np.mean(np.square(list(scales.values())))))
     source = "replicates"
-    known = min(sum(d.share * d.values.size for d in deviations), SPECTRUM_DOF)
+    # Of a spectrum by a form of so many numbers (Berk 1974): the level at a frequency errs in its logarithm by a variance of 2 numbers/n.
+    numbers = 1 + max(taps.size - 1, 0) + (nugget > 0.0)
+    known = min(sum(d.share * d.values.size for d in deviations) / numbers, SPECTRUM_DOF)
     if not replicated:
         stated = _stated(records, indices)
         if stated:
@@ -199,11 +206,26 @@ def _signals(
     base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail)
     if replicated:
         patterns, between = pattern_variances(base, deviations, predictions)
+        between |= known_of_slow(deviations, length)
     else:
         patterns, between = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
     stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **between}, source, tail)
     weights = _weights(stream, deviations if replicated else [], records, residuals, masks, indices)
     return stream, weights, note
+
+
+def known_of_slow(deviations: Sequence[Deviation], length: float) -> dict[str, float]:
+    """Degrees of freedom of waves that are slower than noise of this correlation ``length`` forgets; none where there are many.
+
+    The level at no frequency of a first-order autoregression, 1/(1 - c)^2, errs in its logarithm by a variance of 4 (1 + c)/((1 - c) n), for
+    that of c is (1 - c^2)/n; a variance of so many degrees of freedom errs by two over them.
+    """
+    dof = sum(d.share * d.values.size * np.tanh(0.5 * _spacing(d.position) / max(length, 1e-300)) for d in deviations) / 2.0
+    return {SLOW: max(float(dof), 1.0)} if dof < FEW else {}
+
+
+def _spacing(position: Floats) -> float:
+    return float(np.median(np.abs(np.diff(position))))
 
 
 def _tail_variance(e: Floats) -> float:
@@ -284,4 +306,4 @@ def _whitener(
     variances = np.array([between[n] for n in names]) if patterns.shape[1] else np.zeros(0)
     return whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
                     np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
-                    tuple((key, n) for n in names), key)
+                    tuple((key, n) for n in names), key, slow_waves(position, max(stream.length, _spacing(position))) if SLOW in stream.dof and rows >= SHORT else None)

@@ -5,17 +5,24 @@ exp(-|dx|/length), a share ``nugget`` of the variance being white), passed throu
 autoregression ``taps``, plus random run-wide amounts of ``patterns`` (offset, drift, gain).
 The AR1 part is whitened by the innovations of its Kalman filter, the patterns by a correction
 of low rank.  The ``directions`` of the patterns in whitened space are kept: their variance is
-known from few replicates only, so tests must give them few degrees of freedom.
+known from few replicates only, so tests must give them few degrees of freedom.  So are those of
+the slowest waves where noise is slow (``slow_waves``): of these, too, there were few.
 """
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fmu_src.arrays import Floats, Mask
 from fmu_src.kernel import kernel
+
+
+# The part of the noise that is slower than it forgets.
+SLOW = "slow"
+# Share of a wave that is no pattern.
+OWN = 0.1
 
 
 @kernel
@@ -124,15 +131,18 @@ def autoregress(columns: Floats, taps: Floats) -> Floats:
 
 def whitener(
     kept: Mask, scale: Floats, position: Floats, length: float, nugget: float, taps: Floats, weight: Floats, patterns: Floats,
-    variances: Floats, components: Sequence[tuple[str, str]], quantity: str,
+    variances: Floats, components: Sequence[tuple[str, str]], quantity: str, slow: Floats | None = None,
 ) -> Whitener:  # fmt: skip
-    """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale)."""
+    """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale).
+
+    ``slow`` (n, m): waves that are booked on the component "slow".
+    """
     correlation = correlations(position, length)
     gain, deviation = gains(correlation, nugget)
     plain = Whitener(kept, scale, correlation, gain, deviation, taps, weight,
                      np.zeros((scale.size, 0)), np.zeros(0), (), quantity)
     if not patterns.shape[1]:
-        return plain
+        return with_slow(plain, slow)
     whole = np.zeros((kept.size, patterns.shape[1]))
     whole[kept] = patterns * scale[:, None]
     inside = plain(whole)
@@ -143,5 +153,28 @@ def whitener(
     owner = np.abs(directions.T @ (inside / np.maximum(np.linalg.norm(inside, axis=0), 1e-300)))
     booked = tuple(components[i] for i in np.argmax(owner, axis=1))
     shrink = 1.0 - 1.0 / np.sqrt(1.0 + np.maximum(values, 0.0))
-    return Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity,
-                    float(np.sum(variances)))
+    patterned = Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity,
+                         float(np.sum(variances)))
+    return with_slow(patterned, slow)
+
+
+def slow_waves(position: Floats, length: float) -> Floats:
+    """(n, m) half waves over a run that are slower than noise of this correlation ``length`` forgets."""
+    span = float(np.ptp(position)) or 1.0
+    waves = np.arange(1, int(span / (math.pi * length)) + 2)
+    return np.cos(math.pi * np.outer((position - position.min()) / span, waves))
+
+
+def with_slow(plain: Whitener, slow: Floats | None) -> Whitener:
+    """The same map, which keeps the directions of ``slow`` waves apart too."""
+    if slow is None:
+        return plain
+    whole = np.zeros((plain.kept.size, slow.shape[1]))
+    whole[plain.kept] = slow * plain.scale[:, None]
+    inside = plain.weight[:, None] * plain.innovate(whole)
+    inside /= np.maximum(np.linalg.norm(inside, axis=0), 1e-300)
+    inside -= plain.directions @ (plain.directions.T @ inside)
+    basis, values, _ = np.linalg.svd(inside, full_matrices=False)
+    basis = basis[:, values > OWN]
+    return replace(plain, directions=np.hstack([plain.directions, basis]), shrink=np.append(plain.shrink, np.zeros(basis.shape[1])),
+                   components=(*plain.components, *[(plain.quantity, SLOW)] * basis.shape[1]))
