@@ -90,6 +90,8 @@ CAMPAIGN = {
     "Run.missing": "values that stand for nothing measured", "Run.average": "means of rows", "Run.per_turn": "even steps a turn",
     "Run.orders": "orders that are made of the curve", "Run.window": "of the curve", "Run.convention": "what a table of orders means",
     "QuantityEntry.zero": "whether the zero is known",
+    "QuantityEntry.angle_of": "whose angle it is: the input's over the ratio, or the output's by its encoder, which lags under load",
+    "Run.angle_of": "the same for this run",
     "QuantityEntry.zero_noise": "by how much a known zero differs from run to run",
     "NuisanceEntry.unit": "of all its numbers", "NuisanceEntry.start": "its value without a fit",
     "NuisanceEntry.lower": "lowest", "NuisanceEntry.upper": "highest", "NuisanceEntry.prior": "standard deviation known from elsewhere",

@@ -50,6 +50,7 @@ class Record:
     ``stated_noise`` is the standard deviation that the campaign states, if it does.
     ``tags`` say what is meant (surface, disc, crank, lobe ...).  ``zero_known``: the mean counts, too, of a quantity whose
     zero is free otherwise; ``zero_noise`` is the standard deviation by which that zero differs from run to run.
+    ``of_output``: its ``angle`` is that of the output as an encoder there shows it, which lags under load behind the input over the ratio.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Record:
     tags: Mapping[str, str] = field(default_factory=dict)
     zero_known: bool = False
     zero_noise: float = 0.0
+    of_output: bool = False
 
     @property
     def free_zero(self) -> bool:

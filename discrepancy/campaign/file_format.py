@@ -103,6 +103,7 @@ class Run(Strict):
     tags: dict[str, str | int] = {}
     noise: Stated | None = None
     zero: Literal["free", "absolute"] | None = None
+    angle_of: Literal["input", "output"] | None = None
     notes: str = ""
     # Where the numbers are: a file's columns, a table written here, or one value.
     file: str | None = None
@@ -146,6 +147,7 @@ class QuantityEntry(Strict):
 
     zero: Literal["free", "absolute"] = "free"
     zero_noise: Stated | None = None
+    angle_of: Literal["input", "output"] = "input"
 
     @model_validator(mode="after")
     def of_a_known_zero(self) -> "QuantityEntry":

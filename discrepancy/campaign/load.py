@@ -50,7 +50,7 @@ def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
             condition, zero = conditions[run.condition], zero_known(run, content, place)
             direction = int(DIRECTIONS[run.direction] if run.direction is not None else condition.factors["direction"])
             record = record_of(run, condition, as_asked(run, series, zero, direction, place), scales, place)
-            records.append(replace(record, zero_known=zero, zero_noise=zero_noise(run, content, path) if zero else 0.0))
+            records.append(as_stated(record, run, content, path, place))
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
         conditions, tuple(records), rows, unfilled,
@@ -68,6 +68,16 @@ def speed_at(content: CampaignFile) -> str:
     stated = [key for entry in content.conditions.values() for key in ("input_speed", "output_speed") if getattr(entry, key) is not None]
     stated += [role for run in content.runs for role in (*run.columns, *run.table)]
     return "output" if stated.count("output_speed") > stated.count("input_speed") else "input"
+
+
+def as_stated(record: Record, run: Run, content: CampaignFile, path: Path, place: str) -> Record:
+    """The record with what the campaign says of its zero and of its angle."""
+    zero, general = zero_known(run, content, place), content.quantities.get(run.quantity)
+    if run.angle_of is not None and "angle" not in record.axes:
+        raise InputFault(f"{place}.angle_of = {run.angle_of!r}: {run.quantity} of this run has no angle; leave it out")
+    angle_of = run.angle_of or (general.angle_of if general else "input")
+    return replace(record, zero_known=zero, zero_noise=zero_noise(run, content, path) if zero else 0.0,
+                   of_output=angle_of == "output" and "angle" in record.axes)
 
 
 def zero_known(run: Run, content: CampaignFile, place: str) -> bool:

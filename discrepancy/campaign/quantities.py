@@ -65,7 +65,7 @@ class Quantity:
 
 
 AXES = (
-    Key("angle", "angle", "rad", "deg", "angle of the output against the housing, running on over full turns"),
+    Key("angle", "angle", "rad", "deg", "angle of the output against the housing, running on over full turns; see angle_of"),
     Key("input_angle", "angle", "rad", "deg", "angle of the input, running on; divided by the ratio", -1),
     Key("time", "time", "s", "s", "time since any start"),
     Key("torque", "torque", "N.m", "N.m", "torque at the output, both signs, in the order it was applied"),

@@ -181,6 +181,10 @@ class Bench(Lives):
                 return whole + float(changes[0])
         return whole + change(condition)
 
+    def lag(self, condition: Condition) -> float:
+        """Mean of the output's angle less the input's over the ratio [rad], of the base model."""
+        return self.average("transmission_error", condition, {})
+
     def means(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
         """Mean of each column over ``positions`` of a turn of the cranks."""
         return self.kept(("means", condition, self.relevant(values, condition.hours > 0.0), positions), lambda: self.mean_run(condition, values, positions))

@@ -11,6 +11,8 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
 Values = Mapping[str, float]
+# Nuisance: the output's lag under load, of that of the base model: one number for all conditions, for what gives way gives way in all of them.
+LAG_SHARE = "lag_share"
 DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
@@ -49,7 +51,7 @@ def identity(record: Record) -> tuple[Hashable, ...]:
     """What a prediction depends on in a record: equal for runs that repeat each other."""
     axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
     stated = tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items()))
-    return record.quantity, record.mounting, axes, *stated, len(record.values), record.zero_known
+    return record.quantity, record.mounting, axes, *stated, len(record.values), record.zero_known, record.of_output
 
 
 def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
@@ -68,7 +70,7 @@ def turns_of(bench: Bench, record: Record) -> float:
 
 def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
     """The record's angles in the order in which they are passed, and the place of each sample among them."""
-    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+    angles = angles_of(bench, record, zero_of(bench, record, values))
     order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
@@ -78,6 +80,17 @@ def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt
 def angle_zero(record: Record) -> str:
     """Nuisance: the output angle of the model at which the record's angle is 0."""
     return f"angle_zero[{record.mounting}]"
+
+
+def zero_of(bench: Bench, record: Record, values: Values) -> float:
+    """Angle [rad] by which the model's output is ahead of the record's angle if nothing gave way or turned unevenly."""
+    zero = values.get(angle_zero(record), 0.0)
+    return zero - values.get(LAG_SHARE, 1.0) * bench.lag(condition_of(bench, record)) if record.of_output else zero
+
+
+def places_of_zero(record: Record) -> tuple[str, ...]:
+    """Names of what ``zero_of`` depends on."""
+    return (angle_zero(record), LAG_SHARE) if record.of_output else (angle_zero(record),)
 
 
 def held_condition(bench: Bench, record: Record) -> Condition:

@@ -11,7 +11,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from discrepancy.prediction.bench import TORQUE_STEP, Bench
-from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition
+from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition, places_of_zero, zero_of
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
 from discrepancy.prediction.torque_way import entered, finely
@@ -98,11 +98,10 @@ class OverAngle:
         return nodes if len(nodes.angles) < WORTHWHILE * len(angles) else None
 
     def places(self, values: Values) -> Floats:
-        return angles_of(self.bench, self.record, values.get(angle_zero(self.record), 0.0))
+        return angles_of(self.bench, self.record, zero_of(self.bench, self.record, values))
 
     def unchanged(self, values: Values) -> dict[str, float]:
-        name = angle_zero(self.record)
-        return {name: values[name]} if name in values else {}
+        return {name: values[name] for name in places_of_zero(self.record) if name in values}
 
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
@@ -128,9 +127,9 @@ class OverAngle:
     def anchored(self, values: Values) -> tuple[Values, float]:
         """The values with the record's angle 0 at one of few places, and how far [rad] it is from there: runs are shared by all zeros near one."""
         name = angle_zero(self.record)
-        zero, distance = values.get(name, 0.0), self.anchors()
-        at = distance * round(zero / distance) if distance else zero
-        return {**values, name: at}, zero - at
+        zero, distance = zero_of(self.bench, self.record, values), self.anchors()
+        beyond = zero - distance * round(zero / distance) if distance else 0.0
+        return {**values, name: values.get(name, 0.0) - beyond}, beyond
 
     def anchors(self) -> float:
         """Distance [rad] of the places at which angle 0 is anchored, so that what lies between is known as well as it must be; 0: everywhere."""
@@ -271,7 +270,7 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     if curve.condition.hours > 0.0:
         return None
     nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
-    turned = values.get(angle_zero(record), 0.0) != base.get(angle_zero(record), 0.0)
+    turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
         anchor, place = as_turned(bench, record, curve.anchored(base)[0])
         high, low = (bench.error_beside(curve.condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
@@ -280,7 +279,7 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     change = samples(curve.beside(values, base, angles))
     if turned:
         # The angle from which the record counts: along the curve.
-        change += signal(curve, {**base, angle_zero(record): values[angle_zero(record)]}) - signal(curve, base)
+        change += signal(curve, {**base, **curve.unchanged(values)}) - signal(curve, base)
     return change
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from discrepancy.prediction.bench import QUARTER, Bench
-from discrepancy.prediction.conditions import Values, angle_zero, angles_of, at_rest, condition_of, held_condition, identity, row_conditions
+from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
 from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
@@ -147,7 +147,7 @@ def efficiency(bench: Bench, record: Record, values: Values) -> Floats:
 
 def vibration(bench: Bench, record: Record, values: Values) -> Floats:
     """Acceleration of a rigid housing on soft mounts: force of the pins over the mass that moves."""
-    angles = angles_of(bench, record, values.get(angle_zero(record), 0.0))
+    angles = angles_of(bench, record, zero_of(bench, record, values))
     spectrum_angles, force = housing_force(bench, record, values)
     return np.interp(angles % (2.0 * math.pi), spectrum_angles, force, period=2.0 * math.pi) / values.get("housing_mass", 10.0)
 

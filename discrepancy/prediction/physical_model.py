@@ -14,7 +14,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
-from discrepancy.prediction.conditions import Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
+from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error, shifted_errors
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
@@ -31,6 +31,8 @@ from fmu_src.threads import Threads
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
+# Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports.
+LAGS = (0.1, 12.0)
 # Nuisances that are no parameters of the reducer.
 ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
@@ -114,7 +116,9 @@ class PhysicalModel:
             Parameter(name, "rad", zero, zero - 0.25 * width, zero + 0.25 * width, 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
-        ]  # fmt: skip
+        ] + [
+            Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, of that of the base model")
+        ][: any(r.of_output for r in self.records)]  # fmt: skip
 
     def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.

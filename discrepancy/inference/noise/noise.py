@@ -304,6 +304,7 @@ def _whitener(
     names = list(between)
     patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
     variances = np.array([between[n] for n in names]) if patterns.shape[1] else np.zeros(0)
+    slow = slow_waves(position, max(stream.length, _spacing(position))) if SLOW in stream.dof and rows >= SHORT else None
     return whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
                     np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
-                    tuple((key, n) for n in names), key, slow_waves(position, max(stream.length, _spacing(position))) if SLOW in stream.dof and rows >= SHORT else None)
+                    tuple((key, n) for n in names), key, slow)

@@ -18,7 +18,6 @@ import numpy as np
 from fmu_src.arrays import Floats, Mask
 from fmu_src.kernel import kernel
 
-
 # The part of the noise that is slower than it forgets.
 SLOW = "slow"
 # Share of a wave that is no pattern.
