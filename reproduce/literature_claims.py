@@ -38,8 +38,8 @@ class Span(TypedDict):
 SHORT: Span = {"hours": 300.0, "tolerance": 0.1}
 
 
-@states("L01", LITERATURE, "Lost motion grows, transmission error does not", f"{DURABILITY}: over 1,550 h the lost"
-        f" motion grew by 12.92 arcsec (30.23 %), the transmission error stayed about constant.")
+@states("L01", LITERATURE, "Lost motion grows, transmission error does not", f"{DURABILITY}: over 1,550 h the lost motion grew by 12.92 arcsec (30.23 %), the"
+        " transmission error stayed about constant.")
 def lost_motion(context: Context) -> Finding:
     run = context.life(RV)
     lost, error = np.array(run.lost_motion_arcsec), run.figure("transmission_error_pp_arcsec")
@@ -50,8 +50,7 @@ def lost_motion(context: Context) -> Finding:
     grown = at(lost, 1550.0) - lost[0]
     lives = [growth_of(life) for life in tested_lives(context)]
     ends = [span_of(values) for values in zip(*((new, later, 100.0 * later / new) for new, later, _, _ in lives))]
-    figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121", "Torque one way during life; lost"
-                   " motion between +3 and -3 % of it.",
+    figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121", "Torque one way during life; lost motion between +3 and -3 % of it.",
                    [Curve("lost motion", run.hours, lost, mode="lines+markers"),
                     Curve("transmission error, peak to peak", run.hours, error, mode="lines+markers")],
                     "operating time [h]", "[arcsec]", 6, 300, [(1550.0, "1,550 h")], y_axis={"rangemode": "tozero"})
@@ -74,8 +73,7 @@ def growth_of(run: LifeRun) -> tuple[float, float, float, float]:
     return float(new), float(late - new), float(100.0 * (early - new) / (late - new)), float((late - early) / (TEST_HOURS - EARLY_HOURS))
 
 
-@states("L02", LITERATURE, "Most of it in the first 600 h", f"{DURABILITY}: 10.6 of 12.92 arcsec in the first 600 h,"
-        f" then 0.0024 arcsec/h.")
+@states("L02", LITERATURE, "Most of it in the first 600 h", f"{DURABILITY}: 10.6 of 12.92 arcsec in the first 600 h, then 0.0024 arcsec/h.")
 def early_growth(context: Context) -> Finding:
     lives = [growth_of(life) for life in tested_lives(context)]
     shares, rates = (span_of(one[k] for one in lives) for k in (2, 3))
@@ -105,8 +103,7 @@ def all_run_in(times: float, hours: float) -> tuple[str, ...]:
     return "wear.run_in_ratio=1", f"effects.running_in.excess={times - 1.0!r}", f"effects.running_in.time={hours * 3600.0!r}"
 
 
-@states("L03", LITERATURE, "Flank wear on the convex part", f"{DURABILITY}: cycloid wear lies mainly on the convex"
-        f" part of the flank.")
+@states("L03", LITERATURE, "Flank wear on the convex part", f"{DURABILITY}: cycloid wear lies mainly on the convex part of the flank.")
 def convex(context: Context) -> Finding:
     numbers, shares = [], []
     for label, texts in (("ideal", ()), ("modified", MODIFIED)):
@@ -121,8 +118,7 @@ def convex(context: Context) -> Finding:
                    " too.", numbers, [("more than half", min(shares) > 50.0)])
 
 
-@states("L04", LITERATURE, "Pin wear at the edge of its contact", f"{DURABILITY}: pin wear rises sharply at the edge"
-        f" of its contact area.")
+@states("L04", LITERATURE, "Pin wear at the edge of its contact", f"{DURABILITY}: pin wear rises sharply at the edge of its contact area.")
 def pin_edge(context: Context) -> Finding:
     run = context.life(RV, *STAND, hours=2000.0, tolerance=0.05)
     pin = run.life.surfaces[-1]["pin_wear"].mean(axis=(0, 1))
@@ -142,8 +138,8 @@ def pin_edge(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L05", LITERATURE, "Raceway wear at the ends of the loaded zone", f"{DURABILITY}: raceway wear concentrates"
-        f" where rollers enter and leave the loaded zone.")
+@states("L05", LITERATURE, "Raceway wear at the ends of the loaded zone", f"{DURABILITY}: raceway wear concentrates where rollers enter and leave the loaded"
+        " zone.")
 def loaded_zone(context: Context) -> Finding:
     run = context.life(RV)
     numbers, middle = [], []
@@ -169,8 +165,7 @@ def growth_exponent(low: LifeRun, high: LifeRun, name: str, ratio: float) -> flo
     return float(np.log(high.figure(name)[-1] / low.figure(name)[-1]) / np.log(ratio))
 
 
-@states("L06", LITERATURE, "Clearance grows linearly with load", f"{DURABILITY}: clearance grows about linearly with"
-        f" radial load.")
+@states("L06", LITERATURE, "Clearance grows linearly with load", f"{DURABILITY}: clearance grows about linearly with radial load.")
 def with_load(context: Context) -> Finding:
     law = context.life(RV, "output.load_torque=83.5", **SHORT), context.life(RV, **SHORT)
     constant = (context.life(RV, "wear.race_law=constant", "output.load_torque=83.5", **SHORT),
@@ -189,8 +184,8 @@ def with_load(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L07", LITERATURE, "Crank supports wear more", f"{DURABILITY}: crank support bearings change their clearance"
-        f" more than turning-arm bearings at equal load.")
+@states("L07", LITERATURE, "Crank supports wear more", f"{DURABILITY}: crank support bearings change their clearance more than turning-arm bearings at equal"
+        " load.")
 def supports(context: Context) -> Finding:
     compliant = "crank_support_compliance" in context.reducer(RV).plant.by_name
     return Finding(NOT_TESTABLE, "The model has supports that give way, but none that wear.", [],
@@ -214,8 +209,7 @@ def one_hump(context: Context) -> Finding:
                    degrees_axis())
     one = all(humps(run) == 1 for run in runs.values())
     return Finding(
-        REPRODUCED, "One hump in every case. Torque and speed both deepen it; the region above a given depth"
-        " follows.", numbers,
+        REPRODUCED, "One hump in every case. Torque and speed both deepen it; the region above a given depth follows.", numbers,
         [("one hump", one), ("deeper with load", deep["rated"] > deep["half torque"]),
          ("deeper with speed", deep["rated"] > deep["half speed"]),
          ("wider with both", wide["rated"] > max(wide["half torque"], wide["half speed"])),

@@ -84,16 +84,13 @@ def inertia(context: Context) -> Finding:
                    "time [ms]", "[arcmin]", 6, 280)  # fmt: skip
     return Finding(
         NOT_TESTABLE, "Their reducer, speeds, laws of driving and inertia are not public. Bodies in motion here (fidelity dynamic), inertia chosen so that"
-            " the error grows as much as"
-        " theirs over constant speed: more of it and more acceleration do more than there. It is windup under the torque that accelerates the load, and the"
-        " load's swing on the reducer's spring, which a constant acceleration from one moment on strikes and a smooth law does not. Errors are smaller here"
-        " throughout:"
-        " parts are perfect.",
+        " the error grows as much as theirs over constant speed: more of it and more acceleration do more than there. It is windup under the torque that"
+        " accelerates the load, and the load's swing on the reducer's spring, which a constant acceleration from one moment on strikes and a smooth law"
+        " does not. Errors are smaller here throughout: parts are perfect.",
         [held("growth of the error by 28.2 % more inertia", "1", more, theirs[0]),
          held("growth of the error by 81.8 % more acceleration", "1", quicker, theirs[1]),
-         held("error with inertia", "arcmin", swing(context, heavy), INERTIA[0][0]), held("error with 28.2 % more", "arcmin", swing(context,
-             MORE_INERTIA * heavy),
-            INERTIA[0][1]),
+         held("error with inertia", "arcmin", swing(context, heavy), INERTIA[0][0]),
+         held("error with 28.2 % more", "arcmin", swing(context, MORE_INERTIA * heavy), INERTIA[0][1]),
          held("error in the slower test", "arcmin", swing(context, light), QUICKER[0][0]),
          held("error with 81.8 % more acceleration", "arcmin", swing(context, light, MORE_ACCELERATION * ACCELERATION), QUICKER[0][1]),
          held("error at constant speed (theirs by 8.208 arcmin and 494.3 %)", "arcmin", still, CONSTANT),
@@ -102,20 +99,18 @@ def inertia(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L37", LITERATURE, "Variable speed without load inertia", f"{XU}: without load inertia variable speed raises the transmission error by 6.3 and 5.1"
-        " %, with it by 494.3"
-        " and 599.9 %.")
+@states("L37", LITERATURE, "Variable speed without load inertia", f"{XU}: without load inertia variable speed raises the transmission error by 6.3 and 5.1 %,"
+        " with it by 494.3 and 599.9 %.")
 def without_inertia(context: Context) -> Finding:
     still = constant(context)
     bare = 100.0 * (swing(context, NONE) / still - 1.0)
     arms = {f"{value:g} kg m²": 100.0 * (swing(context, value) / still - 1.0) for value in (5.0, 10.0, 20.0)}
     return Finding(
-        CONDITIONAL, "What accelerates the reducer's own parts winds it up by next to nothing; a load does, in proportion to its inertia. Which inertia they"
-            " had is not public:"
-        " an arm of the size that an RV-40E moves has 5 to 20 kg m².",
+        CONDITIONAL, "What accelerates the reducer's own parts winds it up by next to nothing, here by a tenth of theirs; a load does, in proportion to its"
+        " inertia. Which inertia they had is not public: an arm of the size that an RV-40E moves has 5 to 20 kg m² (assumed).",
         [held("increase without load inertia", "%", bare, (WITHOUT[1], WITHOUT[0])),
          held("increase with a load of 10 kg m²", "%", arms["10 kg m²"], WITH, (arms["5 kg m²"], arms["20 kg m²"]))],
-        [("without inertia less than a tenth", 0.0 <= bare < 10.0), ("theirs lies between loads of 5 and 20 kg"
-            " m²", arms["5 kg m²"] < WITH[0] < WITH[1] < arms["20 kg m²"])],
-        "a load between 5 and 20 kg m²",
+        [("without inertia less than a tenth", 0.0 <= bare < 10.0), ("theirs lies between loads of 5 and 20 kg m²",
+            arms["5 kg m²"] < WITH[0] < WITH[1] < arms["20 kg m²"])],
+        "a load between 5 and 20 kg m²; without one by a tenth of theirs",
     )  # fmt: skip

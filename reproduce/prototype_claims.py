@@ -38,9 +38,9 @@ def rv80e(context: Context) -> Finding:
     numbers += [Number(f"order {order} of one of them", "arcsec", value) for order, value in orders.items()]
     return Finding(
         CONDITIONAL, "Geometry of their RV-80E (77.5 mm, 1.5 mm, 4 mm, 10 and 38 teeth; from a public repetition of the paper), completed by design rules."
-        " Parts as good as assumed here leave a quarter of what was measured, three times as large errors not quite all; with four times as large ones"
-        " theirs lie among"
-        " four such reducers. Order 40 leads, as there; 80, 120 and 160 are there and small. Their eleven measured errors are not in what is public.", numbers,
+        " Parts as good as assumed here leave a quarter of what was measured, three times as large errors not quite all; with four times as large ones theirs"
+        " lie among four such reducers. Order 40 leads, as there; 80, 120 and 160 are there and small. Their eleven measured errors are not in what is"
+        " public.", numbers,
         [("errors of good parts do not reach it", good[1] < 30.0), ("three times as large ones do not", coarse[1] < min(MEASURED_80E)),
          ("four times as large ones do", far[0] < min(MEASURED_80E) and max(MEASURED_80E) < far[1]),
          ("order 40 is the largest", orders[40] == max(orders.values())), ("120 and 160 are there", min(orders[120], orders[160]) > 0.01)],
@@ -56,8 +56,7 @@ def twenty_degrees(context: Context) -> Finding:
     typical = float(np.median([peak_to_peak(reducer, part_errors(reducer, seed)) for seed in SEEDS]))
     return Finding(
         NOT_TESTABLE, "Which reducer it is, its errors and its forces are not in what is public: how far off a computation of it is cannot be said. Four"
-            " RV-20E with errors of"
-        " good parts have this size.",
+            " RV-20E with errors of good parts have this size.",
         [held("RV-20E of good parts; theirs measured", "arcsec", typical, 25.5, (low, high)), held("theirs computed", "arcsec", typical, 23.32, (low, high)),
          Number("RV-20E, twice as far off, least of four", "arcsec", wide[0]), Number("largest of these", "arcsec", wide[1]),
          held("bearing force off by at most", "%", None, 8.89), held("transmission error off by at most", "%", None, 6.31)],
@@ -66,8 +65,7 @@ def twenty_degrees(context: Context) -> Finding:
 
 
 @states("L18", LITERATURE, "Which tolerances matter", "Jin 2025, Appl. Sci. 15(11), 5865, 10.3390/app15115865: five RV-40E prototypes within 5 % of the"
-        " computation; eccentricity of the"
-        " cranks and equidistant modification matter most, their tolerances go from 6 to 4 µm.")
+        " computation; eccentricity of the cranks and equidistant modification matter most, their tolerances go from 6 to 4 µm.")
 def tolerances(context: Context) -> Finding:
     reducer = context.reducer(REAL_BX)
     error, lost = peak_to_peak(reducer), loop(reducer).lost_motion_arcmin
@@ -85,9 +83,8 @@ def tolerances(context: Context) -> Finding:
                 held("tolerance of the throw, tightened over before: what it adds to the transmission error", "1", tightened[1] / tightened[0], 4.0 / 6.0)]
     return Finding(
         CONDITIONAL, "Of errors of one size a lobe's throw changes the transmission error most, equidistant modification hardly: it changes the lost motion,"
-            " by more than any other"
-        " error but that of a single proud pin, which closes the play. The prototypes' own errors are not public: the 5 % cannot be held against"
-        " anything.", numbers,
+            " by more than any other error but that of a single proud pin, which closes the play. The prototypes' own errors are not public: the 5 % cannot"
+            " be held against anything.", numbers,
         [("throw changes the transmission error most", error_moved[throw] == max(error_moved.values())),
          ("equidistant modification changes it least", error_moved[equidistant] == min(error_moved.values())),
          ("equidistant modification changes lost motion most, a proud pin apart", lost_moved[equidistant] == max(shared.values())),
@@ -97,8 +94,7 @@ def tolerances(context: Context) -> Finding:
 
 
 @states("L19", LITERATURE, "Both senses of rotation", "Wang 2024, bidirectional drive and positioning accuracy of a cycloid reducer (journal not in what was"
-        " read), by"
-        f" {SUMMARY}: transmission error in both senses and lost motion computed 6.8, 5.5 and 5.7 % below the measured ones.")
+        f" read), by {SUMMARY}: transmission error in both senses and lost motion computed 6.8, 5.5 and 5.7 % below the measured ones.")
 def both_senses(context: Context) -> Finding:
     reducer = context.reducer(REAL_BX)
     errors = part_errors(reducer, 1)
@@ -120,8 +116,8 @@ def both_senses(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L22", LITERATURE, "A toolkit for RV, planetary and single-crank reducers", "arXiv 2604.02387 (2026): transmission error in both senses, lost"
-        " motion, stiffness, vibration.")
+@states("L22", LITERATURE, "A toolkit for RV, planetary and single-crank reducers", "arXiv 2604.02387 (2026): transmission error in both senses, lost motion,"
+        " stiffness, vibration.")
 def toolkit(context: Context) -> Finding:
     lost = loop(context.reducer(REAL_BX)).lost_motion_arcmin
     return Finding(
@@ -144,8 +140,8 @@ def modified_wear(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L31", LITERATURE, "Error of a cycloid stage by modification and errors", "Liu et al., Appl. Sci. 2021, 11(18), 8671: transmission error and"
-        " backlash of a cycloid-pin pair follow profile modification, manufacturing and assembly errors.")
+@states("L31", LITERATURE, "Error of a cycloid stage by modification and errors", "Liu et al., Appl. Sci. 2021, 11(18), 8671: transmission error and backlash"
+        " of a cycloid-pin pair follow profile modification, manufacturing and assembly errors.")
 def modification(context: Context) -> Finding:
     reducer = context.reducer(REAL_RV)
     plain, gap = loop(reducer), loop(reducer, "disc.equidistant_modification=5um")

@@ -61,8 +61,7 @@ def series(context: Context) -> Finding:
     within = sum(abs(ratio - 1.0) <= SCATTER for ratio in ratios)
     return Finding(
         CONDITIONAL, f"{within} of {len(ratios)} sizes within a quarter, their mean by the fit. RV-6E is a third too stiff, as if its crank bearings were"
-            f" smaller than the"
-        " rules make them; `rvwear family` names what is missing and draws it.",
+            " smaller than the rules make them; `rvwear family` names what is missing and draws it.",
         [held(name, "N m/arcmin", model, catalogue) for name, (model, catalogue) in found.items()],
         [("seven of eight within a quarter", within >= 7), ("mean within a tenth", abs(np.exp(np.mean(np.log(ratios))) - 1.0) < 0.1)],
         "one dial fitted to all sizes, none to one",
