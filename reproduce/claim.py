@@ -37,11 +37,14 @@ Audited = float | tuple[float, float]
 
 @dataclass(frozen=True)
 class Number:
-    """One computed number.
+    """One computed number, and what it is held against.
 
     ``value`` is what the right physics gives, ``printed`` what the printed formula gives,
     ``audited`` what an independent solver found earlier: a value, held to the relative
-    ``tolerance``, or a range (low, high).
+    ``tolerance``, or a range (low, high).  ``published`` is the source's figure, measured or computed
+    there, a value or a range; ``low`` and ``high`` are the ends of ours over what is not known
+    (``unknowns``), left out where that is not reckoned.  All in ``unit``.  A published figure that has
+    no computed one beside it stands alone: the claim's ``why`` says what is missing.
     """
 
     label: str
@@ -50,6 +53,9 @@ class Number:
     printed: float | None = None
     audited: Audited | None = None
     tolerance: float = 0.03
+    published: Audited | None = None
+    low: float | None = None
+    high: float | None = None
 
     @property
     def found(self) -> float:
@@ -69,6 +75,12 @@ class Number:
             spare = self.tolerance * max(abs(low), abs(high))
             return bool(low - spare <= self.found <= high + spare)
         return math.isclose(self.found, self.audited, rel_tol=self.tolerance, abs_tol=1e-12)
+
+
+def held(label: str, unit: str, value: float | None, theirs: Audited, span: tuple[float, float] | None = None) -> Number:
+    """A number beside the source's: ours, theirs, and the range of ours over what is not known."""
+    low, high = span or (None, None)
+    return Number(label, unit, value, published=theirs, low=low, high=high)
 
 
 @dataclass(frozen=True)
@@ -102,6 +114,11 @@ class Claim:
     def stands(self) -> bool:
         """Whether the numbers still carry the verdict."""
         return all(holds for _, holds in self.grounds)
+
+    @property
+    def held(self) -> list[Number]:
+        """Numbers of the source, with ours beside them."""
+        return [number for number in self.numbers if number.published is not None]
 
     @property
     def discrepancies(self) -> list[Number]:

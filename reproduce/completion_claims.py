@@ -3,7 +3,7 @@
 from reducers.completion.compare import Row, against
 from reducers.completion.complete import complete
 from reducers.completion.given import Given
-from reproduce.claim import CATALOGUE, CONDITIONAL, Finding, Number, states
+from reproduce.claim import CATALOGUE, CONDITIONAL, Finding, Number, held, states
 from reproduce.context import BX, RV, Context
 
 SAYS = (
@@ -18,8 +18,8 @@ def held_against(context: Context, name: str, rated: float) -> list[Row]:
 
 
 def numbers_of(rows: list[Row]) -> list[Number]:
-    """Completed as what is computed, the full file's as what is printed; the range stands in the label."""
-    return [Number(f"{row.name}, range {row.low:.4g} to {row.high:.4g}", row.unit, row.completed, row.in_file) for row in rows]
+    """Completed, with its range, beside the full file's."""
+    return [held(row.name, row.unit, row.completed, row.in_file, (row.low, row.high)) for row in rows]
 
 
 def outside(rows: list[Row]) -> set[str]:

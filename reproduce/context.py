@@ -163,7 +163,7 @@ class Context:
 
     def stiffness(self, name: str, *texts: str) -> Hysteresis:
         """The standard stiffness test."""
-        make = lambda: hysteresis(self.reducer(name), self.settings(name, texts), steps=20, angles=8)  # noqa: E731
+        make = lambda: hysteresis(self.reducer(name), self.settings(name, texts))  # noqa: E731
         return self.once(("stiffness", name, texts), make)
 
     def output_turn(self, name: str, *texts: str, positions: int = 48) -> Floats:

@@ -49,7 +49,7 @@ def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = Non
     return crank_turn(chosen, settings_of(chosen, settings or {}), positions).dataset()
 
 
-def hysteresis(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, steps: int = 40, angles: int = 8) -> xr.Dataset:
+def hysteresis(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, steps: int = 16, angles: int = 16) -> xr.Dataset:
     """The stiffness test: input locked, torque up and down both ways.
 
     ``steps``: torques per quarter of the loop; ``angles``: input angles over which it is averaged.  ``torque`` [N.m] and ``turning`` [arcmin]

@@ -69,7 +69,7 @@ def influences(completion: Completion, dials: Container[str] | None = None, adva
 
 def signals_of(reducer: Reducer) -> dict[str, float]:
     """What a bench would show of new parts, and wear after ``HOURS``; names with units."""
-    loop = hysteresis(reducer, [], steps=20, angles=4)
+    loop = hysteresis(reducer, [])
     lobes, pins = reducer.topology.lobes, reducer.topology.pins
     pair = make_pair(reducer, part_errors(reducer), positions=POSITIONS)
     pair.wear.set("acceleration", 0.0)

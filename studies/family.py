@@ -24,14 +24,14 @@ from reducers.completion.dials import IN_SERIES, Dial
 from reducers.completion.file import reducer_at
 from reducers.completion.given import Given
 from reducers.reducer import Reducer
-from studies.hysteresis import hysteresis
+from studies.hysteresis import ANGLES, STEPS, hysteresis
 from studies.pair import make_pair
 from studies.solve import record_turn
 
 CATALOGUE = "Nabtesco, Precision Reduction Gear RV, E series, rating table, as quoted elsewhere; not checked against print"
 # Loads over rated torque, output speeds [rpm], and the speed that stands for starting.
 SHARES, SPEEDS, STARTING = (1.0, 0.5, 0.25, 0.1), (5.0, 15.0, 30.0), 0.05
-STEPS, ANGLES, POSITIONS = 20, 4, 12
+POSITIONS = 12
 # Stiffness of a series scatters: measured RV-40E have 109 to 122 % of the catalogue's.
 SCATTER = 0.25
 

@@ -103,7 +103,7 @@ def test_measured_file_gives_the_number_of_the_bench_that_it_came_from(rv20e, tm
         assert found[1][name][0] == pytest.approx(value, rel=1e-9) and found[1][name][1] == pytest.approx(spread, rel=1e-9)
     assert main(["bench", "--standard", "stiffness", *RIGID, "--measured", str(tmp_path / "loops.csv"), *columns]) == 0
     shown = capsys.readouterr().out
-    assert "torsional_stiffness_forward" in shown and "between 50 and 100 %" in shown and "8 curves" in shown
+    assert "torsional_stiffness_forward" in shown and "between 50 and 100 %" in shown and "16 curves" in shown
 
 
 @pytest.mark.parametrize("columns, said", [

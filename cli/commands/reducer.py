@@ -26,8 +26,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
     loop = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
     add_reducer_options(loop)
-    loop.add_argument("--steps", type=int, default=40, help="torques per quarter of the loop (default 40)")
-    loop.add_argument("--angles", type=int, default=8, help="input angles averaged (default 8)")
+    loop.add_argument("--steps", type=int, default=16, help="torques per quarter of the loop, closer near none and near the largest (default 16)")
+    loop.add_argument("--angles", type=int, default=16, help="input angles averaged (default 16)")
     add_json(loop)
     add_exports(loop)
     loop.set_defaults(run=hysteresis)

@@ -214,7 +214,7 @@ TESTS = {
     test.name: test
     for test in (
         Test("lost-motion", "lost motion, static: input held, torque at the output from -T to +T and back", ("output_torque", "output_angle"),
-             read_lost_motion, LOOP + "How many positions GB/T 40731-2021 wants (8.4) was not to be had: eight, evenly over a turn of the cranks."),
+             read_lost_motion, LOOP + "How many positions GB/T 40731-2021 wants (8.4) was not to be had: sixteen, evenly over a turn of the cranks."),
         Test("dynamic-lost-motion", "lost motion, dynamic: transmission error of both senses of turning", ("input_angle", "output_angle", "back_angle"),
              lambda curve, rated, ratio: read_dynamic(curve), "The text of GB/T 40731-2021, 9, was not to be had: the difference of both senses at equal"
              " input angles, its mean and its largest value."),

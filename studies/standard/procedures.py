@@ -11,10 +11,9 @@ from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
-from studies.hysteresis import LOST_MOTION_SHARE, one_angle, torque_way
+from studies.hysteresis import ANGLES, LOST_MOTION_SHARE, STEPS, one_angle, torque_way
 from studies.solve import ARCMIN
 
-POSITIONS, STEPS = 8, 40
 SHARES = (0.25, 0.5, 0.75, 1.0)
 # Of the rated speed, when the reducer only just turns.
 CREEP = 1e-3
@@ -56,8 +55,8 @@ def loops(reducer: Reducer, settings: list[Setting]) -> Curves:
     begin = int(np.argmin(way))
     part = slice(begin, begin + len(way))
     curves = {}
-    for k in range(POSITIONS):
-        turning = one_angle(reducer, settings, twice, k / POSITIONS) / ARCMIN
+    for k in range(ANGLES):
+        turning = one_angle(reducer, settings, twice, k / ANGLES) / ARCMIN
         curves[f"position {k + 1}"] = {"output_torque": twice[part], "output_angle": turning[part]}
     return curves
 
