@@ -4,10 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reducers.completion.dials import Dial
-from studies.family import DIALS, FITTED, FIXED, SIZES, SPEEDS, Member, completed, dial_of
+from studies.family import DIALS, FITTED, FIXED, MEASURED, SCATTER, SIZES, SPEEDS, Member, completed, dial_of
 
-# Of the catalogue's stiffness, either way: assumed.  The one size that somebody measured, RV-40E, had 109 to 122 % of its catalogue's.
-SCATTER, MEASURED = 0.25, 0.22
 # Typical start-up efficiencies stand in the table in steps of five points.
 START_UP = 5.0
 # Read off catalogue charts in general [%], and of no-load torque at the input [N m] of RV reducers.

@@ -7,8 +7,8 @@ import pytest
 from cli.main import main
 from pages.render import rendered_sections
 from studies import family as series
-from studies.family import DIALS, FITTED, FIXED, SIZES, Member, dial_of, member, stiffness_of
-from studies.family_marks import MEASURED, SCATTER, fixed, marks, range_from
+from studies.family import DIALS, FITTED, FIXED, MEASURED, SCATTER, SIZES, Member, dial_of, member, stiffness_of
+from studies.family_marks import fixed, marks, range_from
 from studies.report.family import page_of
 
 SMALL, LARGE = SIZES[1], SIZES[-1]

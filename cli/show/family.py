@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from cli.screen import console, dense, styled
-from studies.family import CATALOGUE, SPEEDS, Member, dial_of
-from studies.family_marks import SCATTER, fixed, in_the_middle, marks, passed, range_from
+from studies.family import CATALOGUE, SCATTER, SPEEDS, Member, dial_of
+from studies.family_marks import fixed, in_the_middle, marks, passed, range_from
 
 
 def show_family(dials: Mapping[str, float], members: list[Member], fitted: float | None) -> None:

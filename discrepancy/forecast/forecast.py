@@ -98,7 +98,7 @@ def forecast(readings: Sequence[Reading], limit: float, rate: float | None = Non
     return Forecast(
         float(now[0]), len(ordered), range_of(left), range_of(growth.at(curves, now)[:, 0]), range_of(running),
         range_of(curves[:, 0]), range_of(1.0 + excess), range_of(decay), float(np.std(np.log(running))),
-        growth.drift**2 / (FIRST + float(now[0])), float(np.mean(~np.isfinite(left))), growth.horizon,
+        growth.variance / (FIRST + float(now[0])), float(np.mean(~np.isfinite(left))), growth.horizon,
         tuple(map(float, off)), float(off @ off),
         {float(t): range_of(growth.at(curves, np.array([t]))[:, 0]) for t in asked},
     )  # fmt: skip

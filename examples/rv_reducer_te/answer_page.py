@@ -21,6 +21,8 @@ EXPLAINED_BY = {
 }  # fmt: skip
 # An order is explained where at most this share of its amplitude is left (in the middle of the conditions), in part up to the second one.
 EXPLAINED, PARTLY = 0.3, 0.7
+# Of its root mean square over all conditions, where the middle says nothing: from this share on nothing was explained.
+HARDLY = 0.9
 # However large it was: an order of which more than this is left [arcsec] is not explained (assumed: about twice what the ten orders leave of the curve).
 LITTLE = 2.0
 SHOWN = 6
@@ -154,14 +156,18 @@ def verdict_of(row: Mapping[str, float]) -> str:
     """Of an order: what share of it the named effects leave, and whether that is little."""
     senses = ("forward", "backward")
     left = [row[f"median left {word}"] for word in senses]
+    amounts = " and ".join(f"{row[f'left {word}']:.1f}" for word in senses)
     middle, rms = ([row[f"{kind}left {word}"] / max(row[f"{kind}measured {word}"], 1e-9) for word in senses] for kind in ("median ", ""))
     if max(middle) <= EXPLAINED and max(left) <= LITTLE:
         return "explained"
     if max(middle) <= EXPLAINED:
-        return f"in part: {left[0]:.1f} and {left[1]:.1f} arcsec are left"
+        return f"in part: {amounts} arcsec (root mean square) are left"
     if min(middle) <= PARTLY:
         return "in part"
-    return "in part, where it is large: not in the middle of the conditions" if min(rms) <= PARTLY else "nothing explains it"
+    if min(rms) <= HARDLY:
+        word = "in part" if min(rms) <= PARTLY else "hardly"
+        return f"{word}, and only where it is large: {amounts} arcsec (root mean square) are left"
+    return "nothing explains it"
 
 
 def number_table(result: Mapping[str, Any]) -> Table:
