@@ -27,7 +27,7 @@ def lived(name: str, *texts: str, hours: float = 10_000.0, positions: int = 72, 
     settings = [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
     pair = make_pair(reducer, settings, positions=positions, master_kind=CoupledMaster)
     live(pair, Life(LifeSettings(hours, tolerance)), lambda _: None, lambda _: None)
-    return wear_figures(pair.wear.records)
+    return wear_figures(pair.wear.record())
 
 
 def rows(name: str, hours: float) -> list[tuple[str, dict[str, float]]]:
