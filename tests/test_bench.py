@@ -178,6 +178,12 @@ def test_temperature_and_sense_are_conditions_and_positions_are_averaged_within(
     }  # fmt: skip
 
 
+def test_a_condition_that_is_too_short_is_named(capsys, tmp_path):
+    name = np.repeat(["warm", "cold", "warm"], [50, 4, 66])
+    assert main(efficiency_file(tmp_path / "a.csv", condition=name, output_torque=np.full(120, 50.0))) == 2
+    assert "a.csv: cold: curve 1: 4 samples are too few" in capsys.readouterr().err
+
+
 def test_a_ramp_is_no_condition_and_a_load_seen_in_passing_is_not_averaged(capsys, tmp_path):
     assert main([*efficiency_file(tmp_path / "a.csv", t=np.linspace(20, 60, 120)), "--column", "temperature=t:degC"]) == 2
     assert "temperature goes from 20 to 60 degC without steps" in capsys.readouterr().err
