@@ -144,6 +144,7 @@ def by_filter(life: Life) -> Range:
 
 MODELS: dict[str, Callable[[Life], Range]] = {
     "forecast": lambda life: forecast(life.readings, life.limit).remaining,
+    "forecast from first and last reading alone": lambda life: forecast([life.readings[0], life.readings[-1]], life.limit).remaining,
     "filter in the unit": by_filter,
     "straight line": lambda life: through_points(life.readings, life.limit, np.array([1.0])),
     "power law": lambda life: through_points(life.readings, life.limit, np.linspace(0.2, 3.0, 57)),
@@ -151,7 +152,7 @@ MODELS: dict[str, Callable[[Life], Range]] = {
 
 
 def summary(lives: Sequence[Life], ranges: Sequence[Range]) -> dict[str, float]:
-    """Coverage, error of the middle and width of intervals, as factors."""
+    """Coverage, shares that ended after (``above``) and before (``below``) the interval, error of the middle and width as factors."""
     left = np.array([life.end - life.readings[-1].hours for life in lives])
     middle, low, high = (np.array([getattr(r, n) for r in ranges]) for n in ("middle", "low", "high"))
     tiny = 1e-3 * left
@@ -162,6 +163,17 @@ def summary(lives: Sequence[Life], ranges: Sequence[Range]) -> dict[str, float]:
     }  # fmt: skip
 
 
+def by_law(lives: Sequence[Life], ranges: Sequence[Range]) -> dict[str, dict[str, float]]:
+    """What ended before and after the interval, by what happened to the wear rate after running-in."""
+    found = {}
+    named = [next((law for law in life.laws if law != RunIn.name), "nothing after running-in") for life in lives]
+    for law in sorted(set(named)):
+        some = [k for k, name in enumerate(named) if name == law]
+        of = summary([lives[k] for k in some], [ranges[k] for k in some])
+        found[f"forecast, {law}"] = {"lives": float(len(some)), **{key: of[key] for key in ("holds", "above", "below")}}
+    return found
+
+
 def measure(count: int, seed: int) -> dict[str, dict[str, float]]:
     bench = bench_of()
     lives: list[Life] = []
@@ -170,7 +182,8 @@ def measure(count: int, seed: int) -> dict[str, dict[str, float]]:
         seed += 1
         if life:
             lives.append(life)
-    found = {name: summary(lives, [model(life) for life in lives]) for name, model in MODELS.items()}
+    ranges = {name: [model(life) for life in lives] for name, model in MODELS.items()}
+    found = {name: summary(lives, some) for name, some in ranges.items()} | by_law(lives, ranges["forecast"])
     return found | {"lives": {"lives": float(count), "coverage asked": COVERAGE, "readings": float(np.mean([len(life.readings) for life in lives]))}}
 
 
@@ -184,7 +197,7 @@ def main() -> None:
     options.output.parent.mkdir(parents=True, exist_ok=True)
     options.output.write_text(json.dumps(found, indent=1))
     for name, figures in found.items():
-        print(f"{name:20}" + ", ".join(f"{key} {value:.3g}" for key, value in figures.items()))
+        print(f"{name:42}" + ", ".join(f"{key} {value:.3g}" for key, value in figures.items()))
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ PARTS = {
     "workbench": "the whole loop in a browser (rvwear workbench)",
     "ensembles": "lives of many reducers on all cores or a cluster (rvwear ensemble)",
     "build": "FMUs for other platforms, and for this one without a C compiler",
+    "rivals": "trees that know no physics beside the answer of examples/rv_reducer_te",
     "wasm": "stepping FMUs as WebAssembly (rvwear run --wasm)",
 }  # fmt: skip
 REQUIREMENT = re.compile(r"([A-Za-z0-9._-]+)(?:\[.*?\])?\s*(?:>=\s*([\d.]+))?")

@@ -17,13 +17,18 @@ from reducers.completion.file import reducer_at
 from reducers.reducer import Reducer
 from studies.hysteresis import hysteresis
 from studies.life import run_cycle, wear_figures
+from studies.modes import FLOATING, modes
 from studies.pair import make_pair
 from studies.solve import ARCSEC, record_turn
+from studies.standard.evaluation import read_efficiency, read_no_load_torque
+from studies.standard.procedures import rated_of, ratio_of, run
 
 # Equilibria per crank turn; orders of the output up to half of it times the lobes are seen.
 POSITIONS = 48
 THROW_ERROR, RING_ERROR = 3e-6, 5e-6
 HOURS, JUMPS = 1000.0, 4
+# Of the natural frequencies so many, the lowest: a bench's sensors see those of the whole train.
+FREQUENCIES = 2
 # What moves a signal by less than this share of it is no reason to measure anything (assumed).
 SMALL = 0.02
 
@@ -47,8 +52,7 @@ class Influence:
 
 def influences(completion: Completion, dials: Container[str] | None = None, advance: Callable[[], None] = lambda: None) -> list[Influence]:
     """One for each dial (of some names) and signal, the strongest first within a signal; ``advance`` is called after each bench."""
-    # Equilibria know no masses.
-    moving = {dial for number in completion.numbers.values() if not number.name.endswith((".mass", ".inertia")) for dial in number.dials}
+    moving = {dial for number in completion.numbers.values() for dial in number.dials}
     middle = signals_of(reducer_at(completion, {}))
     advance()
     found = []
@@ -62,19 +66,26 @@ def influences(completion: Completion, dials: Container[str] | None = None, adva
             except (InputFault, RunFault):
                 ends.append(dict.fromkeys(middle, math.nan))
             advance()
-        found += [Influence(dial.name, signal, ends[0][signal], value, ends[1][signal]) for signal, value in middle.items()]
+        found += [Influence(dial.name, signal, ends[0].get(signal, math.nan), value, ends[1].get(signal, math.nan)) for signal, value in middle.items()]
     order = list(middle)
     return sorted(found, key=lambda one: (order.index(one.signal), -one.share))
 
 
 def signals_of(reducer: Reducer) -> dict[str, float]:
-    """What a bench would show of new parts, and wear after ``HOURS``; names with units."""
+    """What a bench would show of new parts, and wear after ``HOURS``; names with units.
+
+    Efficiency at rated torque and speed, no-load torque at the input at rated speed; the lowest frequencies, at rated torque with the input held.
+    """
     loop = hysteresis(reducer, [])
     lobes, pins = reducer.topology.lobes, reducer.topology.pins
     pair = make_pair(reducer, part_errors(reducer), positions=POSITIONS)
     pair.wear.set("acceleration", 0.0)
     turn = record_turn(pair, POSITIONS * lobes)["transmission_error"].ravel() * ARCSEC
     spectrum = 2.0 * np.abs(np.fft.rfft(turn)) / turn.size
+    torque, speed = rated_of(reducer, [])
+    ratio = ratio_of(reducer, [])
+    loaded, unloaded = (run(reducer, [], 1.0, load, speed) for load in (torque, 0.0))
+    sounds = [mode.frequency_Hz for mode in modes(reducer, []) if mode.frequency_Hz >= FLOATING][:FREQUENCIES]
     worn = make_pair(reducer)
     for _ in range(JUMPS):
         run_cycle(worn, HOURS / JUMPS)
@@ -83,6 +94,9 @@ def signals_of(reducer: Reducer) -> dict[str, float]:
         "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
         "lost_motion_arcmin": loop.lost_motion_arcmin,
         **{f"transmission_error_order_{order}_arcsec": float(spectrum[order]) for order in (pins, 2 * lobes, 2 * pins)},
+        "efficiency_percent": read_efficiency(loaded, torque, ratio)["efficiency"][0],
+        "no_load_torque_Nm": read_no_load_torque(unloaded, torque, ratio)["no_load_torque"][0],
+        **{f"natural_frequency_{k + 1}_Hz": frequency for k, frequency in enumerate(sounds)},
         **{name: depths[name] for name in ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")},
     }
 

@@ -1,8 +1,9 @@
 """The RV-E series from its catalogue: eight sizes completed by the same rules and the same few dials, none for one size alone.
 
 A size gives rated torque, outer diameter and a ratio of its list; ``reducers.completion`` makes a reducer of them.  Dials (``DIALS``) are the same for
-all sizes, each within its published or assumed range; one of them, how soft a crank's bearing is in place, is fitted to the stiffness of all sizes
-together.  What is then left of each size is named: the compliance at the cranks' supports that is missing, or too much.
+all sizes, each within its published or assumed range; three more (``FIXED``) stand at one end of theirs.  One of the dials, how soft a crank's
+bearing is in place, is fitted to the stiffness of all sizes together.  What is then left of each size is named: the compliance at the cranks'
+supports that is missing, or too much.  Which size fails in which figure: ``family_marks``.
 
 Source of the catalogue's figures: Nabtesco, Precision Reduction Gear RV, E series, rating table, as it is quoted elsewhere; not checked
 against the printed catalogue.
@@ -32,8 +33,8 @@ CATALOGUE = "Nabtesco, Precision Reduction Gear RV, E series, rating table, as q
 # Loads over rated torque, output speeds [rpm], and the speed that stands for starting.
 SHARES, SPEEDS, STARTING = (1.0, 0.5, 0.25, 0.1), (5.0, 15.0, 30.0), 0.05
 POSITIONS = 12
-# Stiffness of a series scatters: measured RV-40E have 109 to 122 % of the catalogue's.
-SCATTER = 0.25
+# Of the catalogue's stiffness, either way: assumed.  The one size that somebody measured, RV-40E, had 109 to 122 % of its catalogue's.
+SCATTER, MEASURED = 0.25, 0.22
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ DIALS: Mapping[str, float] = {
     "support_share": 6.0, "bearing.clearance": 2.0, "mesh.friction": 0.06, "seal_share": 0.035, "churning_share": 0.035,
 }  # fmt: skip
 FITTED = "support_share"
-# What is no dial: rollers lie on two races, profiles are ideal.
+# Beside the dials, at the end of its range for all sizes: rollers lie on two races (Palmgren), profiles are ideal (assumed).
 FIXED: Mapping[str, float] = {"roller_contact": IN_SERIES, "gap": 0.0, "shift": 0.0}
 # Compliances of a reducer file, as they are drawn.
 PARTS = {

@@ -3,7 +3,7 @@
 # Unit and meaning of the figures' name endings.
 FIGURE_UNITS = {
     "_N": "N", "_Nm": "N.m", "_MPa": "MPa", "_arcsec": "arcsec", "_um": "um", "_deg": "deg", "_mm_s": "mm/s", "_s": "s",
-    "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_Nm_arcmin": "N.m.arcmin",
+    "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_percent": "%", "_Hz": "Hz", "_Nm_arcmin": "N.m.arcmin",
 }  # fmt: skip
 
 

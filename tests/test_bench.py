@@ -133,3 +133,65 @@ def test_figures_and_curves_are_exported_and_read_back(capsys, tmp_path):
     assert main(["bench", "--standard", "stiffness", "--json", *RIGID, "--measured", str(tmp_path / "loop_curves.csv"), *columns]) == 0
     again = json.loads(capsys.readouterr().out)["figures"]
     assert [f["value"] for f in again] == pytest.approx([f["value"] for f in figures], rel=1e-9)
+
+
+@pytest.mark.parametrize("test", TESTS)
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_own_export_gives_the_same_figures_for_each_condition(test, ending, capsys, tmp_path):
+    """Without --column: heads say the units; 0 and 6.1 arcsec of the transmission error were averaged to 3.1."""
+    command = ["bench", "--standard", test, "--json", "--reducer", "RV20E-121"]
+    assert main([*command, "--export", str(tmp_path / f"a.{ending}")]) == 0
+    first = json.loads(capsys.readouterr().out)
+    assert main([*command, "--measured", str(tmp_path / f"a_curves.{ending}")]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again["curves"] == first["curves"] and len(again["figures"]) == len(first["figures"])
+    for one, other in zip(first["figures"], again["figures"]):
+        assert (one["condition"], one["name"]) == (other["condition"], other["name"])
+        assert other["value"] == pytest.approx(one["value"], rel=1e-9, abs=1e-8)
+
+
+def efficiency_file(path, **more):
+    """Two loads, 60 samples each."""
+    load = np.repeat([50.0, 150.0], 60)
+    speed = np.full(120, 100.0)
+    columns = {"input_torque": load / 121 / np.repeat([0.7, 0.8], 60), "input_speed": speed, "output_torque": load, "output_speed": speed / 121}
+    pd.DataFrame(columns | more).to_csv(path, index=False)
+    return ["bench", "--standard", "efficiency", "--json", *RIGID, "--measured", str(path)]
+
+
+def told(capsys):
+    return {figure["condition"]: figure["value"] for figure in json.loads(capsys.readouterr().out)["figures"]}
+
+
+def test_loads_of_one_file_are_kept_apart_without_a_word(capsys, tmp_path):
+    assert main(efficiency_file(tmp_path / "a.csv")) == 0
+    assert told(capsys) == {"50 N.m": pytest.approx(70.0), "150 N.m": pytest.approx(80.0)}
+
+
+def test_temperature_and_sense_are_conditions_and_positions_are_averaged_within(capsys, tmp_path):
+    more = {"oil [degC]": np.tile(np.repeat([20.2, 59.8, 20.0], 20), 2), "direction": np.repeat(["forward", "backward"], 60), "run": np.tile([1, 2], 60)}
+    assert main([*efficiency_file(tmp_path / "a.csv", **more), "--column", "temperature=oil [degC]", "--column", "position=run"]) == 0
+    found = told(capsys)
+    assert found == {
+        "forward, 20.1 degC": pytest.approx(70.0), "forward, 59.8 degC": pytest.approx(70.0),
+        "backward, 20.1 degC": pytest.approx(80.0), "backward, 59.8 degC": pytest.approx(80.0),
+    }  # fmt: skip
+
+
+def test_a_condition_that_is_too_short_is_named(capsys, tmp_path):
+    name = np.repeat(["warm", "cold", "warm"], [50, 4, 66])
+    assert main(efficiency_file(tmp_path / "a.csv", condition=name, output_torque=np.full(120, 50.0))) == 2
+    assert "a.csv: cold: curve 1: 4 samples are too few" in capsys.readouterr().err
+
+
+def test_a_ramp_is_no_condition_and_a_load_seen_in_passing_is_not_averaged(capsys, tmp_path):
+    assert main([*efficiency_file(tmp_path / "a.csv", t=np.linspace(20, 60, 120)), "--column", "temperature=t:degC"]) == 2
+    assert "temperature goes from 20 to 60 degC without steps" in capsys.readouterr().err
+    load = np.repeat([50.0, 100.0, 150.0], [58, 4, 58])
+    assert main(efficiency_file(tmp_path / "a.csv", output_torque=load)) == 2
+    assert "output_torque holds several values (50, 100, 150 N.m), some in fewer than 8 samples" in capsys.readouterr().err
+
+
+def test_names_of_figures_are_never_cut(capsys):
+    assert main(["bench", "--standard", "no-load-torque", "--reducer", "RV20E-121"]) == 0
+    assert "no_load_torque_largest" in capsys.readouterr().out

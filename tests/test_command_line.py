@@ -71,7 +71,7 @@ def test_tables_fit_a_hundred_columns(capsys, arguments, tmp_path, monkeypatch):
 def test_a_sound_installation(capsys):
     code, out, _ = said(capsys, "doctor", "--json")
     found = {finding["what"]: finding for finding in json.loads(out)["findings"]}
-    assert {"rvwear", "Python", "packages", "C compiler", "cache", "kernels", "[measurements]", "[pictures]"} <= found.keys()
+    assert {"rvwear", "Python", "packages", "C compiler", "cache", "kernels", "[measurements]", "[pictures]", "[rivals]"} <= found.keys()
     assert all(finding["remedy"] for finding in found.values() if finding["state"] != "ok")
     assert code == any(finding["state"] == "wrong" for finding in found.values())
 

@@ -1,6 +1,7 @@
 """Forecasts of remaining life: samples against a closed form, limits and refusals, a campaign's readings, intervals on made lives."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,8 +13,9 @@ from benchmarks.forecasts import Life, summary, through_points
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.forecast import posterior
+from discrepancy.forecast.contradictions import contradictions
 from discrepancy.forecast.forecast import Range, Reading, forecast, narrowing
-from discrepancy.forecast.growth import FIRST, Growth
+from discrepancy.forecast.growth import FIRST, STEP, Growth
 from discrepancy.forecast.readings import inspections, limit_of, without_hours
 from fmu_src.faults import InputFault
 
@@ -52,9 +54,62 @@ def test_intervals_narrow_and_hold():
     assert all(f.remaining.holds(10_000.0 - f.hours) for f in found)
     widths = [f.remaining.high / f.remaining.low for f in found]
     assert widths[-1] < 0.3 * widths[0] and widths[-1] < 3.0
-    assert found[-1].rate.holds(2e-3) and found[-1].drift == pytest.approx(0.09 / (FIRST + 6000.0))
+    assert found[-1].rate.holds(2e-3) and found[-1].drift == pytest.approx(Growth(40.0, 1e-3, 1e5).variance / (FIRST + 6000.0))
     over = forecast([*readings, Reading(12_000.0, 65.0, 0.2)], 60.0, asked=[15_000.0])
     assert over.remaining == Range(0.0, 0.0, 0.0) and over.later[15_000.0].low > 65.0
+
+
+def test_a_step_rises_seldom_and_far_and_falls_little(monkeypatch):
+    """The variance that a filter is told is that of the walk; a rate may double at once, and halve hardly ever."""
+    growth = Growth(40.0, 1e-3, 1e4)
+    z = np.random.default_rng(0).standard_normal((200_000, 1))
+    x = np.zeros((len(z), growth.dimensions))
+    x[:, 4:5] = z
+    place = FIRST * np.expm1(np.array([STEP]))
+    steps = np.log(growth.at(growth.rates(x), place) / growth.numbers(x)[1][:, None])
+    assert steps.var() / STEP == pytest.approx(growth.variance, rel=0.03)
+    assert np.mean(steps > np.log(1.8)) > 20.0 * np.mean(steps < -np.log(1.5)) and np.quantile(steps, 0.001) > -0.5
+
+
+CONTRADICTION = [Reading(t, v, 0.2) for t, v in ((0.0, 42.74), (600.0, 40.0), (800.0, 53.86), (1000.0, 54.34))]
+
+
+def test_readings_that_contradict_are_named():
+    """The second reading of the durability test, wrong by 13 arcsec: below the first, and on no growth."""
+    for count in (2, 4):
+        some = CONTRADICTION[:count]
+        fell, off = contradictions(some, forecast(some, 60.0), "arcsec")
+        assert "falls from 42.74 arcsec at 0 h to 40 arcsec at 600 h, by 9.7 times the noise of both" in fell.text
+        assert "40 arcsec at 600 h (" in off.text and "times its noise too low)" in off.text
+    right = [replace(r, value=53.38) if r.hours == 600.0 else r for r in CONTRADICTION]
+    assert contradictions(right, forecast(right, 60.0), "arcsec") == []
+
+
+def test_noise_is_no_contradiction():
+    """Of 40 lives that grow as assumed at most one is doubted (one in a hundred is meant)."""
+    rng = np.random.default_rng(5)
+    hours = np.array([0.0, 200.0, 700.0, 1500.0, 3000.0])
+    doubted = 0
+    for _ in range(40):
+        readings = [Reading(float(t), float(40.0 + 4e-3 * t + 2.0 * (1.0 - np.exp(-t / 200.0)) + 0.3 * rng.standard_normal()), 0.3) for t in hours]
+        doubted += bool(contradictions(readings, forecast(readings, 60.0), "arcsec"))
+    assert doubted <= 1
+
+
+def test_command_says_what_contradicts_and_never_inf(tmp_path, capsys):
+    text = (TEST / "campaign.toml").read_text(encoding="utf-8")
+    (tmp_path / "campaign.toml").write_text(text.replace("53.38, 53.86", "40.00, 53.86"), encoding="utf-8")
+    words = ["forecast", str(tmp_path), "--limit", "lost_motion=1arcmin", "--until", "600"]
+    assert main(words) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "doubtful: the reading falls from 0.7123 arcmin at 0 h" in shown and "do not fit the best growth" in shown
+    assert not re.search(r"\binf\b|\bnan\b", shown) and re.search(r"over 99,400", shown)
+    assert re.search(r"with a probability of \d+ % the limit is not reached within 100,000 h", shown) and "two inspections cannot tell" in shown
+    assert main([*words, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert len(told["doubts"]) == 2 and told["forecasts"][0]["horizon"] == 1e5
+    assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["doubts"] == []
 
 
 def test_rivals_of_the_benchmark_know_their_own_law():

@@ -196,8 +196,19 @@ def test_ranges_move_the_signals_that_they_must():
     # A flank wears with its coefficient, and less the more it has spread the load by then.
     assert 2.0 < wear.high / wear.middle < 5.0 and 2.0 < wear.middle / wear.low <= 5.0
     assert found["wear.mesh_coefficient", stiffness].share == 0.0 and found["wear.mesh_coefficient", lost].share == 0.0
+    # Losses and frequencies are signals of a bench, too: neither hangs on what wears, both are there.
+    for signal in ("efficiency_percent", "no_load_torque_Nm", "natural_frequency_1_Hz", "natural_frequency_2_Hz"):
+        assert found["gap", signal].middle > 0.0 and found["wear.mesh_coefficient", signal].share == 0.0
     strongest = what_matters(list(found.values()))
     assert strongest[lost][0].dial == "gap" and strongest["disc_flank_um"][0].dial == "wear.mesh_coefficient"
+
+
+def test_seals_move_the_torque_without_load_and_masses_the_frequencies():
+    found = {(one.dial, one.signal): one for one in influences(complete(Given(121, 40, 167.0)), ("seal_share", "carrier_bulk"))}
+    seals, mass = found["seal_share", "no_load_torque_Nm"], found["carrier_bulk", "natural_frequency_1_Hz"]
+    assert seals.low < seals.middle < seals.high and mass.high < mass.low
+    assert found["seal_share", "efficiency_percent"].high < found["seal_share", "efficiency_percent"].low
+    assert found["carrier_bulk", "efficiency_percent"].share < 1e-6
 
 
 def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch):

@@ -169,6 +169,17 @@ def test_what_is_held_out_hangs_on_names_only():
     assert held_out(names, 0.2) == held_out(names, 0.2) and len(held_out(names, 0.2)) == 10
 
 
+@pytest.mark.parametrize("forward, backward, share, expected", [(49, 15, 0.2, (10, 3)), (5, 5, 0.3, (2, 1)), (8, 0, 0.25, (2, 0)), (30, 2, 0.2, (6, 0))])
+def test_each_sense_has_its_share_of_what_is_held_out(forward, backward, share, expected):
+    """Drawn from all together, 13 of 49 and 15 had 2 backward ones."""
+    names = [f"fw_{k}" for k in range(forward)] + [f"bw_{k}" for k in range(backward)]
+    for seed in range(10):
+        held = held_out(names, share, seed)
+        counts = tuple(sum(name.startswith(sense) for name in held) for sense in ("fw", "bw"))
+        assert sum(counts) == round(share * len(names)) and all(abs(a - b) <= 1 for a, b in zip(counts, expected))
+    assert len({frozenset(held_out(names, share, seed)) for seed in range(10)}) > 1
+
+
 @pytest.mark.skipif(not DATA.is_file(), reason=f"no measurements at {DATA}; set RVWEAR_DATA to their folder")
 def test_the_rig_itself(tmp_path):
     assert main(["campaign", "from-rv-te", str(DATA), str(tmp_path / "c")]) == 0

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from test_rv_te import DATA, ROOT
 
+from discrepancy.campaign.from_rv_te import measured_in
 from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.model_file import load_model
 
 FOLDER = ROOT / "examples" / "rv_reducer_te"
 ARCSEC = np.pi / 648000.0
 ORDERS = (1, 3, 39, 40, 78, 81, 156, 162, 240)
+CURVES = {0: (np.ones(8), np.zeros(8))}
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +39,7 @@ def table(path: Path, rows: list[tuple[str, int, int]]) -> Path:
 def prepared(example, tmp_path_factory):
     folder = tmp_path_factory.mktemp("rig")
     source = table(folder / "orders.csv", [(d, rpm, torque) for d in ("fw", "bw") for rpm, torque in ((100, 400), (1000, 800), (1000, 1800), (100, 1500))])
-    return example[0].prepared(source, folder)[0]
+    return example[0].prepared(measured_in(source)[0], folder)
 
 
 def test_the_fit_finds_what_was_hidden(example, prepared):
@@ -96,7 +98,7 @@ def test_numbers_are_counted_and_saved(example, prepared, tmp_path):
 
 
 def test_rungs_are_steps_of_the_model(example, prepared, tmp_path):
-    """`rvwear ladder` reads them; a rung that earns in the waves alone has helped, although the means got worse."""
+    """`rvwear ladder` reads them; a rung that earns in the waves alone while the whole curve that the ladder shows gets worse has not helped."""
     answer, physics, _ = example
     before, *rungs = (
         {kind: {"whole": {"forward": whole, "backward": whole}, "waves": {"forward": waves, "backward": waves}} for kind in ("training", "held_out")}
@@ -108,8 +110,74 @@ def test_rungs_are_steps_of_the_model(example, prepared, tmp_path):
     answer.save_model(answer.model_file(prepared, fitted, answer.steps_of(before, rungs)), tmp_path / "model.toml")
     again = load_model(tmp_path / "model.toml").steps
     assert [s["effects"] for s in again] == [[r.effect] for r in physics.LADDER[:3]]
-    assert [s["verdict"] for s in again] == ["helped", "helped", "did not help"]
+    assert [s["verdict"] for s in again] == ["helped", "not proven", "did not help"]
     assert again[0]["held_out_before"] == pytest.approx(100.0) and again[0]["held_out_after"] == pytest.approx(again[1]["held_out_before"])
+
+
+def test_an_order_of_which_much_is_left_is_not_explained(example):
+    from answer_page import verdict_of
+
+    def row(measured, left, whole):
+        amounts = {"measured": measured, "left": left}
+        return {f"{kind}{key} {word}": value for key, value in amounts.items() for word in ("forward", "backward") for kind in ("median ", "")} | {
+            f"left {word}": whole for word in ("forward", "backward")}  # fmt: skip
+
+    assert verdict_of(row(61.0, 1.0, 1.0)) == "explained"
+    # Order 0: a tenth of its size is left, which is the largest part of the error.
+    assert verdict_of(row(120.0, 11.0, 12.0)) == "in part: 12.0 and 12.0 arcsec (root mean square) are left"
+    assert verdict_of(row(3.0, 1.5, 1.5)) == "in part"
+    # Order 156: large in a few conditions of a resonance alone, and a quarter of it explained there.
+    assert verdict_of(row(1.0, 0.9, 0.5)).startswith("in part, and only where it is large") and verdict_of(row(1.0, 0.9, 0.75)).startswith("hardly, and only")
+    assert verdict_of(row(1.0, 0.9, 0.95)) == "nothing explains it"
+
+
+def result_of(example, prepared, splits):
+    """The result of a fit of one rung, its numbers those of all rungs."""
+    answer, physics, rivals = example
+    records, held = prepared.records, [0, 5]
+    fitted = physics.Fitter(prepared).fit(physics.LADDER[:1], answer.others(records, held))
+    every = {n.name: {"value": 0.0, "low": 0.0, "high": 0.0} for n in physics.numbers_of(physics.LADDER)}
+    of = vars(answer.errors(records, {i: fitted.predicted[i] for i in held}))
+    return {
+        "conditions": 8, "held_out": ["a", "b"], "held_out_by_sense": {"forward": 1, "backward": 1}, "missing": rivals.MISSING, "numbers": every,
+        "errors": {"named physics": of}, "fitted_numbers": {"named physics": "1"}, "splits": {"named physics": [of] * splits},
+        "ladder": [answer.row_of(physics.LADDER[0], records, fitted.predicted, held)], "orders": answer.by_order(records, fitted),
+    }  # fmt: skip
+
+
+def test_page_and_text_say_what_the_headline_rests_on(example, prepared):
+    """How many conditions of a sense, what other splits say, and that the set of effects was not chosen blind."""
+    from answer_page import NOT_BLIND, page_of
+
+    result = result_of(example, prepared, 3)
+    page = page_of(result, prepared.records, CURVES)
+    assert "on 1 held-out condition, " in page.finding and "± 0.0 over 3 other splits" in page.finding and "not chosen blind" in page.finding
+    assert NOT_BLIND in page.warnings and NOT_BLIND in page.sections[0].lead
+    assert "1 forward, 1 backward" in example[0].text_of(result) and NOT_BLIND in example[0].text_of(result)
+    assert "other splits, " not in page_of(result_of(example, prepared, 0), prepared.records, CURVES).finding
+
+
+def test_rivals_that_are_missing_are_named(example, prepared):
+    from answer_page import page_of
+
+    result = result_of(example, prepared, 0) | {"missing": "trees are left out: scikit-learn is not installed"}
+    assert result["missing"] in example[0].text_of(result) and result["missing"] in page_of(result, prepared.records, CURVES).warnings
+
+
+@pytest.mark.parametrize("names, said", [
+    ("fw_1rpm_1Nm_1degC", "condition fw_1rpm_1Nm_1degC: nobody measured one of that name; they look like bw_1000rpm_1800Nm_25degC"),
+    ("", "it names no condition"),
+    (None, "give a text file with the name of a condition on each line"),
+])  # fmt: skip
+def test_what_is_asked_for_and_not_there_is_said_before_any_work(example, tmp_path, capsys, names, said):
+    source = table(tmp_path / "orders.csv", [(d, 1000, torque) for d in ("fw", "bw") for torque in (400, 800, 1800)])
+    if names is not None:
+        (tmp_path / "names").write_text(names)
+    arguments = [str(source), "--held-out", str(tmp_path / "names"), "--output", str(tmp_path / "out")]
+    assert example[0].main(arguments) == 2
+    assert said in capsys.readouterr().err and not (tmp_path / "out").exists()
+    assert example[0].main([str(tmp_path / "no.csv")]) == 2
+    assert "there is no such folder or file" in capsys.readouterr().err
 
 
 @pytest.mark.campaign
@@ -117,7 +185,7 @@ def test_rungs_are_steps_of_the_model(example, prepared, tmp_path):
 def test_the_rig_itself(example, tmp_path):
     """The four rungs of order 1 and the means, one fit: what is left is far below what a mean of each order leaves."""
     answer, physics, _ = example
-    model, _ = answer.prepared(DATA, tmp_path)
+    model = answer.prepared(measured_in(DATA)[0], tmp_path)
     held = answer.chosen(model.records, None)
     fitted = physics.Fitter(model).fit(physics.LADDER[:3], answer.others(model.records, held))
     found = answer.errors(model.records, {i: fitted.predicted[i] for i in held})

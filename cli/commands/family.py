@@ -24,7 +24,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_family(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.family import show_family
-    from studies.family import DIALS, family, fitted_share
+    from studies.family import DIALS, FIXED, family, fitted_share
+    from studies.family_marks import marks
 
     dials, page = dict(DIALS) | dials_of(options.dial), page_path(options.html)
     members = family(dials)
@@ -35,7 +36,8 @@ def run_family(options: argparse.Namespace) -> int:
     if page:
         write_page(dials, members, page)
     if options.json:
-        json_text({"dials": dials, "support_share_fitted": fitted, "sizes": [as_json(one) for one in members]})
+        json_text({"dials": dials, "fixed": FIXED, "support_share_fitted": fitted, "sizes": [as_json(one) for one in members],
+                   "marks": [vars(mark) for mark in marks(members)]})
     else:
         show_family(dials, members, fitted)
     return 0

@@ -27,6 +27,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_forecast(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from discrepancy.campaign.load import load_campaign
+    from discrepancy.forecast.contradictions import contradictions
     from discrepancy.forecast.forecast import narrowing
     from discrepancy.forecast.readings import Inspections, inspections, limit_of
     from discrepancy.forecast.tables import forecast_tables
@@ -39,11 +40,12 @@ def run_forecast(options: argparse.Namespace) -> int:
         found = Inspections([r for r in every if r.hours <= options.until], [r for r in every if r.hours > options.until], found.condition)
     asked = sorted({r.hours for r in found.held_out})
     forecasts = narrowing(found.readings, limit.value, asked=asked)
+    doubts = [one.text for one in contradictions(found.readings, forecasts[-1], limit.unit)]
     if options.json:
-        json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts],
+        json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts], "doubts": doubts,
                    "unused": [vars(r) for r in found.held_out], "units": units_of(limit)})
     else:
-        show(forecasts, found, limit)
+        show(forecasts, found, limit, doubts)
     write_exports(options, lambda: forecast_tables(forecasts, found, limit), list)
     return 0
 
@@ -52,16 +54,26 @@ def units_of(limit: "Limit") -> dict[str, str]:
     """Of what a forecast holds, by its keys: a rate counts per 1,000 h on the screen, per hour in data."""
     unit = limit.unit
     return {"hours": "h", "remaining": "h", "level": unit, "first_level": unit, "later": unit, "rate": f"{unit}/h", "run_in_time": "h",
-            "run_in_ratio": "1", "rate_deviation": "1", "drift": "1/h", "value": unit, "noise": unit}  # fmt: skip
+            "run_in_ratio": "1", "rate_deviation": "1", "drift": "1/h", "horizon": "h", "value": unit, "noise": unit}  # fmt: skip
 
 
-def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> None:
-    from cli.screen import console, dense
+def share_text(share: float) -> str:
+    """In per cent; a small one is not 0, one that leaves something not 100."""
+    return "below 1" if share < 0.01 else "over 99" if 0.99 < share < 1.0 else f"{100.0 * share:.0f}"
+
+
+def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit", doubts: list[str]) -> None:
+    """``doubts``: what contradicts in the readings."""
+    import math
+
+    from cli.screen import console, dense, styled
     from discrepancy.campaign.amount import readable
     from discrepancy.forecast.forecast import COVERAGE
 
-    def text(r: "Range", scale: float = 1.0) -> str:
-        return f"{readable(scale * r.middle)} ({readable(scale * r.low)} to {readable(scale * r.high)})"
+    def text(r: "Range", scale: float = 1.0, most: float = math.inf) -> str:
+        """``most``: what lies beyond is more than that, in words."""
+        middle, low, high = (readable(scale * v) if v <= most and math.isfinite(v) else f"over {most:,.0f}" for v in (r.middle, r.low, r.high))
+        return f"{middle} ({low} to {high})"
 
     unit = limit.unit
     table = dense(f"{limit.quantity} up to {limit.value:g} {unit}; read at {found.condition}")
@@ -69,13 +81,18 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit") -> N
     for head in heads:
         table.add_column(head, justify="right")
     for f in forecasts:
-        intervals = (text(f.remaining), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
+        intervals = (text(f.remaining, most=f.horizon - f.hours), text(f.level), text(f.rate, 1000.0), text(f.run_in_ratio), text(f.run_in_time))
         table.add_row(f"{f.hours:g}", str(f.readings), *(interval.replace(" (", "\n(") for interval in intervals))
     console(100).print(table)
     last = forecasts[-1]
     print(f"middle and interval of {100.0 * COVERAGE:.0f} %; hours count from the last inspection, {last.hours:g} h")
     if last.beyond > 0.0:
-        print(f"in {100.0 * last.beyond:.0f} % of what is possible the limit is not reached within 100 times these hours")
+        print(f"with a probability of {share_text(last.beyond)} % the limit is not reached within {last.horizon:,.0f} h; nobody looks further")
+    if last.readings == 2:
+        print(f"two inspections cannot tell how much of the first {last.hours:g} h was running-in: the intervals rest on what is usual there"
+              " (docs/forecast.md); a third one tells")  # fmt: skip
+    for doubt in doubts:
+        console(100).print(styled(("doubtful: ", "yellow"), doubt))
     for r in found.held_out:
         expected = last.later[r.hours]
         within = "within" if expected.low - 2.0 * r.noise <= r.value <= expected.high + 2.0 * r.noise else "outside"

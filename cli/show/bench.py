@@ -20,13 +20,15 @@ def show_bench(
         return
     many = len(found) > 1
     table = Table(title=f"{measured or reducer}: {test.title}", title_justify="left")
-    for head in (*(["condition"] if many else []), "figure", "value", "unit", "least to most"):
-        table.add_column(head, justify="right" if head in ("value", "least to most") else "left")
+    spread = any(figure.spread for figures in found.values() for figure in figures)
+    for head in (*(["condition"] if many else []), "figure", "value", "unit", *(["least to most"] if spread else [])):
+        # A figure's name is what people look for: it is never cut.
+        table.add_column(head, justify="right" if head in ("value", "least to most") else "left", no_wrap=head == "figure", overflow="fold")
     definitions: dict[str, str] = {}
     for condition, figures in found.items():
         for k, figure in enumerate(figures):
-            spread = f"{figure.spread[0]:.5g} to {figure.spread[1]:.5g}" if figure.spread else ""
-            table.add_row(*([condition if k == 0 else ""] if many else []), figure.name, f"{figure.value:.6g}", figure.unit, spread)
+            between = [f"{figure.spread[0]:.5g} to {figure.spread[1]:.5g}" if figure.spread else ""] if spread else []
+            table.add_row(*([condition if k == 0 else ""] if many else []), figure.name, f"{figure.value:.6g}", figure.unit, *between)
             definitions[figure.name] = figure.definition
     out = screen.console()
     out.print(table)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.forecast.growth import FIRST, Growth
-from discrepancy.forecast.posterior import samples
+from discrepancy.forecast.posterior import best_misfits, samples
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from fmu_src.threads import sharing_no_matrices
@@ -55,8 +55,12 @@ class Forecast:
     # Standard deviation of the rate's logarithm now, and what the square of it grows by in an hour: what a filter needs.
     rate_deviation: float
     drift: float
-    # Share of what is possible in which the limit is not reached at all before anybody looks.
+    # Share of what is possible in which the limit is not reached at all before anybody looks, and until when that is [h].
     beyond: float
+    horizon: float
+    # Of the law that the posterior holds for the best: what it says less what was read, over the noise, by reading; and the sum of the squares.
+    misfits: tuple[float, ...]
+    chi_square: float
     # What the readings' quantity is expected to be at other hours, by hours.
     later: dict[float, Range]
 
@@ -85,6 +89,7 @@ def forecast(readings: Sequence[Reading], limit: float, rate: float | None = Non
     growth = growth_of(ordered, limit, rate)
     hours, values, noise = (np.array([getattr(r, name) for r in ordered]) for name in ("hours", "value", "noise"))
     x = samples(growth, hours, values, noise, seed)
+    off = best_misfits(growth, hours, values, noise)
     curves, now = growth.levels(x), np.array([hours[-1]])
     left = np.maximum(growth.crossings(curves, limit) - now[0], 0.0)
     rates = growth.at(growth.rates(x), now)[:, 0]
@@ -93,7 +98,8 @@ def forecast(readings: Sequence[Reading], limit: float, rate: float | None = Non
     return Forecast(
         float(now[0]), len(ordered), range_of(left), range_of(growth.at(curves, now)[:, 0]), range_of(running),
         range_of(curves[:, 0]), range_of(1.0 + excess), range_of(decay), float(np.std(np.log(running))),
-        growth.drift**2 / (FIRST + float(now[0])), float(np.mean(~np.isfinite(left))),
+        growth.variance / (FIRST + float(now[0])), float(np.mean(~np.isfinite(left))), growth.horizon,
+        tuple(map(float, off)), float(off @ off),
         {float(t): range_of(growth.at(curves, np.array([t]))[:, 0]) for t in asked},
     )  # fmt: skip
 

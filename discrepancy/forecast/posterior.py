@@ -20,16 +20,7 @@ DIFFERENCE = 1e-4
 
 def samples(growth: Growth, hours: Floats, values: Floats, noise: Floats, seed: int = 0) -> Floats:
     """(CHAINS * KEPT, dim) of ``x`` given readings ``values`` (k,) at ``hours`` (k,) with standard deviations ``noise`` (k,)."""
-
-    def misfits(x: Floats) -> Floats:
-        found: Floats = (growth.at(growth.levels(x), hours) - values) / noise
-        return found
-
-    def log_density(x: Floats) -> Floats:
-        sums: Floats = -0.5 * np.sum(misfits(x) ** 2, axis=1) - 0.5 * np.sum(x**2, axis=1)
-        found: Floats = np.where(np.isfinite(sums), sums, -np.inf)
-        return found
-
+    misfits, log_density = posterior(growth, hours, values, noise)
     centre, root = laplace(misfits, log_density, growth.dimensions)
     rng = np.random.default_rng(seed)
 
@@ -46,6 +37,28 @@ def samples(growth: Growth, hours: Floats, values: Floats, noise: Floats, seed: 
         if step >= STEPS - KEPT:
             kept.append(centre + y @ root.T)
     return np.concatenate(kept)
+
+
+def best_misfits(growth: Growth, hours: Floats, values: Floats, noise: Floats) -> Floats:
+    """(k,) what the most likely law says less the readings, over their noise."""
+    misfits, log_density = posterior(growth, hours, values, noise)
+    found: Floats = misfits(laplace(misfits, log_density, growth.dimensions)[0][None])[0]
+    return found
+
+
+def posterior(growth: Growth, hours: Floats, values: Floats, noise: Floats) -> tuple[Misfits, Density]:
+    """(misfits of the readings, logarithm of the density) of points ``x`` (n, dim)."""
+
+    def misfits(x: Floats) -> Floats:
+        found: Floats = (growth.at(growth.levels(x), hours) - values) / noise
+        return found
+
+    def log_density(x: Floats) -> Floats:
+        sums: Floats = -0.5 * np.sum(misfits(x) ** 2, axis=1) - 0.5 * np.sum(x**2, axis=1)
+        found: Floats = np.where(np.isfinite(sums), sums, -np.inf)
+        return found
+
+    return misfits, log_density
 
 
 def slice_on(y: Floats, at: Floats, log_ratio: Density, rng: np.random.Generator) -> tuple[Floats, Floats]:

@@ -6,20 +6,21 @@ Writes a campaign, the fitted model (model.toml), every figure (answer.json) and
 import argparse
 import json
 import shutil
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from answer_page import page_of
+from answer_page import NOT_BLIND, page_of
 from named_physics import ARCSEC, LADDER, ZERO, Fitted, Fitter, Rung
-from rivals import RIVALS, count, predictions
+from rivals import MISSING, RIVALS, count, predictions
 from steps import steps_of
 
-from discrepancy.campaign.from_rv_te import measured_in
+from discrepancy.campaign.from_rv_te import Measured, measured_in
 from discrepancy.campaign.load import load_campaign
-from discrepancy.campaign.write_rv_te import write_campaign
+from discrepancy.campaign.write_rv_te import held_out, write_campaign
 from discrepancy.model_file import ModelFile, every_effect, load_model, save_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
@@ -69,31 +70,39 @@ def errors(records: Sequence[Record], predicted: dict[int, Floats]) -> Errors:
     return Errors(*({SENSES[s]: float(np.mean(e)) for s, e in by_sense.items() if e} for by_sense in found.values()))
 
 
-def prepared(source: Path, folder: Path) -> tuple[PhysicalModel, list[str]]:
-    """The completed reducer on the campaign of ``source``, written into ``folder``; and what was left out."""
-    runs, wrong = measured_in(source)
+def prepared(runs: Sequence[Measured], folder: Path) -> PhysicalModel:
+    """The completed reducer on the campaign of what was measured, written into ``folder``."""
     write_campaign(folder / "campaign", runs, str(folder / "rig.toml"), RATED, None, HELD_OUT, True)
     shutil.copyfile(HERE / "rig.toml", folder / "rig.toml")
     campaign = load_campaign(folder / "campaign")
     campaign = replace(campaign, records=tuple(with_drag(r) for r in campaign.records), nuisances=())
     # Where the encoder's angle 0 lies is not asked: each effect that has one brings its own phase.
-    return PhysicalModel(load_model(folder / "rig.toml"), campaign, zeros={}), wrong
+    return PhysicalModel(load_model(folder / "rig.toml"), campaign, zeros={})
 
 
-def chosen(records: Sequence[Record], names: Path | None) -> list[int]:
-    """Records that are held out: those of a file with a condition a line, or those that the campaign marks."""
-    if names is None:
-        return [i for i, r in enumerate(records) if r.held_out]
-    wanted = set(names.read_text().split())
-    unknown = sorted(wanted - {r.condition for r in records})
-    if unknown:
-        raise InputFault(f"{names}: condition {unknown[0]}: the campaign has none of that name; they look like {records[0].condition}")
-    return [i for i, r in enumerate(records) if r.condition in wanted]
+def wanted(names: Path, conditions: Sequence[str]) -> set[str]:
+    """Conditions that a file names, a line each; InputFault for one that nobody measured, before any work is done."""
+    try:
+        listed = set(names.read_text(encoding="utf-8").split())
+    except (OSError, UnicodeDecodeError) as problem:
+        raise InputFault(f"--held-out {names}: {problem}; give a text file with the name of a condition on each line") from None
+    unknown = sorted(listed - set(conditions))
+    if unknown or not listed:
+        what = f"condition {unknown[0]}: nobody measured one of that name" if unknown else "it names no condition"
+        raise InputFault(f"--held-out {names}: {what}; they look like {min(conditions)}")
+    if listed >= set(conditions):
+        raise InputFault(f"--held-out {names}: it names all {len(conditions)} conditions; leave some to fit")
+    return listed
+
+
+def chosen(records: Sequence[Record], names: set[str] | None) -> list[int]:
+    """Records that are held out: those of some conditions, or those that the campaign marks."""
+    return [i for i, r in enumerate(records) if (r.held_out if names is None else r.condition in names)]
 
 
 def split_at_random(records: Sequence[Record], seed: int) -> list[int]:
-    conditions = sorted({r.condition for r in records})
-    held = {conditions[k] for k in np.random.default_rng(seed).permutation(len(conditions))[: round(HELD_OUT * len(conditions))]}
+    """Of each sense its share, as the campaign holds out."""
+    held = held_out(sorted({r.condition for r in records}), HELD_OUT, seed)
     return [i for i, r in enumerate(records) if r.condition in held]
 
 
@@ -154,23 +163,35 @@ def row_of(rung: Rung | None, records: Sequence[Record], predicted: Sequence[Flo
     return found | ({"effect": rung.effect, "says": rung.says, "numbers": len(rung.numbers)} if rung else {})
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("source", type=Path, help="your clone of the public repository, or a table of orders made of it (.csv)")
     parser.add_argument("--output", type=Path, default=Path("rv_reducer_te_answer"), help="folder to write to (default rv_reducer_te_answer)")
     parser.add_argument("--held-out", type=Path, metavar="FILE", help="conditions that are used for nothing, one a line (default: every fifth, by chance)")
     parser.add_argument("--splits", type=int, default=20, help="further splits by chance (default 20)")
-    options = parser.parse_args()
-    model, wrong = prepared(options.source, options.output)
-    records, held = model.records, chosen(model.records, options.held_out)
+    options = parser.parse_args(arguments)
+    try:
+        runs, wrong = measured_in(options.source)
+        names = wanted(options.held_out, [run.condition for run in runs]) if options.held_out else None
+        model = prepared(runs, options.output)
+    except InputFault as fault:
+        print(f"answer.py: {fault}", file=sys.stderr)
+        return 2
+    answered(model, wrong, names, options.splits, options.output)
+    return 0
+
+
+def answered(model: PhysicalModel, wrong: list[str], names: set[str] | None, splits: int, output: Path) -> None:
+    """Everything: fit, rivals, ``splits`` other splits, written into ``output`` and said."""
+    records, held = model.records, chosen(model.records, names)
     fitter = Fitter(model)
     with task("ladder"):
         ladder = climbed(fitter, held)
     fitted = ladder[-1][1]
     rivals = of_rivals(records, held)
     spread: dict[str, list[Errors]] = {name: [] for name in ("named physics", *RIVALS)}
-    for seed in range(options.splits):
-        with task(f"split {seed + 1} of {options.splits}"):
+    for seed in range(splits):
+        with task(f"split {seed + 1} of {splits}"):
             test = split_at_random(records, seed)
             tried = fitter.fit(LADDER, others(records, test))
             spread["named physics"].append(errors(records, {i: tried.predicted[i] for i in test}))
@@ -179,6 +200,8 @@ def main() -> None:
     ours = errors(records, {i: fitted.predicted[i] for i in held})
     result = {
         "conditions": len({r.condition for r in records}), "held_out": sorted(records[i].condition for i in held), "left_out": wrong,
+        "held_out_by_sense": {word: sum(records[i].factors["direction"] == sense for i in held) for sense, word in SENSES.items()},
+        "missing": MISSING,
         "numbers": {name: dict(zip(("value", "low", "high"), found)) for name, found in intervals(fitted).items()},
         "errors": {"named physics": vars(ours)} | {name: vars(e) for name, e in rivals.items()},
         "fitted_numbers": {"named physics": str(len(fitted.numbers))} | {name: count(name, records) for name in RIVALS},
@@ -186,18 +209,19 @@ def main() -> None:
         "splits": {name: [vars(e) for e in found] for name, found in spread.items()},
         "orders": by_order(records, fitted),
     }  # fmt: skip
-    (options.output / "answer.json").write_text(json.dumps(result, indent=1))
+    (output / "answer.json").write_text(json.dumps(result, indent=1))
     steps = steps_of(row_of(None, records, fitter.predict({}), held), result["ladder"])
-    save_model(model_file(model, fitted, steps), options.output / "model.toml")
+    save_model(model_file(model, fitted, steps), output / "model.toml")
     curves = {i: (curve(records[i], np.asarray(records[i].values)) / ARCSEC, curve(records[i], fitted.predicted[i]) / ARCSEC) for i in held}
-    (options.output / "answer.html").write_text(rendered_sections(page_of(result, records, curves)))
+    (output / "answer.html").write_text(rendered_sections(page_of(result, records, curves)))
     print(text_of(result))
-    print(f"written: {', '.join(str(options.output / name) for name in ('answer.html', 'answer.json', 'model.toml'))}")
+    print(f"written: {', '.join(str(output / name) for name in ('answer.html', 'answer.json', 'model.toml'))}")
 
 
 def text_of(result: dict[str, Any]) -> str:
     """The result in lines."""
-    lines = [f"{len(result['held_out'])} of {result['conditions']} conditions held out; mean absolute error of the curve, arcsec"]
+    counts = ", ".join(f"{number} {word}" for word, number in result["held_out_by_sense"].items())
+    lines = [f"{len(result['held_out'])} of {result['conditions']} conditions held out ({counts}); mean absolute error of the curve, arcsec"]
     lines.append(f"{'':30}{'numbers':>10}{'forward':>9}{'backward':>9}   other splits: forward, backward")
     for name, found in result["errors"].items():
         whole = found["whole"]
@@ -207,8 +231,8 @@ def text_of(result: dict[str, Any]) -> str:
         ]  # fmt: skip
         shown = "".join(f"{whole[w]:9.2f}" if w in whole else f"{'':9}" for w in SENSES.values())
         lines.append(f"{name:30}{result['fitted_numbers'][name]:>10}{shown}   {', '.join(other)}")
-    return "\n".join(lines)
+    return "\n".join([*lines, NOT_BLIND, *([result["missing"]] if result["missing"] else [])])
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

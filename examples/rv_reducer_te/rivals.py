@@ -51,8 +51,11 @@ def by_trees(x: Floats, y: Floats, at: Floats) -> Floats:
 
 
 RIVALS: dict[str, Callable[[Floats, Floats, Floats], Floats]] = {"mean of each order": by_mean, "full quadratic of each order": by_quadratic}
+MISSING = ""
 if importlib.util.find_spec("sklearn"):
     RIVALS[TREES] = by_trees
+else:
+    MISSING = f'{TREES} are left out: scikit-learn is not installed (pip install "rvwear[rivals]")'
 
 
 def predictions(name: str, records: Sequence[Record], training: Sequence[int], asked: Sequence[int]) -> dict[int, Floats]:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from named_physics import ARCSEC
 
-from discrepancy.extend import BETTER, DID_NOT_HELP, HELPED
+from discrepancy.extend import BETTER, DID_NOT_HELP, HELPED, NOT_PROVEN
 
 SIGNAL = "transmission_order"
 # What ten orders leave of the raw curve [arcsec] (README of the public repository): no model of orders does better.
@@ -18,12 +18,13 @@ def steps_of(before: Mapping[str, Any], rungs: Sequence[Mapping[str, Any]]) -> t
     """A step a rung, from rows of the answer (errors in arcsec by kind, part of the curve and sense); ``before``: without any rung."""
     steps = []
     for rung in rungs:
-        # Means jump from session to session, so that a rung is also judged by the waves alone.
         changes = {part: (mean(before["held_out"][part]), mean(rung["held_out"][part])) for part in ("whole", "waves")}
-        helped = any(after < BETTER * was for was, after in changes.values())
+        better = {part: after < BETTER * was for part, (was, after) in changes.items()}
+        # What the ladder shows is the whole curve: that has to get better.  Waves alone prove nothing of it, though means jump from session to session.
+        verdict = HELPED if better["whole"] else NOT_PROVEN if better["waves"] else DID_NOT_HELP
         whole = {kind: (mean(before[kind]["whole"]), mean(rung[kind]["whole"])) for kind in KINDS}
         steps.append({
-            "campaign": "rig of ratio 81", "effects": [rung["effect"]], "verdict": HELPED if helped else DID_NOT_HELP,
+            "campaign": "rig of ratio 81", "effects": [rung["effect"]], "verdict": verdict,
             "reason": f"{rung['says']}; on unused conditions " + ", ".join(f"{part} {a:.2f} -> {b:.2f} arcsec" for part, (a, b) in changes.items()),
             **{f"{kind}_{when}": error / LEFT_BY_ORDERS for kind, both in whole.items() for when, error in zip(("before", "after"), both)},
             "signals": [

@@ -64,7 +64,9 @@ def signals(completion: Completion, found: list[Influence]) -> Section:
                   "Signals that no range moves by 2 % have no row.")
     lead = (
         f"Each dial to both ends of its range, all else in the middle. Orders are those of a reducer with one throw {1e6 * THROW_ERROR:g} µm too large and its"
-        f" ring {1e6 * RING_ERROR:g} µm eccentric; wear is that after {HOURS:,.0f} h at rated speed and torque. What moves the signals that one can measure is"
+        f" ring {1e6 * RING_ERROR:g} µm eccentric; wear is that after {HOURS:,.0f} h at rated speed and torque,"
+        " efficiency and no-load torque (at the input) are those at rated speed,"
+        " natural frequencies the lowest at rated torque with the input held. What moves the signals that one can measure is"
         " what is worth measuring on the parts, or finding by a fit."
     )
     return Section("signals", "Which ranges matter for which signal", lead, [influence_map(found, meaning)], [table])
@@ -91,5 +93,5 @@ def influence_map(found: list[Influence], meaning: dict[str, str]) -> Figure:
 
 def signal_text(name: str) -> str:
     """``lost_motion_arcmin`` as "lost motion"."""
-    unit = {"N.m/arcmin": "Nm_per_arcmin"}.get(figure_unit(name), figure_unit(name))
+    unit = {"N.m/arcmin": "Nm_per_arcmin", "N.m": "Nm", "%": "percent"}.get(figure_unit(name), figure_unit(name))
     return name.removesuffix(f"_{unit}").replace("_", " ")

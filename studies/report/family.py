@@ -8,27 +8,28 @@ from pages import look
 from pages.charts import COLOURS, Curve, chart
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from studies.family import CATALOGUE, SCATTER, SHARES, SPEEDS, Member, dial_of
+from studies.family import CATALOGUE, SHARES, SPEEDS, Member, dial_of
+from studies.family_marks import fixed, in_the_middle, marks, passed, range_from
 
 MISSING, TOO_MUCH = "missing for the catalogue", "more than the catalogue has"
 
 
 def page_of(dials: Mapping[str, float], members: Sequence[Member]) -> Page:
-    within = [one for one in members if abs(one.over_catalogue - 1.0) <= SCATTER]
-    far = [one for one in members if one not in within]
-    loose = [one.size.name for one in members if one.lost_motion > one.size.lost_motion]
+    judged = marks(members)
+    stiff, loose = judged[0], next(mark for mark in judged if mark.figure == "lost motion")
     cards = [
-        Card("stiffness within a quarter", f"{len(within)} of {len(members)}", "model over catalogue"),
-        Card("lost motion below the catalogue's limit", f"{len(members) - len(loose)} of {len(members)}", ", ".join(loose)),
-        Card("dials for all sizes", str(len(dials)), "none for one size"),
+        Card("stiffness within a quarter", passed(stiff, members), f"not within: {', '.join(stiff.failed)}" if stiff.failed else "model over catalogue"),
+        Card("lost motion below the catalogue's limit", passed(loose, members), ", ".join(loose.failed)),
+        Card("dials for all sizes", str(len(dials)), f"none for one size; {len(fixed())} more fixed, {in_the_middle()} as rules put them"),
     ]
-    finding = f"{len(within)} of {len(members)} sizes have the catalogue's stiffness within a quarter" + (
-        f"; further off: {', '.join(one.size.name for one in far)}" if far else ""
+    failing = {mark.figure: mark.failed for mark in reversed(judged) if mark.failed}
+    finding = f"{passed(stiff, members)} sizes have the catalogue's stiffness within a quarter. Not within a mark: " + (
+        "; ".join(f"{figure}: {', '.join(failed)}" for figure, failed in reversed(failing.items())) or "none"
     )
     sections = [
         Section("stiffness", "Stiffness", "Full and half torque, input locked, friction included.", [stiffness(members), compliances(members)]),
         Section("efficiency", "Efficiency", f"At {SPEEDS[1]:g} rpm; the catalogue's charts were not to be had.", [over_load(members)]),
-        Section("numbers", "Numbers", "", tables=[numbers(members), of_dials(dials)]),
+        Section("numbers", "Numbers", "", tables=[of_marks(members), numbers(members), of_dials(dials)]),
     ]
     return Page("family", "RV-E series", f"{len(members)} sizes from catalogue numbers alone", finding, cards, sections, [f"Catalogue: {CATALOGUE}."])
 
@@ -90,10 +91,15 @@ def numbers(members: Sequence[Member]) -> Table:
     return Table("Sizes: stiffness [N m/arcmin], lost motion [arcmin], start-up efficiency", head, rows, tuple(range(1, 10)))
 
 
+def of_marks(members: Sequence[Member]) -> Table:
+    rows = [[mark.figure, mark.mark, passed(mark, members), ", ".join(mark.failed)] for mark in marks(members)]
+    return Table("Marks, and which size fails in which", ["figure", "mark", "within", "not within"], rows, (2,))
+
+
 def of_dials(dials: Mapping[str, float]) -> Table:
-    found = [dial_of(name) for name in dials]
-    rows = [[dial.name, dial.meaning, f"{dials[dial.name]:g}", f"{dial.low:g} to {dial.high:g}", dial.source] for dial in found]
-    return Table("Dials, the same for all sizes", ["dial", "meaning", "value", "range", "from"], rows, (2, 3))
+    found = [(dial_of(name), value, "dial") for name, value in dials.items()] + [(dial, value, "fixed") for dial, value in fixed()]
+    rows = [[d.name, d.meaning, f"{value:.3g}", f"{d.low:.3g} to {d.high:.3g}", kind, range_from(d)] for d, value, kind in found]
+    return Table("Dials and what is fixed beside them, the same for all sizes", ["dial", "meaning", "value", "range", "", "range from"], rows, (2, 3))
 
 
 BELOW: look.Layout = {

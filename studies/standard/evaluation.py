@@ -49,13 +49,18 @@ class Figure:
 
 @dataclass(frozen=True)
 class Test:
-    """A standard test: the columns that its curves need, how figures are read, what stands in no text that was to be had."""
+    """A standard test: the columns that its curves need, how figures are read, what stands in no text that was to be had.
+
+    ``held``: columns whose levels are conditions of the test.  ``own_figures``: each curve has figures of its own, positions of the others are averaged.
+    """
 
     name: str
     title: str
     columns: tuple[str, ...]
     read: Callable[[Curve, float, float], dict[str, tuple[float, str, str]]]
     text: str
+    held: tuple[str, ...] = ()
+    own_figures: bool = False
 
     def evaluate(self, curves: Sequence[Curve], rated: float, ratio: float) -> list[Figure]:
         """Figures over all positions: the mean, and the spread where there are several.
@@ -221,11 +226,14 @@ TESTS = {
         Test("stiffness", "torsional stiffness: the same loop up to the rated torque", ("output_torque", "output_angle"), read_stiffness,
              LOOP + "The interval is the evaluator's choice there; 50 to 100 % is that of the makers' data sheets."),
         Test("transmission-error", "transmission error over a turn of the output", ("input_angle", "output_angle"), read_transmission_error,
-             "Section 8 of GB/T 35089-2018 was not to be had in full: one turn of the output, peak to peak, without load and at the rated one."),
+             "Section 8 of GB/T 35089-2018 was not to be had in full: one turn of the output, peak to peak, without load and at the rated one.",
+             ("output_torque", "input_speed"), True),
         Test("efficiency", "efficiency at the rated speed, at shares of the rated torque", ("input_torque", "input_speed", "output_torque", "output_speed"),
-             read_efficiency, "Section 7 of GB/T 35089-2018 was not to be had in full: 25, 50, 75 and 100 % of the torque, as data sheets draw it."),
+             read_efficiency, "Section 7 of GB/T 35089-2018 was not to be had in full: 25, 50, 75 and 100 % of the torque, as data sheets draw it.",
+             ("output_torque", "input_speed"), True),
         Test("no-load-torque", "running torque without load, over the speed", ("input_torque",), read_no_load_torque,
-             "As makers' data sheets have it: torque at the input at 25, 50, 75 and 100 % of the rated speed."),
+             "As makers' data sheets have it: torque at the input at 25, 50, 75 and 100 % of the rated speed.",
+             ("input_speed",), True),
         Test("starting-torque", "starting torque without load", ("input_torque",), read_starting_torque,
              "As makers' data sheets have it: the torque at the input that begins to turn the output, here the largest at a thousandth of the rated speed."),
     )

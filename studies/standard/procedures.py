@@ -129,5 +129,3 @@ PROCEDURES: dict[str, Callable[[Reducer, list[Setting]], Curves]] = {
     "lost-motion": loops, "dynamic-lost-motion": both_senses, "stiffness": loops, "transmission-error": output_turns, "efficiency": loads,
     "no-load-torque": speeds, "starting-torque": creep,
 }  # fmt: skip
-# Where conditions differ each curve has figures of its own; positions are averaged.
-OWN_FIGURES = ("transmission-error", "efficiency", "no-load-torque")

@@ -12,8 +12,8 @@ from studies.standard.evaluation import UNITS, Curve, Figure
 SHOWN = {"rad": "deg", "rad/s": "rpm"}
 
 
-def bench_tables(found: Mapping[str, Sequence[Figure]], curves: Mapping[str, Curve]) -> list[Table]:
-    """``found``: figures by condition; ``curves`` by position, in the units of ``UNITS``."""
+def bench_tables(found: Mapping[str, Sequence[Figure]], curves: Mapping[str, Mapping[str, Curve]]) -> list[Table]:
+    """``found``: figures by condition; ``curves`` by condition and position, in the units of ``UNITS``."""
     rows = [
         {"condition": condition, "figure": figure.name, "value": figure.value, "least": figure.spread[0] if figure.spread else figure.value,
          "most": figure.spread[1] if figure.spread else figure.value, "unit": figure.unit, "definition": figure.definition}
@@ -22,11 +22,13 @@ def bench_tables(found: Mapping[str, Sequence[Figure]], curves: Mapping[str, Cur
     return [rows_table("figures", rows, {}), curve_table(curves)]
 
 
-def curve_table(curves: Mapping[str, Curve]) -> Table:
-    """A row a sample; ``rvwear bench --measured`` reads it back with ``--column output_angle='output_angle [deg]:deg'``."""
+def curve_table(grouped: Mapping[str, Mapping[str, Curve]]) -> Table:
+    """A row a sample; ``rvwear bench --measured`` reads it back as it is."""
+    curves = {(condition, position): curve for condition, group in grouped.items() for position, curve in group.items()}
     names = [name for name in dict.fromkeys(name for curve in curves.values() for name in curve) if all(name in curve for curve in curves.values())]
     lengths = [len(next(iter(curve.values()))) for curve in curves.values()]
-    columns = [Column("position", "", np.repeat(list(curves), lengths))]
+    told = zip(("condition", "position"), zip(*curves))
+    columns = [Column(name, "", np.repeat(texts, lengths)) for name, texts in told if any(texts)]
     for name in names:
         unit = UNITS.get(name, "rad")
         shown = SHOWN.get(unit, unit)
