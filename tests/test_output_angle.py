@@ -87,6 +87,14 @@ def test_share_of_the_lag_moves_the_places(folder):
         assert np.std((a - b) - (c - d)) < 0.1 * np.std(c - d)
 
 
+def test_an_angle_of_the_input_that_is_stated_as_the_output_s_has_no_lag(folder):
+    model = model_of(folder, OF_OUTPUT)
+    for record in model.records:
+        # Over the input's angle: the output's less the error.
+        record.axes["angle"][:] -= record.values
+    assert misfit(model, {LAG_SHARE: 0.0}) < 0.02 < 0.15 < misfit(model, {LAG_SHARE: 1.0})
+
+
 def test_a_run_without_an_angle_has_none_to_state(folder, tmp_path):
     text = '[campaign]\nname = "x"\nreducer = "RV20E-121"\n[conditions.a]\n[[runs]]\nid = "a"\nquantity = "lost_motion"\ncondition = "a"\nvalue = "1 arcmin"\nangle_of = "output"\n'
     (tmp_path / "campaign.toml").write_text(text)

@@ -31,8 +31,8 @@ from fmu_src.threads import Threads
 # The pattern that fixes where an angle is counted from has this order of the output.
 PHASE_ORDER = 80
 PHASES = 48
-# Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports.
-LAGS = (0.1, 12.0)
+# Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
+LAGS = (0.0, 12.0)
 # Nuisances that are no parameters of the reducer.
 ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
