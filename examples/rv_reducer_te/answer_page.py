@@ -91,7 +91,7 @@ def errors_of_splits(result: Mapping[str, Any], word: str) -> list[float]:
 def over_splits(result: Mapping[str, Any], word: str) -> str:
     """Mean and standard deviation in words, with a comma at the end; nothing without other splits."""
     tried = errors_of_splits(result, word)
-    return f"{np.mean(tried):.1f} ± {np.std(tried):.1f} over {len(tried)} other splits, " if tried else ""
+    return f"{np.mean(tried):.1f} ± {np.std(tried):.1f} over {len(tried)} other split{'' if len(tried) == 1 else 's'}, " if tried else ""
 
 
 def lead_of_errors(result: Mapping[str, Any]) -> str:
