@@ -199,7 +199,7 @@ def test_what_is_kept_of_the_rig_is_what_its_page_says():
     text = (wall.PAGE.parent / "real_data.md").read_text(encoding="utf-8")
     for value in (*rig.PHYSICS, *rig.PHYSICS_SPREAD, *rig.QUADRATIC, *rig.QUADRATIC_SPREAD, *rig.NOTHING_FITTED, *rig.FITTED, *rig.LEARNED, *rig.CLOSED_FORM, rig.RUN_OUT):
         assert f"{value:g}" in text, value
-    assert "541 to 559" in text
+    assert f"{rig.SPRINGS_RANGE[0]:g} to {rig.SPRINGS_RANGE[1]:g}" in text
 
 
 def test_tolerances_matter_by_size_and_not_by_sign():
