@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
-from discrepancy.campaign.guess.run import GuessedRun, guessed_run
+from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for
+from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for, roles_of
 from discrepancy.campaign.readers import kind_of
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
@@ -75,6 +75,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         load_reducer(wishes.reducer)
     guessed = with_one_unit([guessed_run(path, wishes) for path in paths])
     require_columns(guessed, wishes)
+    require_roles(guessed, wishes)
     states = [state_of(run, wishes) for run in guessed]
     names = named_conditions(states)
     conditions: dict[str, dict[str, str]] = {}
@@ -114,6 +115,21 @@ def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
         header = name_of(key.rpartition(":")[2])
         if header not in known:
             raise InputFault(f"--unit {key}={unit}: no file has a column {header!r} of numbers; there are {', '.join(known)}{nearest(header, known)}")
+
+
+def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
+    """InputFault for a ``--column`` that no file follows: a role or a column that there is not, or that its quantity has no place for."""
+    known = sorted({role for quantity in QUANTITIES.values() for role in roles_of(quantity)})
+    headers = sorted({header for run in runs for header in run.headers})
+    for role, header in wishes.columns.items():
+        if role not in known:
+            raise InputFault(f"--column {role}={header}: there is no such role; choose from {', '.join(known)}{nearest(role, known)}")
+        if name_of(header) not in headers:
+            raise InputFault(f"--column {role}={header}: no file has a column {header!r} of numbers; there are {', '.join(headers)}{nearest(header, headers)}")
+        if not any(role in run.columns and is_meant(header, run.columns[role].column.value, run.columns[role].header) for run in runs):
+            quantities = ", ".join(sorted({run.quantity.value for run in runs}))
+            remedy = "say by --quantity what the files hold, or take another role"
+            raise InputFault(f"--column {role}={header}: the files are taken for {quantities}, which has no place for this column as {role}; {remedy}")
 
 
 def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
