@@ -9,10 +9,11 @@ import re
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from discrepancy.campaign.readers import kind_of
+from discrepancy.campaign.measurement_files import measurement_files
 from fmu_src.checked_file import replacing, write_text
 from fmu_src.faults import InputFault, nearest
 from reducers.library import available
@@ -64,17 +65,7 @@ class Folder:
 
     def measurements(self) -> list[Path]:
         """Files whose ending tells that they may hold measurements, here and in folders below, in the order of their names."""
-        found: list[Path] = []
-        for here, folders, names in os.walk(self.root):
-            folders[:] = sorted(name for name in folders if not name.startswith((".", "_")) and name not in ("fmus", "results"))
-            # Links that lead out of the folder are no files of it.
-            found += [
-                Path(here) / name for name in sorted(names)
-                if kind_of(Path(name)) and not name.startswith(".") and (Path(here) / name).resolve().is_relative_to(self.root.resolve())
-            ]  # fmt: skip
-            if len(found) > MOST_FILES:
-                break
-        return found[:MOST_FILES]
+        return list(islice(measurement_files(self.root), MOST_FILES))
 
     def models(self) -> list[str]:
         """Model and reducer files of the folder."""

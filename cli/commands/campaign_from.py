@@ -21,7 +21,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     command = actions.add_parser(
         "from", help="write campaign.toml for measurement files: columns, units, conditions and repetitions are guessed, what is not sure is said"
     )
-    command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some")
+    command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some (those below count, results and fmus do not)")
     command.add_argument("--output", metavar="FOLDER", help="where campaign.toml goes (default: the folder of the files); nothing is overwritten")
     completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + " (asked for)"), reducer_completions)
     command.add_argument(

@@ -30,7 +30,7 @@ def rates_of_angles(design: Design) -> Iterator[Finding]:
             continue
         seen.add((column, text))
         at_input = f"the angle of the input is columns.input_angle (--column 'input_angle={column}')"
-        remedy = at_input if abs(times / (campaign.ratio or math.inf) - 1.0) < NEAR_RATIO else "correct unit or scale of the angle, or the speed of the condition"
+        remedy = at_input if abs(times / (campaign.ratio or math.inf) - 1.0) < NEAR_RATIO else "correct the angle's unit or scale, or the condition's speed"
         yield Finding(WARNING, "rate of the angle", f"run {record.name}: the output's angle{campaign.place(record.name, 'angle')} {text}", remedy)
 
 
