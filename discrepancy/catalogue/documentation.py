@@ -87,14 +87,15 @@ def before(r):
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
 anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
-leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its hooks, kernels of these names, are called at these stages, each of them
-for all effects before the next begins:
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its hooks, kernels of these names, are called
+at these stages, each of them for all effects before the next begins:
 
 STAGES
 
-What `prepare` changes stands until an amplitude is set again. A stiffness (`mesh_constant`, `pin_stiffness`, `roller_constant`) can so depend on the temperature of
-the surroundings at the start of a run (`r.temperature`), as the conditions of a campaign state it, each of which is a run of its own; a temperature that changes
-during a run (`reducer_temperature`) acts through what `before` changes, gaps and the ring's size, and leaves stiffnesses as they were.
+What `prepare` changes stands until an amplitude is set again. A stiffness (`mesh_constant`, `pin_stiffness`, `roller_constant`) can so depend on
+the temperature of the surroundings at the start of a run (`r.temperature`), as the conditions of a campaign state it, each of which is a run of its
+own; a temperature that changes during a run (`reducer_temperature`) acts through what `before` changes, gaps and the ring's size, and leaves
+stiffnesses as they were.
 
 Each of the fields, by what its indices count. Places and directions are those of a drawing with the ring's centre at the origin and
 angles counter-clockwise, at output angle 0; a disc's lobes are counted in its own frame.

@@ -212,7 +212,8 @@ def rounded_ratio(given: Given) -> list[str]:
     made = 1.0 + given.pins * planet / sun
     if abs(made - given.ratio) < 1e-6 * given.ratio:
         return []
-    return [f"--ratio {given.ratio:g} is taken for a rounded one: planets of {planet} and a sun of {sun} teeth with {given.pins} pins make {made:.6g}, which the file has"]
+    teeth = f"planets of {planet} and a sun of {sun} teeth with {given.pins} pins"
+    return [f"--ratio {given.ratio:g} is taken for a rounded one: {teeth} make {made:.6g}, which the file has"]
 
 
 def ring_doubt(radius: float, torque: float) -> list[str]:

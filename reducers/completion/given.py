@@ -56,8 +56,8 @@ class Given:
         said += [f"diameter {self.diameter:g} mm"] if self.diameter is not None else []
         said += [f"{self.cranks} cranks"] if self.cranks is not None else []
         usual = {f.name: f.default for f in fields(self)}
-        for name, text in (("speed", f"{self.speed:g} rpm"), ("rollers", f"{self.rollers} rollers"), ("lost_motion", f"lost motion {self.lost_motion:g} arcmin")):
-            said += [text] if getattr(self, name) != usual[name] else []
+        own = {"speed": f"{self.speed:g} rpm", "rollers": f"{self.rollers} rollers", "lost_motion": f"lost motion {self.lost_motion:g} arcmin"}
+        said += [text for name, text in own.items() if getattr(self, name) != usual[name]]
         return ", ".join([*said, *(f"{name} {value:g}" for name, value in self.known.items())])
 
     @property
