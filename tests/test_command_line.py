@@ -56,6 +56,21 @@ def test_hours_with_and_without_a_unit(text, hours):
     assert number_in("h")(text) == pytest.approx(hours, rel=1e-15) and number_in("h")("0.1") == 0.1
 
 
+@pytest.mark.parametrize("arguments, text", [
+    (["compare", "RV20E-12", "bench"], "no reducer 'RV20E-12'; did you mean RV20E-121?; give one of"),
+    (["diagnose", "RV20E-121", "bnch"], "no campaign file at bnch/campaign.toml; did you mean bench?; rvwear campaign from"),
+    (["next", "modl.toml", "bench"], "no such file at modl.toml; did you mean model.toml?"), (["export", "lif.nc", "a.csv"], "no result file at lif.nc; did you mean life.nc?"),
+    (["campaign", "from", "bench/te_1.cvs", "--reducer", "RV20E-121"], "there is no such file; did you mean bench/te_1.csv?"),
+])  # fmt: skip
+def test_mistyped_names_are_told_before_any_work(capsys, tmp_path, monkeypatch, arguments, text):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bench").mkdir()
+    for name in ("bench/te_1.csv", "model.toml", "life.nc"):
+        (tmp_path / name).touch()
+    code, out, err = said(capsys, *arguments)
+    assert code == 2 and out == "" and text in err and "comparing" not in err and "diagnosing" not in err
+
+
 def test_quiet_says_nothing_but_json_and_errors(capsys, tmp_path):
     assert said(capsys, "solve", "--positions", "8", "--quiet") == (0, "", "")
     assert json.loads(said(capsys, "solve", "--positions", "8", "-q", "--json")[1])["positions"] == 8

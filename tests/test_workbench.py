@@ -63,6 +63,16 @@ def test_the_printed_command_writes_what_the_page_saves(tmp_path, capsys):
     assert folder.campaign.read_text(encoding="utf-8") == found["text"] and len(found["proposal"]["runs"]) == 2
 
 
+def test_no_folder_is_made_of_a_mistyped_path(tmp_path):
+    (tmp_path / "bench").mkdir()
+    (tmp_path / "c.csv").write_text(CSV)
+    with pytest.raises(InputFault, match=r"there is no folder .*bnch; did you mean .*bench\?; make it first"):
+        opened(tmp_path / "bnch" / "new")
+    with pytest.raises(InputFault, match=r"c\.csv is a file; give the folder"):
+        opened(tmp_path / "c.csv")
+    assert opened(tmp_path / "bench" / "new").root.is_dir() and not (tmp_path / "bnch").exists()
+
+
 def test_a_file_that_was_edited_by_hand_is_not_written_over(tmp_path):
     folder = opened(tmp_path / "b")
     for k in (1, 2):

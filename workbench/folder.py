@@ -15,7 +15,7 @@ from typing import Any
 
 from discrepancy.campaign.measurement_files import measurement_files
 from fmu_src.checked_file import replacing, write_text
-from fmu_src.faults import InputFault, nearest
+from fmu_src.faults import InputFault, nearest, nearest_path
 from reducers.library import available
 
 MEMORY = ".workbench"
@@ -126,9 +126,13 @@ def is_model(path: Path, changed: int) -> bool:
 
 
 def opened(root: Path) -> Folder:
-    """InputFault where no such folder can be made or written."""
+    """InputFault where no such folder can be made or written: a file, or more than the last part of the path that is not there."""
+    if root.exists() and not root.is_dir():
+        raise InputFault(f"{root} is a file; give the folder that is worked in, for instance {root.absolute().parent}")
+    if not root.absolute().parent.is_dir():
+        raise InputFault(f"{root}: there is no folder {root.absolute().parent}{nearest_path(root)}; make it first, or correct the name")
     try:
-        root.mkdir(parents=True, exist_ok=True)
+        root.mkdir(exist_ok=True)
     except OSError as problem:
         raise InputFault(f"{root}: {problem.strerror or problem}; give a folder") from None
     if not os.access(root, os.R_OK | os.W_OK | os.X_OK):

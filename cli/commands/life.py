@@ -11,7 +11,7 @@ from cli.ending import exit_code
 from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, reducer_of, result_path, settings_of
 from fmu_src.checked_file import Damaged, set_aside
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest_path
 from fmu_src.held_file import held
 from fmu_src.reading import reading
 
@@ -88,7 +88,7 @@ def life(options: argparse.Namespace) -> int:
 
 def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path) -> int:
     """The life from where it stands, its result, and what is shown of it."""
-    from cli.show.life import jump_line
+    from cli.show.life import telling
     from fmu_src.progress import say
     from studies.kept_life import Paused, belongs_to, checkpoint_of, live_to
 
@@ -101,7 +101,7 @@ def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path
     if not options.output and path.exists() and known_result(path, wanted.inputs) is None and path.exists():
         print(f"{path} was of other settings: it stays as {stands_aside(path)}", file=sys.stderr)
     try:
-        dataset = live_to(path, wanted, resume, lambda state: say(jump_line(state)))
+        dataset = live_to(path, wanted, resume, telling(say))
     except Paused as interruption:
         print(f"interrupted at {interruption.hours:g} h; go on with --resume", file=sys.stderr)
         return exit_code(interruption)
@@ -187,7 +187,7 @@ def report(options: argparse.Namespace) -> int:
 
     path = Path(options.result)
     if not path.is_file():
-        raise InputFault(f"no result file at {path}; rvwear life writes one")
+        raise InputFault(f"no result file at {path}{nearest_path(path)}; rvwear life writes one")
     page = Path(options.output) if options.output else path.with_suffix(".html")
     try:
         dataset = netcdf.read(path)
