@@ -155,3 +155,9 @@ def test_an_angle_that_runs_on_like_the_input_is_doubted(tmp_path, turns, second
     assert bool(found) == bool(said)
     if said:
         assert said in found[0].text and ("input_angle=phi" in found[0].remedy) == (turns > 100)
+
+
+@pytest.mark.parametrize(("end", "more", "doubted"), [(-1.0, {}, True), (-1.0, {"direction": "forward"}, True), (-1.0, {"direction": "reverse"}, False), (1.0, {}, False)])
+def test_an_angle_that_falls_though_it_turned_forward_is_doubted(tmp_path, end, more, doubted):
+    check = campaign(tmp_path, {"a": condition(**more)}, [f'condition = "a"\n{angle_file(tmp_path, "te.csv", end, 4000)}'])
+    assert ("sense of the angle" in codes(check)) == doubted

@@ -4,6 +4,7 @@ import argparse
 import shlex
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,6 +50,7 @@ def run_from(options: argparse.Namespace) -> int:
     """Show the guesses, write the file, name the command that compares."""
     from cli.screen import json_text
     from cli.show.guesses import show
+    from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -58,16 +60,16 @@ def run_from(options: argparse.Namespace) -> int:
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
-        if proposal.reducer:
-            checked(proposal)
+        findings = angle_doubts(checked(proposal)) if proposal.reducer else []
     command = f"rvwear {'campaign check' if proposal.needs else f'compare {proposal.reducer}'} {folder}"
     text = campaign_text(proposal, folder)
     if not options.dry_run:
         write_campaign(proposal, folder, options.overwrite)
     if options.json:
-        json_text(proposal.as_json() | {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command})
+        more = {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command}
+        json_text(proposal.as_json() | {"findings": [asdict(found) for found in findings]} | more)
         return 0
-    show(proposal)
+    show(proposal, findings)
     if options.dry_run:
         print(f"\n{text}")
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")

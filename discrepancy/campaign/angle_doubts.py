@@ -1,4 +1,4 @@
-"""Angles of the output that run on at another rate than the stated speed: mostly those of the input."""
+"""Angles of the output that run on at another rate than the stated speed, mostly those of the input, or the other way round."""
 
 import math
 from collections.abc import Iterator
@@ -15,6 +15,14 @@ from discrepancy.problem import Record
 OTHER_RATE, NEAR_RATIO = 2.0, 0.1
 # Without a time: a quarter of a turn of the input, taken for the output, with fewer samples than show the pins' order.
 SHARE_OF_RATIO, SAMPLES_PER_WAVE = 0.25, 2.0
+# The first and the last part of so many tell which way an angle runs.
+FEW = 8
+
+
+def angle_doubts(campaign: Campaign) -> list[Finding]:
+    """Both kinds, of a campaign that was only just written."""
+    design = Design(campaign)
+    return [*rates_of_angles(design), *senses_of_angles(design)]
 
 
 def rates_of_angles(design: Design) -> Iterator[Finding]:
@@ -32,6 +40,23 @@ def rates_of_angles(design: Design) -> Iterator[Finding]:
         at_input = f"the angle of the input is columns.input_angle (--column 'input_angle={column}')"
         remedy = at_input if abs(times / (campaign.ratio or math.inf) - 1.0) < NEAR_RATIO else "correct the angle's unit or scale, or the condition's speed"
         yield Finding(WARNING, "rate of the angle", f"run {record.name}: the output's angle{campaign.place(record.name, 'angle')} {text}", remedy)
+
+
+def senses_of_angles(design: Design) -> Iterator[Finding]:
+    """Angles that fall while the reducer turned forward: every place on it would be taken for its mirror image."""
+    campaign, seen = design.campaign, set[str]()
+    for record in campaign.records:
+        source, angle = campaign.source(record.name, "angle"), record.axes.get("angle", np.zeros(0))
+        if record.quantity != "transmission_error" or source is None or len(angle) < FEW or record.factors.get("direction", 1.0) < 0.0:
+            continue
+        ends = float(np.mean(angle[-(len(angle) // FEW) :]) - np.mean(angle[: len(angle) // FEW]))
+        if ends >= 0.0 or source.column in seen:
+            continue
+        seen.add(source.column)
+        stated = "is forward" if campaign.conditions[record.condition].direction_stated else "states no direction and so is forward"
+        text = f"run {record.name}: the angle{campaign.place(record.name, 'angle')} falls, while its condition {stated}"
+        remedy = 'state direction = "reverse" if it turned that way; else scale = -1 in its column, for the encoder counts the other way'
+        yield Finding(WARNING, "sense of the angle", text, remedy)
 
 
 def output_speed(record: Record, campaign: Campaign) -> float:
