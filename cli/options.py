@@ -107,7 +107,10 @@ def number_in(unit: str) -> "Callable[[str], float]":
 
     def parsed(text: str) -> float:
         from discrepancy.campaign.amount import amount
+        from orchestrator.settings import NUMBER
 
+        if not NUMBER.match(text):
+            raise argparse.ArgumentTypeError(f"{text!r} is no number; give one in {unit}, or with another unit of its kind, for instance 15{unit}")
         try:
             return amount(f"{text} {unit}" if PLAIN.fullmatch(text) else text, unit, "the number")
         except InputFault as fault:

@@ -8,6 +8,7 @@ from typing import NoReturn
 from fmu_src.faults import nearest
 
 CHOICE = re.compile(r"invalid choice: '(.*?)' \(choose from (.*)\)", re.DOTALL)
+NUMBER = re.compile(r"invalid (int|float) value: ('.*')$", re.DOTALL)
 
 
 class Parser(argparse.ArgumentParser):
@@ -35,6 +36,9 @@ class Parser(argparse.ArgumentParser):
             place = place if place.startswith("there is") else f"{place}there is no "
             meant = nearest(match[1], known, 1)
             message = f"{place}{match[1]!r}{meant or f'; choose from {chr(44).join(known)}'.replace(',', ', ')}"
+        if match := NUMBER.search(message):
+            wanted = "a whole number is needed" if match[1] == "int" else "a number is needed, without a unit"
+            message = f"{message[: match.start()]}{match[2]}: {wanted}"
         if message.endswith("are required: COMMAND"):
             message = "name a command, like rvwear solve; rvwear --help lists all"
         if message.endswith("are required: ACTION"):

@@ -78,6 +78,10 @@ class Answer:
         }  # fmt: skip
 
 
+# What Ctrl-C says where there is no answer yet.
+NOTHING_YET = "while the base model was fitted, from which everything else begins: nothing is known yet, and the same command begins anew"
+
+
 class AnswerSoFar(KeyboardInterrupt):
     """Ctrl-C in a diagnosis; ``answer`` is what was known by then, and its ``doctor`` can go on."""
 
@@ -97,8 +101,15 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         model = doctor.model
     model = model or PhysicalModel(file, campaign, jobs=jobs, fmus=fmus)
     doctor = doctor or Diagnostician(model, settings, named_orders(model.bench, model.campaign.orders))
-    doctor.prepare()
-    figures = figures_of(doctor, model)
+    try:
+        doctor.prepare()
+    except KeyboardInterrupt as stop:
+        raise KeyboardInterrupt(NOTHING_YET) from stop
+    try:
+        figures = figures_of(doctor, model)
+    except KeyboardInterrupt:
+        doctor.doing = "reading the key figures"
+        raise AnswerSoFar(answer_of(model, doctor, doctor.stopped(), [])) from None
     try:
         return answer_of(model, doctor, doctor.run(calibrated_first(figures)), figures)
     except Interrupted as stop:

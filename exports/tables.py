@@ -26,12 +26,18 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
+    """``note``: what one has to know of its numbers, which goes with them into a file."""
+
     name: str
     columns: tuple[Column, ...]
+    note: str = ""
 
     def frame(self) -> pd.DataFrame:
         """One row an entry, heads with units."""
-        return pd.DataFrame({column.head: column.values for column in self.columns})
+        frame = pd.DataFrame({column.head: column.values for column in self.columns})
+        if self.note:
+            frame.attrs["note"] = self.note
+        return frame
 
 
 def figure_table(figures: Mapping[str, Any], unit_of: Mapping[str, str], name: str = "figures") -> Table:

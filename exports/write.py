@@ -33,6 +33,7 @@ def write_tables(tables: Sequence[Table], path: Path) -> list[Path]:
     """The files that were written, each whole or not at all.
 
     MAT and Excel hold all tables; of CSV and Parquet each has a file of its own, the first under ``path``, the others as ``NAME_table.csv``.
+    A note is a comment line in CSV, a sheet in Excel, a field in MAT, an attribute of the frame in Parquet.
     Heads are ``torque [N.m]``; in MAT fields are ``torque`` and a structure ``units`` has the same fields.
     """
     require_writable(path)
@@ -49,7 +50,8 @@ def write_csv(tables: Sequence[Table], path: Path) -> list[Path]:
     for table, own in beside(tables, path):
         with replacing(own) as partial:
             # As many digits as a number has.
-            table.frame().to_csv(partial, index=False, encoding="utf-8")
+            text = table.frame().to_csv(index=False)
+            partial.write_text((f"# {table.note}\n" if table.note else "") + text, encoding="utf-8", newline="")
     return [own for _, own in beside(tables, path)]
 
 
@@ -72,6 +74,8 @@ def write_excel(tables: Sequence[Table], path: Path) -> list[Path]:
         sheet.append([column.head for column in table.columns])
         for row in zip(*(plain(column.values) for column in table.columns)):
             sheet.append(row)
+    if note := "; ".join(dict.fromkeys(table.note for table in tables if table.note)):
+        book.create_sheet("note").append([note])
     with replacing(path) as partial:
         book.save(partial)
     return [path]
@@ -86,6 +90,8 @@ def write_mat(tables: Sequence[Table], path: Path) -> list[Path]:
         columns: dict[str, Any] = {name: np.asarray(column.values) for name, column in zip(names, table.columns)}
         columns = {name: values.astype(object) if values.dtype.kind in "US" else values for name, values in columns.items()}
         columns["units"] = {name: column.unit or "1" for name, column in zip(names, table.columns)}
+        if table.note:
+            columns["note"] = table.note
         content[field_names([table.name])[0]] = columns
     with replacing(path) as partial:
         scipy.io.savemat(partial, content, appendmat=False, oned_as="column", long_field_names=True)

@@ -1,6 +1,7 @@
 """Errors that a user can mend."""
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from types import MappingProxyType
 
 
@@ -34,3 +35,15 @@ def nearest(name: str, known: Iterable[str], most: int = 3, old: Mapping[str, st
     meant = {name.rpartition(".")[2]: name for name in names} | dict(old) | {name: name for name in names}
     close = dict.fromkeys(meant[k] for k in difflib.get_close_matches(name, meant, most))
     return f"; did you mean {', '.join(close)}?" if close else ""
+
+
+def nearest_path(path: Path) -> str:
+    """The same for a path: what was perhaps meant by the first part of it that is not there."""
+    missing = path
+    while not missing.parent.exists():
+        missing = missing.parent
+    try:
+        there = {beside.name: str(beside) for beside in missing.parent.iterdir() if not beside.name.startswith(".")}
+    except OSError:
+        return ""
+    return nearest(missing.name, (), old=there)

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from fmu_src.checked_file import Damaged, write_fault
-from fmu_src.faults import InputFault, MissingPart, RunFault
+from fmu_src.faults import InputFault, MissingPart, RunFault, nearest_path
 
 # Bytes of a file that people write by hand, and how deep tables may stand in tables.
 MOST_TEXT, DEEPEST = 20_000_000, 20
@@ -78,7 +78,7 @@ def require_size(path: Path, most: int) -> None:
 def read_text(path: Path, what: str, remedy: str, most: int = MOST_TEXT) -> str:
     """The text of a file in UTF-8, with or without a byte order mark."""
     if not path.is_file():
-        raise InputFault(f"no {what} at {path}; {remedy}")
+        raise InputFault(f"no {what} at {path}{nearest_path(path)}; {remedy}")
     with reading(path, f"a {what} in UTF-8", remedy):
         require_size(path, most)
         content = path.read_bytes()

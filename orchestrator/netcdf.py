@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from fmu_src.checked_file import replacing, require_seal, seal
-from fmu_src.faults import InputFault, RunFault
+from fmu_src.faults import InputFault, RunFault, nearest_path
 from fmu_src.reading import reading, require_size
 from fmu_src.reading_apart import plain, read_apart, restored
 from fmu_src.source_hash import source_hash
@@ -58,7 +58,7 @@ def write(dataset: xr.Dataset, path: Path) -> Path:
 def read(path: Path) -> xr.Dataset:
     """A result file in memory; Damaged if it is not what was written, InputFault if it is none.  Others' NetCDF files have no checksum."""
     if not path.is_file():
-        raise InputFault(f"no result file at {path}; rvwear life and rvwear run write one")
+        raise InputFault(f"no result file at {path}{nearest_path(path)}; rvwear life and rvwear run write one")
     with reading(path, "a NetCDF file"):
         require_size(path, MOST)
         if SEALED.encode() in path.read_bytes():

@@ -159,7 +159,7 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
         path = LIBRARY / f"{name_or_path}.toml"
     if not path.is_file():
         raise InputFault(
-            f"no reducer {str(name_or_path)!r}: give one of {', '.join(available())}, or the path of a .toml file"
+            f"no reducer {str(name_or_path)!r}{nearest(str(name_or_path), available(), 1)}; give one of {', '.join(available())}, or the path of a .toml file"
         )
     with reading(path, "a reducer file", REMEDY):
         return reducer_of(read_toml(path, "reducer file", REMEDY), path)

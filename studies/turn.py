@@ -21,6 +21,8 @@ from studies.solve import SERIES, Turn, figures_of, record_turn, require_positio
 
 # The units of what is read over a turn, where the tables know none that suits it.
 READ_IN = {"transmission_error": "arcsec", "lag": "arcsec", "contact_pressure": "MPa"}
+# Curves by the names of the figures that are read from them.
+CURVES = {"transmission_error": "transmission_error_at_input"}
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,11 @@ class CrankTurn:
 
     def dataset(self) -> xr.Dataset:
         """Series over ``position`` with the crank angle [deg] beside, and the figures as single numbers."""
-        variables = {name: self.variable(name) for name in SERIES if name not in ("crank_angle", "residual", "iterations")}
+        variables = {CURVES.get(name, name): self.variable(name) for name in SERIES if name not in ("crank_angle", "residual", "iterations")}
+        lag = variables["lag"]
+        # Against the cranks, as the figure of that name.
+        said = {"units": lag.attrs["units"], "long_name": "departure of the output from its mean, against the cranks: mean lag less lag"}
+        variables["transmission_error"] = xr.Variable(("position",), lag.values.mean() - lag.values.reshape(-1), said)
         figures = {name: ((), value, {"units": figure_unit(name)}) for name, value in self.figures.items()}
         angle = np.degrees(self.turn["crank_angle"]).reshape(-1)
         coordinates = {"crank_angle": ("position", angle, {"units": "deg", "long_name": "angle of the cranks"})}

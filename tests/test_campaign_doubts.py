@@ -138,3 +138,26 @@ def test_a_loop_that_gives_work_is_doubted_and_one_that_takes_it_is_not(tmp_path
 def test_a_loop_that_turns_against_its_torque_is_doubted(tmp_path):
     (found,) = loop_doubts(tmp_path, turned(10.0, sign=-1.0))
     assert "opposite senses" in found.text and "scale = -1" in found.remedy
+
+
+@pytest.mark.parametrize(("turns", "seconds", "role", "said"), [
+    (1.02 * 121, None, "angle", "494 s at the stated 15 rpm"), (1.02 * 121, None, "input_angle", ""), (1.02, None, "angle", ""),
+    (121.0, 4.0, "angle", "121 times the stated 15 rpm"), (1.0, 4.0, "angle", ""), (1.0, 40.0, "angle", "0.1 times the stated"),
+])  # fmt: skip
+def test_an_angle_that_runs_on_like_the_input_is_doubted(tmp_path, turns, seconds, role, said):
+    run = angle_file(tmp_path, "te.csv", turns, 4000).replace("columns.angle", f"columns.{role}")
+    if seconds:
+        table = np.loadtxt(tmp_path / "te.csv", delimiter=",", skiprows=1)
+        np.savetxt(tmp_path / "te.csv", np.column_stack([table, np.linspace(0.0, seconds, 4000)]), delimiter=",", header="phi,te,t", comments="")
+        run += '\ncolumns.time = { column = "t", unit = "s" }'
+    check = campaign(tmp_path, {"a": condition()}, [f'condition = "a"\n{run}'])
+    found = [f for f in check.findings if f.code == "rate of the angle"]
+    assert bool(found) == bool(said)
+    if said:
+        assert said in found[0].text and ("input_angle=phi" in found[0].remedy) == (turns > 100)
+
+
+@pytest.mark.parametrize(("end", "more", "doubted"), [(-1.0, {}, True), (-1.0, {"direction": "forward"}, True), (-1.0, {"direction": "reverse"}, False), (1.0, {}, False)])
+def test_an_angle_that_falls_though_it_turned_forward_is_doubted(tmp_path, end, more, doubted):
+    check = campaign(tmp_path, {"a": condition(**more)}, [f'condition = "a"\n{angle_file(tmp_path, "te.csv", end, 4000)}'])
+    assert ("sense of the angle" in codes(check)) == doubted

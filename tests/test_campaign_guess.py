@@ -18,7 +18,7 @@ from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.campaign.guess.write import campaign_text, checked
+from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import incomplete
 from fmu_src.faults import InputFault
@@ -180,6 +180,26 @@ def test_patterns_of_names(patterned, plain):
     assert (again.numbers, again.replicate, again.direction) == (said.numbers, said.replicate, said.direction)
 
 
+@pytest.mark.parametrize("word", ["run", "nr", "Wdh", "essai", "Versuch", "mesure", "repetition", "M", "v", "aufbau"])
+def test_repetitions_are_no_conditions(tmp_path, word):
+    """Known words count; of any other it is said why."""
+    for k in (1, 2, 3):
+        write(tmp_path, "loop").rename(tmp_path / f"loop_35C_{word}{k}.csv")
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert len(proposal.conditions) == 1 and [run.replicate.value for run in proposal.runs] == [1, 2, 3]
+    assert not proposal.held_out and proposal.runs[0].guessed.name.pattern == f"loop_{{temperature}}C_{word}{{replicate}}"
+    said = [d for d in proposal.doubts if "aufbau1 to aufbau3 are taken for repetitions of one condition" in d.text]
+    assert [d.remedy for d in said] == (["--names 'loop_{temperature}C_{condition}' if they are conditions"] if word == "aufbau" else [])
+    assert len(propose([tmp_path], Wishes("RV20E-121", names=("loop_{temperature}C_{condition}",))).conditions) == 3
+
+
+@pytest.mark.parametrize("names", [("T50", "T100"), ("a1", "b2"), ("x2", "x3"), ("x1_20C", "x2_30C"), ("M10", "M50")])
+def test_other_numbers_are_conditions(tmp_path, names):
+    for name in names:
+        write(tmp_path, "loop").rename(tmp_path / f"loop_{name}.csv")
+    assert len(propose([tmp_path], Wishes("RV20E-121")).conditions) == 2
+
+
 def test_names_that_do_not_fit_are_said(tmp_path):
     with pytest.raises(InputFault, match=r"no field \{lod\}.*did you mean load"):
         by_pattern(Path("te_1.csv"), "te_{lod}")
@@ -292,6 +312,20 @@ def test_the_reducer_is_asked_for(tmp_path, capsys):
     assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
 
 
+def test_folders_below_count_and_names_that_fit_nothing_are_refused(tmp_path):
+    for folder in ("cold", "results", ".hidden"):
+        (tmp_path / folder).mkdir()
+        write(tmp_path / folder, "loop")
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert [run.guessed.path.parent.name for run in proposal.runs] == ["cold"]
+    assert load_campaign(write_campaign(proposal, tmp_path).parent).records
+    with pytest.raises(InputFault, match=r"--names 'x_\{load\}' fits none of the 1 files \(loop_167Nm_15rpm_1.csv"):
+        propose([tmp_path], Wishes("RV20E-121", names=("loop_{load}Nm_{speed}rpm_{replicate}", "x_{load}")))
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputFault, match=r"no files: .*empty holds none of .*\.csv"):
+        propose([tmp_path / "empty"], Wishes("RV20E-121"))
+
+
 def test_no_table_is_said(tmp_path):
     (tmp_path / "a.csv").write_text("nothing\nto see\n")
     with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):
@@ -331,3 +365,31 @@ def test_condition_that_a_file_says_otherwise_is_kept_and_said(tmp_path):
     (tmp_path / "te_28degC.csv").write_text("angle [deg],te [arcsec]\n" + "".join(f"{a},{a % 7}\n" for a in range(0, 360, 3)), encoding="utf-8")
     proposal = propose([tmp_path / "te_28degC.csv"], Wishes("RV20E-121", conditions={"temperature": "20 degC"}))
     assert any("28 degC, which is kept, not 20 degC" in doubt.text for doubt in proposal.doubts)
+
+
+@pytest.mark.parametrize("header", ["input_angle_deg", "Antriebswinkel [°]", "motor angle [deg]", "phi_in [deg]", "input angle [deg]"])
+def test_an_angle_of_the_input_is_divided_by_the_ratio(tmp_path, header):
+    pd.DataFrame({header: 121 * np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert proposal.runs[0].guessed.columns.keys() == {"value", "input_angle"}
+    record = checked(proposal).records[0]
+    assert record.axes["angle"] == pytest.approx(ANGLE) and record.values == pytest.approx(ERROR)
+
+
+def test_a_stated_column_wins(tmp_path):
+    columns = {"phi [deg]": 121 * np.degrees(ANGLE), "out [deg]": np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC}
+    pd.DataFrame(columns).to_csv(tmp_path / "te_1.csv", index=False)
+    for given in ("phi [deg]", "phi"):
+        proposal = propose([tmp_path], Wishes("RV20E-121", columns={"input_angle": given}))
+        assert proposal.runs[0].guessed.columns["input_angle"].column.reason == "given"
+        assert checked(proposal).records[0].axes["angle"] == pytest.approx(ANGLE)
+
+
+@pytest.mark.parametrize("columns, said", [
+    ({"winkel": "out [deg]"}, "there is no such role; choose from"), ({"angle": "ot"}, "no file has a column 'ot' .*did you mean out"),
+    ({"torque": "out [deg]"}, "the files are taken for transmission_error, which has no place for this column as torque"),
+])  # fmt: skip
+def test_a_stated_column_that_nothing_follows_is_refused(tmp_path, columns, said):
+    pd.DataFrame({"out [deg]": np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
+    with pytest.raises(InputFault, match=said):
+        propose([tmp_path], Wishes("RV20E-121", columns=columns))

@@ -6,6 +6,7 @@ import pytest
 
 from cli import doctor
 from cli.main import main
+from cli.options import number_in
 from cli.screen import WIDTH
 from cli.show.doctor import show
 
@@ -32,6 +33,11 @@ def said(capsys, *arguments):
     ([], "rvwear: name a command, like rvwear solve; rvwear --help lists all"),
     (["campaign"], "rvwear campaign: say what is to be done; rvwear campaign --help lists it"),
     (["solve", "--torque", "16parsec"], "rvwear solve: --torque 16parsec: setting 'output.load_torque=16parsec': unit 'parsec' does not fit"),
+    (["life", "--hours", "-3"], "rvwear life: --hours: hours = -3.0: a positive finite number is needed"),
+    (["life", "--hours", "2kg"], "rvwear life: argument --hours: the number = 2 kg: unit 'kg' does not fit"),
+    (["run", "x.ssp", "--duration", "long"], "rvwear run: argument --duration: 'long' is no number; give one in s, or with another unit of its kind"),
+    (["reducer", "new", "--pins", "39.5"], "rvwear reducer new: argument --pins: '39.5': a whole number is needed"),
+    (["dynamics-wear", "--limit", "3%"], "rvwear dynamics-wear: argument --limit: '3%': a number is needed, without a unit"),
     (["effects", "fricton"], "rvwear effects: no effect 'fricton'; did you mean drive_friction"),
 ])  # fmt: skip
 def test_what_was_meant_is_said(capsys, arguments, text):
@@ -43,6 +49,26 @@ def test_what_was_meant_is_said(capsys, arguments, text):
 def test_torques_with_and_without_a_unit(capsys, text, torque):
     code, out, _ = said(capsys, "solve", "--positions", "8", "--torque", text, "--json")
     assert code == 0 and json.loads(out)["load_torque_Nm"] == pytest.approx(torque)
+
+
+@pytest.mark.parametrize("text, hours", [("2000", 2000.0), ("0.1", 0.1), ("2000h", 2000.0), ("90 d", 2160.0), ("30min", 0.5)])
+def test_hours_with_and_without_a_unit(text, hours):
+    assert number_in("h")(text) == pytest.approx(hours, rel=1e-15) and number_in("h")("0.1") == 0.1
+
+
+@pytest.mark.parametrize("arguments, text", [
+    (["compare", "RV20E-12", "bench"], "no reducer 'RV20E-12'; did you mean RV20E-121?; give one of"),
+    (["diagnose", "RV20E-121", "bnch"], "no campaign file at bnch/campaign.toml; did you mean bench?; rvwear campaign from"),
+    (["next", "modl.toml", "bench"], "no such file at modl.toml; did you mean model.toml?"), (["export", "lif.nc", "a.csv"], "no result file at lif.nc; did you mean life.nc?"),
+    (["campaign", "from", "bench/te_1.cvs", "--reducer", "RV20E-121"], "there is no such file; did you mean bench/te_1.csv?"),
+])  # fmt: skip
+def test_mistyped_names_are_told_before_any_work(capsys, tmp_path, monkeypatch, arguments, text):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bench").mkdir()
+    for name in ("bench/te_1.csv", "model.toml", "life.nc"):
+        (tmp_path / name).touch()
+    code, out, err = said(capsys, *arguments)
+    assert code == 2 and out == "" and text in err and "comparing" not in err and "diagnosing" not in err
 
 
 def test_quiet_says_nothing_but_json_and_errors(capsys, tmp_path):

@@ -241,6 +241,14 @@ def test_command_says_what_it_finds(tmp_path, capsys):
     assert main(["effects", "--check", str(good)]) == 0
     assert main(["effects", "--check", str(good), str(bad)]) == 2
     assert f"{bad}:{FIRST + 2}: before may not change r.z" in capsys.readouterr().out
+    # A folder is all that it holds.
+    for folder in (tmp_path, good.parent):
+        assert main(["effects", "--check", str(folder)]) == 2
+        said = capsys.readouterr().out
+        assert f"{bad}:{FIRST + 2}: before may not change r.z" in said and f"{good}: nothing wrong" in said
+    (tmp_path / "none").mkdir()
+    assert main(["effects", "--check", str(tmp_path / "none")]) == 2
+    assert "no effect in this folder; effects lie in DIR/rv_plant/ or DIR/wear_fmu/" in capsys.readouterr().err
 
 
 OFF = [

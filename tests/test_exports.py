@@ -9,6 +9,7 @@ import pytest
 import scipy.io
 import xarray as xr
 
+from cli.altered import note_of, noted_figure, noted_tables
 from cli.main import main
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
@@ -158,6 +159,22 @@ def test_a_picture_shows_what_the_page_shows():
     upper, lower = split.get_axes()
     assert upper.get_lines() == [] or upper.collections
     assert lower.get_xlabel() == "x" and upper.get_xlabel() == ""
+
+
+def test_what_is_altered_says_so_wherever_it_goes(tmp_path):
+    note = note_of(["pin.radius=3mm"])
+    table = noted_tables([Table("curve", (Column("x", "m", [1.0, 2.0]),))], note)
+    for ending in ("csv", "xlsx", "mat", "parquet"):
+        write_tables(table, tmp_path / f"a.{ending}")
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()[0] == f"# {note}" and list(pd.read_csv(tmp_path / "a.csv", comment="#").columns) == ["x [m]"]
+    assert pd.read_parquet(tmp_path / "a.parquet").attrs["note"] == note
+    assert pd.read_excel(tmp_path / "a.xlsx", sheet_name="note").columns[0] == note
+    assert scipy.io.loadmat(tmp_path / "a.mat", simplify_cells=True)["curve"]["note"] == note
+    curve = Curve("a", np.array([0.0, 90.0, 180.0]), np.array([1.0, 2.0, 1.0]), "#123456")
+    flat, round_ = noted_figure(chart("c", "t", "", [curve], "x [m]", "y [m]"), note), noted_figure(polar("p", "t", "", [curve, curve]), note)
+    assert "instead of the sources'" in drawn(flat).axes[0].get_xlabel() and drawn(flat).axes[0].get_xlabel().startswith("x [m]")
+    assert any("instead of the" in text.get_text() for legend in drawn(round_).legends for text in legend.get_texts())
+    assert not note_of([]) and noted_figure(flat, "") is flat
 
 
 def test_a_legend_is_never_wider_than_its_picture():

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -159,3 +160,25 @@ def test_control_c_at_the_command_leaves_an_answer_and_the_command_goes_on(tmp_p
     again = subprocess.run([sys.executable, "-m", "cli.main", *command], capture_output=True, text=True, env=environment, check=False, timeout=240)
     assert again.returncode == 0, again.stderr
     assert json.loads(again.stdout)["verdict"] != "stopped" and load_model("RV20E-121").name == json.loads(again.stdout)["model"]
+
+
+def test_interrupted_while_the_base_is_fitted_the_command_says_that_nothing_is_known(monkeypatch, capsys, tmp_path):
+    from cli.main import main
+    from discrepancy import verdict
+
+    campaign = str(ROOT / "examples" / "hidden_effect" / "campaign")
+    monkeypatch.setattr(verdict.Diagnostician, "prepare", lambda self: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert main(["diagnose", "RV20E-121", campaign]) == 130
+    assert "rvwear diagnose: interrupted (while the base model was fitted" in capsys.readouterr().err
+
+
+def test_interrupted_at_the_key_figures_the_fitted_base_is_told(monkeypatch):
+    from discrepancy import verdict
+
+    doctor = SimpleNamespace(model=None, doing="", prepare=lambda: None)
+    doctor.stopped = lambda: SimpleNamespace(reason=f"stopped while {doctor.doing}")
+    monkeypatch.setattr(verdict, "figures_of", lambda *_: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setattr(verdict, "answer_of", lambda model, doctor, found, figures: found)
+    with pytest.raises(verdict.AnswerSoFar, match="stopped while reading the key figures"):
+        verdict.diagnose(None, None, model=SimpleNamespace(), doctor=doctor)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cli.show.life import telling
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.settings import Setting
 from studies.checkpoint import load_checkpoint, save_checkpoint
@@ -198,3 +199,17 @@ def test_peak_of_a_rippled_hump_lies_at_its_middle():
     depth, place = peak_of_circle((hump * ripple)[None, :])
     assert place == pytest.approx(1.234, abs=np.radians(0.3))
     assert depth == pytest.approx(1.0, abs=0.003)
+
+
+def test_a_life_that_begins_again_says_why():
+    """Jumps of a finer run look like a restart."""
+    lines: list[str] = []
+    tell = telling(lines.append)
+    figures = dict.fromkeys(("inner_raceway_um", "outer_raceway_um", "disc_flank_um", "pin_um"), 1.0)
+    for jumps, hours, coarse in ((3, [0.0, 10.0], []), (3, [0.0, 10.0, 40.0], []), (6, [0.0, 2.5], [[1.0]]), (12, [0.0, 1.0], [])):
+        tell(Life(LifeSettings(90.0), hours=hours, figures=[figures], jumps=jumps, coarse=coarse))
+    assert [line for line in lines if "again" in line] == [
+        "again from 0 h in 6 jumps, each a part of one of the 3 before: the difference is their error",
+        "too much wear in one jump of 6: again from 0 h, in 12 jumps",
+    ]
+    assert len(lines) == 6

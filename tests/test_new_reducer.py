@@ -9,7 +9,7 @@ import pytest
 from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
-from reducers.completion.complete import NOT_ALONE, UNITS, complete
+from reducers.completion.complete import NOT_ALONE, UNITS, complete, rounded_ratio
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
 from reducers.completion.given import Given
@@ -37,6 +37,18 @@ def test_a_completed_file_is_a_reducer_file_and_marks_every_number(tmp_path, cap
     free = {n["name"] for n in told["numbers"] if n["range"][0] < n["range"][1]} - set(NOT_ALONE)
     assert len(reducer.ranges) == len(free)
     assert reducer.ranges["pin_radius"][0] < reducer.starts["pin_radius"] < reducer.ranges["pin_radius"][1]
+
+
+def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys):
+    """In the sum of the command, and of the check of its file."""
+    path = str(tmp_path / "mine.toml")
+    assert main(["reducer", "new", "--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--known", "pin.radius=3mm", "--output", path]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "planets of 60 and a sun of 23 teeth with 40 pins make 105.348, which the file has" in said
+    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, pin.radius 3; of the file's 53 numbers these say 5, 17 come by published rules, 31 are" in said
+    assert main(["reducer", "check", path]) == 0
+    assert "53 numbers stated (2 given, 20 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
+    assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
 
 
 def test_rules_hold_in_what_is_completed():

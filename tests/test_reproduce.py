@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from cli.main import main
 from fmu_src.faults import InputFault
 from reproduce import as_json, available_claims, print_table, rig, run, tables_of, wall, write_page
 from reproduce import printed_forms as printed
@@ -237,3 +238,14 @@ def test_the_whole_run_stands():
     inner = number_of(claims, "N10", "inner raceway, 10,000 h (printed: 2,000 h segments)")
     assert inner.value == pytest.approx(3.01, rel=0.02, abs=0)
     assert number_of(claims, "T28", "RV20E-121, ideal: after 10,000 h").value == pytest.approx(56.0, abs=3.0)
+
+
+@pytest.mark.parametrize("options, said", [
+    (["--set", "crank.ecentricity=1mm"], "did you mean crank.eccentricity"), (["--set", "crank.eccentricity=1kg"], "unit 'kg' does not fit"),
+    (["--output", "."], "--output . is a folder"),
+])  # fmt: skip
+def test_what_cannot_be_is_said_before_the_work(capsys, monkeypatch, tmp_path, options, said):
+    monkeypatch.chdir(tmp_path)
+    assert main(["reproduce", "T01", *options]) == 2
+    told = capsys.readouterr()
+    assert said in told.err and "T01" not in told.err

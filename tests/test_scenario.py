@@ -1,8 +1,10 @@
 """Scenario files: the pair from a file, and what a bad file is told."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from cli.main import main
 from fmu_src.faults import InputFault
 from orchestrator.system import load
 
@@ -49,6 +51,21 @@ def test_pair_from_a_file_runs_and_records(tmp_path):
     assert series["wear.flank.depth"][-1].max() > 0.0
     assert scenario.master.components["plant"].get("load_torque") == 100.0
     assert scenario.master.components["plant"].get("bearing_clearance") == pytest.approx(4e-6)
+
+
+def test_a_run_that_ends_beside_its_duration_says_so_and_goes_into_other_files(tmp_path, capsys):
+    """An element's unit is its array's; what only a life can show is refused before anything is written."""
+    case, result = str(write(tmp_path, PAIR)), str(tmp_path / "r.nc")
+    assert main(["run", case, "--duration", "3ms", "--output", result]) == 0
+    said = capsys.readouterr()
+    assert "0.003 s are no whole steps of 0.0013 s: the run took the nearest number of them, 0.0026 s; --step 0.0015 divides it" in said.err
+    assert main(["run", case, "--duration", "2.6ms", "--output", result, "-q"]) == 0 and not capsys.readouterr().err
+    files = [tmp_path / f"r.{ending}" for ending in ("csv", "parquet", "mat", "xlsx")]
+    assert main(["export", result, str(tmp_path / "a.csv"), str(tmp_path / "a.svg")]) == 2
+    assert "holds no life, which" in capsys.readouterr().err and not (tmp_path / "a.csv").exists()
+    assert main(["export", result, *map(str, files)]) == 0 and all(file.is_file() for file in files)
+    table = pd.read_csv(files[0])
+    assert len(table) == 3 and {"time [s]", "plant.output.lag [rad]", "plant.mesh.force[1,3] [N]"} <= set(table.columns)
 
 
 def test_fmu_from_a_file(tmp_path, fmus):

@@ -1,16 +1,21 @@
 """The workbench's server: files that become a campaign, jobs that outlive it, what pages are told.  No browser."""
 
 import json
+import shlex
+import shutil
 import time
+from pathlib import Path
 
 import pytest
 from workbench_server import CSV, asked, own
 
+from cli.main import main
 from fmu_src.faults import InputFault
 from workbench import jobs
 from workbench.folder import Folder, opened
 from workbench.intake import save, view
 
+ROOT = Path(__file__).resolve().parents[1]
 pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
 
 
@@ -35,6 +40,37 @@ def test_dropped_files_become_the_campaign_of_the_command_line(served):
     assert asked(address, "in/save", "POST", b"{}", **own(address))[0] == 200
     same = propose(folder.measurements(), Wishes("RV20E-121", conditions=wishes["conditions"], tags=wishes["tags"]), "my bench")
     assert folder.campaign.read_text(encoding="utf-8") == campaign_text(same, folder.root)
+
+
+def test_the_printed_command_writes_what_the_page_saves(tmp_path, capsys):
+    """With files in folders below, a reducer file beside them, and names that were corrected since."""
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "my bench")
+    shutil.copy(ROOT / "reducers" / "RV20E-121.toml", folder.root / "own.toml")
+    for name in ("loop_10degC_1.csv", "cold/loop_0degC_1.csv", "cold/old_5degC_1.csv"):
+        (folder.root / name).parent.mkdir(exist_ok=True)
+        (folder.root / name).write_text(CSV)
+    given = {"reducer": "own.toml", "names": ["loop_{temperature}degC_{replicate}", "old_{temperature}degC_{replicate}"], "tags": {"locked": "output"}}
+    wish(folder, given | {"names": ["{any}_{temperature}degC_{replicate}", *given["names"]]})
+    assert view(folder)["command"].count("--names") == 1
+    wish(folder, given)
+    (folder.root / "cold/old_5degC_1.csv").unlink()
+    found = view(folder)
+    assert found["gone"] == ["names old_{temperature}degC_{replicate}: no file fits any more; it is left out"]
+    save(folder)
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"] and len(found["proposal"]["runs"]) == 2
+
+
+def test_no_folder_is_made_of_a_mistyped_path(tmp_path):
+    (tmp_path / "bench").mkdir()
+    (tmp_path / "c.csv").write_text(CSV)
+    with pytest.raises(InputFault, match=r"there is no folder .*bnch; did you mean .*bench\?; make it first"):
+        opened(tmp_path / "bnch" / "new")
+    with pytest.raises(InputFault, match=r"c\.csv is a file; give the folder"):
+        opened(tmp_path / "c.csv")
+    assert opened(tmp_path / "bench" / "new").root.is_dir() and not (tmp_path / "bnch").exists()
 
 
 def test_a_file_that_was_edited_by_hand_is_not_written_over(tmp_path):

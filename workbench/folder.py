@@ -9,12 +9,13 @@ import re
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from discrepancy.campaign.readers import kind_of
+from discrepancy.campaign.measurement_files import measurement_files
 from fmu_src.checked_file import replacing, write_text
-from fmu_src.faults import InputFault, nearest
+from fmu_src.faults import InputFault, nearest, nearest_path
 from reducers.library import available
 
 MEMORY = ".workbench"
@@ -64,17 +65,7 @@ class Folder:
 
     def measurements(self) -> list[Path]:
         """Files whose ending tells that they may hold measurements, here and in folders below, in the order of their names."""
-        found: list[Path] = []
-        for here, folders, names in os.walk(self.root):
-            folders[:] = sorted(name for name in folders if not name.startswith((".", "_")) and name not in ("fmus", "results"))
-            # Links that lead out of the folder are no files of it.
-            found += [
-                Path(here) / name for name in sorted(names)
-                if kind_of(Path(name)) and not name.startswith(".") and (Path(here) / name).resolve().is_relative_to(self.root.resolve())
-            ]  # fmt: skip
-            if len(found) > MOST_FILES:
-                break
-        return found[:MOST_FILES]
+        return list(islice(measurement_files(self.root), MOST_FILES))
 
     def models(self) -> list[str]:
         """Model and reducer files of the folder."""
@@ -135,9 +126,13 @@ def is_model(path: Path, changed: int) -> bool:
 
 
 def opened(root: Path) -> Folder:
-    """InputFault where no such folder can be made or written."""
+    """InputFault where no such folder can be made or written: a file, or more than the last part of the path that is not there."""
+    if root.exists() and not root.is_dir():
+        raise InputFault(f"{root} is a file; give the folder that is worked in, for instance {root.absolute().parent}")
+    if not root.absolute().parent.is_dir():
+        raise InputFault(f"{root}: there is no folder {root.absolute().parent}{nearest_path(root)}; make it first, or correct the name")
     try:
-        root.mkdir(parents=True, exist_ok=True)
+        root.mkdir(exist_ok=True)
     except OSError as problem:
         raise InputFault(f"{root}: {problem.strerror or problem}; give a folder") from None
     if not os.access(root, os.R_OK | os.W_OK | os.X_OK):

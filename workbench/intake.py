@@ -3,6 +3,7 @@
 import hashlib
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.check import check_campaign
+from discrepancy.campaign.guess.file_names import by_pattern
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
@@ -73,25 +75,31 @@ def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     return value
 
 
-def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, list[str]]:
-    """The proposal, and corrections that no longer fit anything: conditions are named anew where the pattern of names changes."""
+def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, Wishes, list[str]]:
+    """The proposal, the corrections that it follows, and those that no longer fit anything.
+
+    Conditions are named anew where the pattern of names changes; what was once remembered of names may fit no file any more.
+    """
     files = folder.measurements()
     reducer = given.get("reducer")
     wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
+    old = [n for n in wishes.names if n in folder.recall(WISHES).get("names", ()) and not any(by_pattern(file, n) for file in files)]
+    wishes = replace(wishes, names=tuple(n for n in wishes.names if n not in old))
+    left_out = [f"names {n}: no file fits any more; it is left out" for n in old]
     name = name_of(folder.root)
     try:
-        return propose(files, wishes, name), []
+        return propose(files, wishes, name), wishes, left_out
     except InputFault as fault:
         if "there is no condition" not in str(fault) and "there is no such condition" not in str(fault):
             raise
     plain = {k: v for k, v in wishes.conditions.items() if ":" not in k}
-    without = Wishes(wishes.reducer, wishes.names, wishes.units, wishes.columns, wishes.counts, wishes.quantities, plain, None, wishes.tags)
-    there = propose(files, without, name).conditions
+    there = propose(files, replace(wishes, conditions=plain, held_out=None), name).conditions
     kept = {k: v for k, v in wishes.conditions.items() if ":" not in k or k.rpartition(":")[0] in there}
     held = None if wishes.held_out is None else tuple(n for n in wishes.held_out if n in there)
     gone = sorted({k.rpartition(":")[0] for k in wishes.conditions.keys() - kept.keys()} | set(wishes.held_out or ()) - set(held or ()))
-    fitting = Wishes(wishes.reducer, wishes.names, wishes.units, wishes.columns, wishes.counts, wishes.quantities, kept, held, wishes.tags)
-    return propose(files, fitting, name), [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
+    fitting = replace(wishes, conditions=kept, held_out=held)
+    left_out += [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
+    return propose(files, fitting, name), fitting, left_out
 
 
 def wish(folder: Folder, given: dict[str, Any]) -> None:
@@ -135,7 +143,7 @@ def view(folder: Folder) -> dict[str, Any]:
     if not files or (found["saved"] and not found["own"]):
         return found
     try:
-        proposal, found["gone"] = proposed(folder, given)
+        proposal, followed, found["gone"] = proposed(folder, given)
     except InputFault as fault:
         found["fault"] = in_words(folder, fault)
         return found
@@ -145,7 +153,8 @@ def view(folder: Folder) -> dict[str, Any]:
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
-    found["command"] = command(folder, given)
+    used = {run.guessed.name.pattern for run in proposal.runs}
+    found["command"] = command(folder, replace(followed, names=tuple(n for n in followed.names if n in used)))
     return found
 
 
@@ -201,7 +210,7 @@ def sha256(content: bytes) -> str:
 
 def save(folder: Folder) -> dict[str, Any]:
     """Write campaign.toml as ``rvwear campaign from`` does; one that was edited by hand stays."""
-    proposal, _ = proposed(folder, folder.recall(WISHES))
+    proposal, _, _ = proposed(folder, folder.recall(WISHES))
     if not proposal.reducer:
         raise InputFault("which reducer was measured has to be said first: choose it above the table")
     checked(proposal)
@@ -212,11 +221,10 @@ def save(folder: Folder) -> dict[str, Any]:
     return {"saved": True, "needs": [need.as_json() for need in proposal.needs]}
 
 
-def command(folder: Folder, given: Mapping[str, Any]) -> str:
+def command(folder: Folder, wishes: Wishes) -> str:
     """The command line that proposes the same."""
     import shlex
 
-    wishes = wishes_of(given)
     words = ["rvwear", "campaign", "from", str(folder.root)]
     words += ["--reducer", wishes.reducer] if wishes.reducer else []
     for pattern in wishes.names:

@@ -26,6 +26,9 @@ scalar outputs at its end. *worn*: the state after 5,000 h that it carries, rest
 {watched}. *Digits* are decimal digits in which the worst of the values agrees with this project's own master; tools that add up time instead of multiplying
 find angles that differ in the last ones. OMSimulator 3 knows neither `Float64` nor arrays in a package, so it takes the pair of FMI 2.0 alone; OpenMCx takes the package with values inline.
 
+fmpy's `simulate_ssp` (0.3.32) is no way for the package: it gives every connected input 0 in the first step, whatever the units start with, and the wear unit refuses it
+("heat.contact_temperature = 0 K is out of range"). With fmpy alone `simulate_fmu` takes `RvReducer.fmu`, the same joint as one unit; `rvwear run dist/fmi2/RvReducer.ssp` takes the package.
+
 | importer | version | flavour | what | values | agreement |
 |---|---|---|---|---|---|
 """

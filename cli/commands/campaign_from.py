@@ -4,6 +4,7 @@ import argparse
 import shlex
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     command = actions.add_parser(
         "from", help="write campaign.toml for measurement files: columns, units, conditions and repetitions are guessed, what is not sure is said"
     )
-    command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some")
+    command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some (those below count, results and fmus do not)")
     command.add_argument("--output", metavar="FOLDER", help="where campaign.toml goes (default: the folder of the files); nothing is overwritten")
     completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + " (asked for)"), reducer_completions)
     command.add_argument(
@@ -49,6 +50,7 @@ def run_from(options: argparse.Namespace) -> int:
     """Show the guesses, write the file, name the command that compares."""
     from cli.screen import json_text
     from cli.show.guesses import show
+    from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -58,16 +60,16 @@ def run_from(options: argparse.Namespace) -> int:
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
-        if proposal.reducer:
-            checked(proposal)
+        findings = angle_doubts(checked(proposal)) if proposal.reducer else []
     command = f"rvwear {'campaign check' if proposal.needs else f'compare {proposal.reducer}'} {folder}"
     text = campaign_text(proposal, folder)
     if not options.dry_run:
         write_campaign(proposal, folder, options.overwrite)
     if options.json:
-        json_text(proposal.as_json() | {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command})
+        more = {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command}
+        json_text(proposal.as_json() | {"findings": [asdict(found) for found in findings]} | more)
         return 0
-    show(proposal)
+    show(proposal, findings)
     if options.dry_run:
         print(f"\n{text}")
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")

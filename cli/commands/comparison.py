@@ -77,7 +77,9 @@ def inputs(options: argparse.Namespace) -> "tuple[ModelFile, Campaign]":
     from discrepancy.model_file import load_model
 
     page_path(options.html)
-    file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
+    # Not under the command's own task, which tells from the last time how long it takes.
+    with task("reading the campaign"):
+        file, campaign = load_model(options.model), load_campaign(options.campaign, options.data)
     campaign.require_fittable()
     return file, campaign
 
@@ -111,8 +113,9 @@ def run_compare(options: argparse.Namespace) -> int:
     from discrepancy.compare import compare
 
     check_exports(options)
+    given = inputs(options)
     with task("comparing"):
-        comparison = compare(*inputs(options), jobs=all_cores(), fmus=folder(options.fmus))
+        comparison = compare(*given, jobs=all_cores(), fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
         json_text(comparison.as_json())
@@ -128,8 +131,9 @@ def run_localise(options: argparse.Namespace) -> int:
     from cli.show.comparison import show_localisation, show_warnings
     from discrepancy.compare import compare
 
+    given = inputs(options)
     with task("localising"):
-        comparison = compare(*inputs(options), fmus=folder(options.fmus))
+        comparison = compare(*given, fmus=folder(options.fmus))
     write_html(options, comparison)
     if options.json:
         json_text(comparison.as_json()["localisation"])
@@ -149,9 +153,9 @@ def run_diagnose(options: argparse.Namespace) -> int:
     from discrepancy.verdict import AnswerSoFar, diagnose
 
     check_exports(options)
+    file, campaign = inputs(options)
+    fmus = folder(options.fmus)
     with task("diagnosing"):
-        file, campaign = inputs(options)
-        fmus = folder(options.fmus)
         stopped = 0
         try:
             answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
@@ -316,8 +320,9 @@ def run_next(options: argparse.Namespace) -> int:
     from cli.show.comparison import show_next
     from discrepancy.next_run import next_run
 
+    given = inputs(options)
     with task("looking for an experiment"):
-        run = next_run(*inputs(options), jobs=all_cores())
+        run = next_run(*given, jobs=all_cores())
     write_html(options, run)
     if options.json:
         json_text(run.as_json())

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cli.options import IDEAL_REDUCER, add_json, add_reducer, page_path
+from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -19,14 +20,14 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER})", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
-    effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own: what is wrong, and where")
+    effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own, or folders of them: what is wrong, and where")
     effects.set_defaults(run=run_effects)
 
 
 def run_effects(options: argparse.Namespace) -> int:
     """List, or explain one; with ``--html`` the page of what was asked for; with ``--check`` look at files."""
     if options.check:
-        return check_files([Path(name) for name in options.check], options.json)
+        return check_files([file for name in options.check for file in effect_files(Path(name))], options.json)
     from cli.screen import json_text
     from cli.show.effects import show_list, show_one
     from discrepancy.catalogue.catalogue import entries, found_by
@@ -47,6 +48,18 @@ def run_effects(options: argparse.Namespace) -> int:
     if page and not options.json:
         print(page)
     return 0
+
+
+def effect_files(place: Path) -> list[Path]:
+    """A file itself; of a folder its files and those in the folders of its units.  InputFault if it has none."""
+    from fmu_src.effect_check import UNITS, WHERE
+
+    if not place.is_dir():
+        return [place]
+    found = [file for folder in (place, *(place / unit for unit in UNITS)) for file in sorted(folder.glob("[!.]*.py")) if file.stem != "__init__"]
+    if not found:
+        raise InputFault(f"--check {place}: no effect in this folder; effects lie in {WHERE}")
+    return found
 
 
 def check_files(files: list[Path], as_json: bool) -> int:

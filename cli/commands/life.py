@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from cli.ending import exit_code
 from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
-from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, reducer_of, result_path, settings_of
+from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, reducer_of, result_path, settings_of
 from fmu_src.checked_file import Damaged, set_aside
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest_path
 from fmu_src.held_file import held
 from fmu_src.reading import reading
 
@@ -27,12 +27,12 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     hours = sub.add_parser("life", help="wear over thousands of hours, in error-controlled jumps")
     add_reducer_options(hours)
     add_coupling_options(hours)
-    hours.add_argument("--hours", type=float, default=10_000.0, help="operating hours (default 10000)")
+    hours.add_argument("--hours", type=number_in("h"), default=10_000.0, help="operating hours: 2000, 2000h, 90d (default 10000)")
     hours.add_argument("--duty", metavar="FILE", help="speeds and torques with their shares of the hours (.toml)")
     hours.add_argument("--tolerance", type=float, default=0.01,
                        help="error of the depths over those at the end (default 0.01)")
-    hours.add_argument("--first-jump", type=float, help="hours of the first jump at most (default: as the tolerance needs)")
-    hours.add_argument("--largest-jump", type=float, help="hours of the longest jump at most (default: as the tolerance needs)")
+    hours.add_argument("--first-jump", type=number_in("h"), metavar="HOURS", help="hours of the first jump at most (default: as the tolerance needs)")
+    hours.add_argument("--largest-jump", type=number_in("h"), metavar="HOURS", help="hours of the longest jump at most (default: as the tolerance needs)")
     hours.add_argument("--output", help="result file, the report stands beside it (default results/NAME_life.nc; an earlier one of other"
                        " settings stays as NAME_life_1.nc)")
     hours.add_argument("--no-report", action="store_true", help="write no HTML report")
@@ -48,7 +48,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer_options(dynamics, positions=False)
     dynamics.add_argument("--speeds", type=float, nargs="+", default=[0.25, 1.0, 2.0], metavar="TIMES",
                           help="multiples of the set input speed (default 0.25 1 2); light load and resonance come along")
-    dynamics.add_argument("--hours", type=float, default=200.0, help="operating hours at each point (default 200)")
+    dynamics.add_argument("--hours", type=number_in("h"), default=200.0, help="operating hours at each point (default 200)")
     dynamics.add_argument("--cycles", type=int, default=4, help="meshing cycles that stand for them (default 4)")
     dynamics.add_argument("--limit", type=float, default=2.0, help="percent that count as a difference (default 2)")
     dynamics.add_argument("--output", help="the page (default results/NAME_dynamics.html)")
@@ -75,7 +75,10 @@ def life(options: argparse.Namespace) -> int:
     check_exports(options)
     reducer, settings, positions = chosen(options)
     life_settings = LifeSettings(options.hours, options.tolerance, options.first_jump, options.largest_jump)
-    life_settings.check()
+    try:
+        life_settings.check()
+    except InputFault as fault:
+        raise InputFault(f"--{str(fault).partition(' ')[0].replace('_', '-')}: {fault}") from None
     duty = load_duty(options.duty) if options.duty else ()
     path = result_path(options.output, f"{reducer.name}_life")
     wanted = WantedLife(reducer, settings, life_settings, positions, duty, options.scheme, folder(options.fmus))
@@ -85,7 +88,7 @@ def life(options: argparse.Namespace) -> int:
 
 def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path) -> int:
     """The life from where it stands, its result, and what is shown of it."""
-    from cli.show.life import jump_line
+    from cli.show.life import telling
     from fmu_src.progress import say
     from studies.kept_life import Paused, belongs_to, checkpoint_of, live_to
 
@@ -98,7 +101,7 @@ def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path
     if not options.output and path.exists() and known_result(path, wanted.inputs) is None and path.exists():
         print(f"{path} was of other settings: it stays as {stands_aside(path)}", file=sys.stderr)
     try:
-        dataset = live_to(path, wanted, resume, lambda state: say(jump_line(state)))
+        dataset = live_to(path, wanted, resume, telling(say))
     except Paused as interruption:
         print(f"interrupted at {interruption.hours:g} h; go on with --resume", file=sys.stderr)
         return exit_code(interruption)
@@ -184,7 +187,7 @@ def report(options: argparse.Namespace) -> int:
 
     path = Path(options.result)
     if not path.is_file():
-        raise InputFault(f"no result file at {path}; rvwear life writes one")
+        raise InputFault(f"no result file at {path}{nearest_path(path)}; rvwear life writes one")
     page = Path(options.output) if options.output else path.with_suffix(".html")
     try:
         dataset = netcdf.read(path)
@@ -207,5 +210,7 @@ def export(options: argparse.Namespace) -> int:
     options.export = [name for name in options.files if name not in options.picture]
     check_exports(options)
     dataset = netcdf.read(Path(options.result))
+    if options.picture and "hour" not in dataset.dims:
+        raise InputFault(f"{options.result} holds no life, which {' and '.join(options.picture)} would show: .csv, .parquet, .mat and .xlsx take any result")
     write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
     return 0

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import add_json
+from cli.options import add_json, require_place
 from fmu_src.faults import InputFault
 from fmu_src.progress import say
 
@@ -26,6 +26,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def reproduce(options: argparse.Namespace) -> int:
     """``rvwear reproduce``: the sources' claims, judged."""
     from cli import screen
+    from cli.altered import note_of, noted_figure, noted_tables
     from reproduce import as_json, available_claims, chosen, has_figure, print_table, tables_of, write_page
     from reproduce import run as judge
 
@@ -35,17 +36,30 @@ def reproduce(options: argparse.Namespace) -> int:
     if options.picture and not any(map(has_figure, chosen(options.claims or None))):
         drawn = ", ".join(filter(has_figure, available_claims()))
         raise InputFault(f"--picture {options.picture[0]}: {', '.join(options.claims)} has no figure; these claims have: {drawn}")
+    page, note = Path(options.output), note_of(options.set)
+    require_place(page, "--output", ".html")
+    require_settings(options.set)
     claims = judge(options.claims or None, say, options.set)
-    page = write_page(claims, Path(options.output), options.set)
+    write_page(claims, page, options.set)
     if options.json:
         screen.json_text(as_json(claims) | {"page": str(page), "set": options.set})
     else:
         print_table(claims, checked=not options.set)
-        if options.set:
-            print(f"with {', '.join(options.set)} instead of the sources' numbers: what these carry need not hold")
+        if note:
+            print(note)
         print(f"page  {page}")
-    write_exports(options, lambda: tables_of(claims), lambda: [figure for claim in claims for figure in claim.figures])
+    figures = [noted_figure(figure, note) for claim in claims for figure in claim.figures]
+    write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures)
     return 0 if options.set or all(claim.stands for claim in claims) else 1
+
+
+def require_settings(changes: list[str]) -> None:
+    """Before the work: InputFault for a number that the sources' reducers do not have, or in a unit that does not fit."""
+    from reproduce.context import LIBRARY, Context
+
+    context = Context(changes=changes)
+    for name in LIBRARY if changes else ():
+        context.reducer(name)
 
 
 def show_list(options: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, chosen, folder, result_path
+from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, result_path
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 from orchestrator.schemes import SCHEMES
@@ -49,8 +49,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 
 def add_system_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--step", type=float, metavar="S", help="communication step [s], before the file's")
-    command.add_argument("--duration", type=float, metavar="S", help="time to simulate [s], before the file's")
+    command.add_argument("--step", type=number_in("s"), metavar="S", help="communication step [s], before the file's")
+    command.add_argument("--duration", type=number_in("s"), metavar="S", help="time to simulate [s], before the file's")
     command.add_argument("--extrapolation", type=int, choices=(0, 1, 2), help="order of the polynomial that inputs follow")
     command.add_argument("--step-control", type=float, metavar="TOL", help="divide steps by their error, to this tolerance")
     command.add_argument("--loops", choices=("newton", "fixed-point"), help="how algebraic loops are solved")
@@ -177,6 +177,15 @@ def show_warnings(system: "System") -> None:
         print(f"warning: {warning}", file=sys.stderr)
 
 
+def show_end(options: argparse.Namespace, ran: float, step: float) -> None:
+    """A duration that is no multiple of the step is not reached, or gone beyond: results keep their even raster."""
+    wanted = options.duration
+    if wanted is None or abs(ran - wanted) <= 1e-6 * wanted:
+        return
+    text = f"{wanted:g} s are no whole steps of {step:.6g} s: the run took the nearest number of them, {ran:.6g} s"
+    print(f"warning: {text}; --step {wanted / round(wanted / step):.9g} divides it", file=sys.stderr)
+
+
 def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str, float], dict[str, str]]:
     """Run and write; (summary, values at the end, units of all variables)."""
     from orchestrator.series import SUFFIXES, write_series
@@ -186,8 +195,11 @@ def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str
     record = options.record or ([] if system.recorded else outputs_of(system))
     series = simulate(system, record)
     units = system.units()
+    # An element has the unit of its array.
+    units |= {name: units[name.partition("[")[0]] for name in series if name not in units and name != "time"}
     write_series(series, units, {"system": system.text}, path)
     show_warnings(system)
+    show_end(options, float(series["time"][-1] - series["time"][0]), system.master.step_size)
     summary: dict[str, object] = {"result": str(path), "steps": len(series["time"]) - 1, "end_time_s": float(series["time"][-1])}
     if system.master.controller is not None:
         summary |= {"steps accepted": system.master.controller.accepted, "steps rejected": system.master.controller.rejected}

@@ -26,10 +26,11 @@ def run_workbench(options: argparse.Namespace) -> int:
         if missing.name not in ("starlette", "uvicorn", "anyio", "h11"):
             raise
         raise MissingPart("the workbench", missing.name or "", "workbench") from None
-    folder = opened(Path(options.folder))
+    root = Path(options.folder)
+    new, folder = not root.exists(), opened(root)
 
     def ready(address: str) -> None:
-        print(f"workbench of {folder.root}\n{address}\nfor this machine alone; Ctrl-C ends it", flush=True)
+        print(f"workbench of {folder.root}{', a new folder' if new else ''}\n{address}\nfor this machine alone; Ctrl-C ends it", flush=True)
         if not options.no_browser and not webbrowser.open(address):
             print("no browser was found: open the address yourself", file=sys.stderr)
 

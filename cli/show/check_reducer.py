@@ -2,13 +2,14 @@
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.checking import STATED, Check
+from reducers.completion.complete import COMPLETED
 
 
 def show(found: Check) -> None:
     """What nobody stated first, for it is what one may want to; then what does not fit."""
     out = console(WIDTH)
     filled = [n for n in found.numbers if n.kind != STATED]
-    out.print(f"{found.reducer.name}: {len(found.numbers) - len(filled)} numbers stated, {len(filled)} filled in")
+    out.print(f"{found.reducer.name}: {stated_words([n.source for n in found.numbers if n.kind == STATED])}, {len(filled)} filled in")
     if filled:
         table = dense("not stated in the file")
         for head in ("number", "value", "unit", "range", "from"):
@@ -27,3 +28,11 @@ def show(found: Check) -> None:
         out.print(f"to have them completed by design rules, with ranges:\n  {found.completing}", soft_wrap=True)
     if not found.faults:
         out.print("its parts fit each other" + (", but look at what is doubtful" if found.doubts else ""))
+
+
+def stated_words(sources: list[str]) -> str:
+    """How many numbers a file states, and how many of them by what else than a source of their own."""
+    assumed = sum("assumed" in source for source in sources)
+    by_rule = sum(source.startswith(COMPLETED) for source in sources) - sum(source.startswith(COMPLETED) and "assumed" in source for source in sources)
+    parts = [f"{count} {words}" for count, words in ((len(sources) - assumed - by_rule, "given"), (by_rule, "by rule"), (assumed, "assumed")) if count]
+    return f"{len(sources)} numbers stated" + (f" ({', '.join(parts)})" if assumed or by_rule else "")

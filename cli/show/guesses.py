@@ -1,13 +1,16 @@
 """What ``rvwear campaign from`` shows on the screen."""
 
+from collections.abc import Sequence
+
 from rich.table import Table
 
 from cli.screen import WIDTH, console, styled
+from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
 
 
-def show(proposal: Proposal) -> None:
-    """Runs, what each column was taken for and why, conditions, what is not sure, what is needed."""
+def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
+    """Runs, what each column was taken for and why, conditions, what is not sure, ``findings`` in what was read, what is needed."""
     out = console(WIDTH)
     table = Table(title=f"{proposal.name}: {len(proposal.runs)} runs", title_justify="left")
     for column in ("run", "quantity", "condition", "repetition"):
@@ -27,6 +30,8 @@ def show(proposal: Proposal) -> None:
         out.print(f"condition {name}: {', '.join(f'{key} {value}' for key, value in stated.items()) or 'nothing is said'}{kept}")
     for doubt in proposal.doubts:
         out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
+    for finding in findings:
+        out.print(styled(("not sure", "yellow"), f"  {finding.text}; {finding.remedy}"))
     for need in proposal.needs:
         out.print(styled(("needed", "red"), f"  {need.place}: {need.text}; {need.remedy}"))
 

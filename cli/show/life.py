@@ -1,5 +1,7 @@
 """Lives on the screen."""
 
+from collections.abc import Callable
+
 import xarray as xr
 
 from cli.screen import BETWEEN, WIDTH, console, dense
@@ -13,6 +15,26 @@ def jump_line(life: Life) -> str:
         f"{life.hours[-1]:8.0f} h  raceways {f['inner_raceway_um']:.3f} / {f['outer_raceway_um']:.3f} um  "
         f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  jump {len(life.hours) - 1} of {life.jumps}"
     )
+
+
+def again_line(life: Life, before: int) -> str:
+    """Why it begins again after ``before`` jumps."""
+    if not life.coarse:
+        return f"too much wear in one jump of {before}: again from 0 h, in {life.jumps} jumps"
+    return f"again from 0 h in {life.jumps} jumps, each a part of one of the {before} before: the difference is their error"
+
+
+def telling(say: Callable[[str], None]) -> Callable[[Life], None]:
+    """Says each jump, and between them when the life begins again in shorter ones."""
+    jumps: list[int] = []
+
+    def told(life: Life) -> None:
+        if jumps and jumps[-1] != life.jumps:
+            say(again_line(life, jumps[-1]))
+        jumps.append(life.jumps)
+        say(jump_line(life))
+
+    return told
 
 
 # Columns of the summary of a life: name of the figure, head of the column, digits.

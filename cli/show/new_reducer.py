@@ -7,6 +7,7 @@ from textwrap import shorten
 from cli.screen import WIDTH, console, dense, styled
 from reducers.completion.compare import Row
 from reducers.completion.complete import COMPLETED, Completion
+from reducers.completion.known import FROM_OPTIONS
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
@@ -27,10 +28,10 @@ def show(completion: Completion, name: str, file: Path) -> None:
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
     numbers = completion.numbers.values()
-    given, assumed = sum(n.is_given for n in numbers), sum("assumed" in n.source for n in numbers)
+    given, assumed = sum(n.is_given or n.name in FROM_OPTIONS for n in numbers), sum("assumed" in n.source for n in numbers)
     console().print(
-        f"{len(numbers)} numbers: {given} given, {len(numbers) - given - assumed} by published rules, {assumed} assumed; each stands in the file"
-        " with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
+        f"given: {completion.given.in_words}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
+        f" {assumed} are assumed; each stands in the file with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
     )
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")

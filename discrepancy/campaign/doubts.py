@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from discrepancy.campaign.amount import readable
+from discrepancy.campaign.angle_doubts import rates_of_angles, senses_of_angles
 from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.loop_doubts import ways_round
@@ -164,4 +165,4 @@ def highest_order_of_parts(campaign: Campaign) -> tuple[float, str]:
     return max(orders)
 
 
-DOUBTS = (torques, order_of_rows, ways_round, needless_samples)
+DOUBTS = (torques, order_of_rows, rates_of_angles, senses_of_angles, ways_round, needless_samples)

@@ -35,7 +35,7 @@ turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pic
 # When the units call the hooks.
 STAGES = {
     "start": "once, at initialisation: own states",
-    "prepare": "at initialisation, and whenever an amplitude is set during a run",
+    "prepare": "at initialisation, and whenever an amplitude is set during a run: what holds for the whole run",
     "warm": "before every equilibrium (in motion: every internal step): temperature",
     "before": "after that: what depends on angle and temperature",
     "hold": "in every iteration of an equilibrium (not in motion): forces and their tangent",
@@ -87,10 +87,15 @@ def before(r):
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
 anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
-leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its kernels are called at these stages, each of them
-for all effects before the next begins:
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its hooks, kernels of these names, are called
+at these stages, each of them for all effects before the next begins:
 
 STAGES
+
+What `prepare` changes stands until an amplitude is set again. A stiffness (`mesh_constant`, `pin_stiffness`, `roller_constant`) can so depend on
+the temperature of the surroundings at the start of a run (`r.temperature`), as the conditions of a campaign state it, each of which is a run of its
+own; a temperature that changes during a run (`reducer_temperature`) acts through what `before` changes, gaps and the ring's size, and leaves
+stiffnesses as they were.
 
 Each of the fields, by what its indices count. Places and directions are those of a drawing with the ring's centre at the origin and
 angles counter-clockwise, at output angle 0; a disc's lobes are counted in its own frame.
@@ -124,7 +129,7 @@ def own_part() -> str:
         for name, (arguments, _) in hooks.items():
             by = {operator: [f"`{f}`" for f, o in allowed[name].items() if o == operator] for operator in ("+=", "*=")}
             rows.append((part, f"`{name}({arguments})`", STAGES[name], ", ".join(by["+="]) or "-", ", ".join(by["*="]) or "-"))
-    return OWN.replace("STAGES\n", table(("unit", "kernel", "called", "adds to", "multiplies"), rows)).replace("FIELDS\n", field_table())
+    return OWN.replace("STAGES\n", table(("unit", "hook", "called", "adds to", "multiplies"), rows)).replace("FIELDS\n", field_table())
 
 
 def field_table() -> str:

@@ -92,7 +92,7 @@ def complete(given: Given) -> Completion:
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
-    return Completion(given, dials, numbers, ring_doubt(values["pin.circle_radius"], given.rated))
+    return Completion(given, dials, numbers, [*rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
 
 
 def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
@@ -204,6 +204,16 @@ def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, 
     if roller is None:
         roller = hole * per_pitch / (1.0 + per_pitch) if inner is None else 0.5 * (hole - inner)
     return hole, roller
+
+
+def rounded_ratio(given: Given) -> list[str]:
+    """That whole teeth make another ratio than the one that is given, if they do."""
+    planet, sun = given.teeth
+    made = 1.0 + given.pins * planet / sun
+    if abs(made - given.ratio) < 1e-6 * given.ratio:
+        return []
+    teeth = f"planets of {planet} and a sun of {sun} teeth with {given.pins} pins"
+    return [f"--ratio {given.ratio:g} is taken for a rounded one: {teeth} make {made:.6g}, which the file has"]
 
 
 def ring_doubt(radius: float, torque: float) -> list[str]:

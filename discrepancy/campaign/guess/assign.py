@@ -175,14 +175,14 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
         points, roles = own[0], {VALUE: Guess(value.name, because(own[1], len(columns)), bool(own[1]) or len(columns) == 2)}
         whole = True
         for axis in axes:
-            options = [(f, c) for c in rest if (f := fit(c, axis)) is not None and f[0] > 0.0]
+            options = [(f, c, role) for c in rest if (f := fit(c, role := side_of(c, axis))) is not None and f[0] > 0.0]
             if not options:
                 whole = False
                 break
-            best, column = max(options, key=lambda o: o[0][0])
+            best, column, role = max(options, key=lambda o: (o[0][0], o[2] == axis))
             points += best[0]
             rest.remove(column)
-            roles[axis] = Guess(column.name, because(best[1], len(columns)))
+            roles[role] = Guess(column.name, because(best[1], len(columns)))
         if not whole:
             continue
         if quantity == "hysteresis" and value.shape.steady and not by_name[roles["torque"].value].shape.steady:
@@ -204,6 +204,11 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
         # A column that is left without a role speaks against.
         left = [c for c in rest if c.name not in {g.value for g in (roles | factors).values()} and c.meaning not in ("time", "replicate")]
         yield Assignment(quantity, points - 0.5 * sum(not c.shape.constant for c in left), roles | factors)
+
+
+def side_of(column: Column, axis: str) -> str:
+    """The role in which a column can stand for an axis: an angle of the input is no angle of the output."""
+    return "input_angle" if axis == "angle" and column.meaning == "input_angle" else axis
 
 
 def both_encoders(columns: list[Column]) -> Iterator[Assignment]:

@@ -23,7 +23,10 @@ SENSES = {
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
 NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"
 WITH_UNIT = re.compile(rf"({NUMBER})\s*([^\d\s_-]\S*)$")
-COUNTED = re.compile(r"(?:rep|replicate|run|r|wdh|w|lauf|messung|meas|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$", re.IGNORECASE)
+COUNTED = re.compile(
+    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
+    re.IGNORECASE,
+)
 NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {

@@ -9,13 +9,16 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
-from discrepancy.campaign.guess.run import GuessedRun, guessed_run
+from discrepancy.campaign.guess.counted import with_repetitions
+from discrepancy.campaign.guess.file_names import by_pattern
+from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for
-from discrepancy.campaign.readers import kind_of
+from discrepancy.campaign.measurement_files import measurement_files
+from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for, roles_of
+from discrepancy.campaign.readers import ENDINGS
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -68,13 +71,16 @@ class Proposal:
 
 def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Proposal:
     """InputFault with file and remedy where one cannot be read, or nothing can be made of it."""
-    paths = list(dict.fromkeys(found for path in files for found in measurement_files(path)))
+    paths = list(dict.fromkeys(found for path in files for found in (measurement_files(path) if path.is_dir() else (path,))))
     if not paths:
-        raise InputFault("no files; name measurement files, or folders that hold some")
+        folders = ", ".join(map(str, files)) or "nothing"
+        raise InputFault(f"no files: {folders} holds none of {', '.join(sorted(ENDINGS))}; name measurement files, or folders that hold some")
     if wishes.reducer:
         load_reducer(wishes.reducer)
-    guessed = with_one_unit([guessed_run(path, wishes) for path in paths])
+    guessed = with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes)
+    require_names(paths, wishes)
     require_columns(guessed, wishes)
+    require_roles(guessed, wishes)
     states = [state_of(run, wishes) for run in guessed]
     names = named_conditions(states)
     conditions: dict[str, dict[str, str]] = {}
@@ -92,19 +98,19 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     )  # fmt: skip
 
 
-def measurement_files(path: Path) -> list[Path]:
-    """The file itself, or those of a folder whose ending tells a format."""
-    if not path.is_dir():
-        return [path]
-    return sorted(file for file in path.iterdir() if file.is_file() and kind_of(file))
-
-
 def state_of(run: GuessedRun, wishes: Wishes) -> State:
     """What the file says, and besides what is given for all."""
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+
+
+def require_names(paths: Sequence[Path], wishes: Wishes) -> None:
+    """InputFault for a pattern of names that fits none of the files."""
+    for pattern in wishes.names:
+        if not any(by_pattern(path, pattern) for path in paths):
+            raise InputFault(f"--names {pattern!r} fits none of the {len(paths)} files ({paths[0].name}, ...); correct it, or leave it out")
 
 
 def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
@@ -114,6 +120,21 @@ def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
         header = name_of(key.rpartition(":")[2])
         if header not in known:
             raise InputFault(f"--unit {key}={unit}: no file has a column {header!r} of numbers; there are {', '.join(known)}{nearest(header, known)}")
+
+
+def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
+    """InputFault for a ``--column`` that no file follows: a role or a column that there is not, or that its quantity has no place for."""
+    known = sorted({role for quantity in QUANTITIES.values() for role in roles_of(quantity)})
+    headers = sorted({header for run in runs for header in run.headers})
+    for role, header in wishes.columns.items():
+        if role not in known:
+            raise InputFault(f"--column {role}={header}: there is no such role; choose from {', '.join(known)}{nearest(role, known)}")
+        if name_of(header) not in headers:
+            raise InputFault(f"--column {role}={header}: no file has a column {header!r} of numbers; there are {', '.join(headers)}{nearest(header, headers)}")
+        if not any(role in run.columns and is_meant(header, run.columns[role].column.value, run.columns[role].header) for run in runs):
+            quantities = ", ".join(sorted({run.quantity.value for run in runs}))
+            remedy = "say by --quantity what the files hold, or take another role"
+            raise InputFault(f"--column {role}={header}: the files are taken for {quantities}, which has no place for this column as {role}; {remedy}")
 
 
 def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:

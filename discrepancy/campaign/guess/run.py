@@ -1,5 +1,6 @@
 """One file's run: its quantity, columns, units, tags."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,7 +63,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     columns = columns_of(table, wishes.units_for(path.name))
     speaking = stem(path)
     wanted = wishes.quantity_for(path.name)
-    found = assignments(given_roles(columns, table, wishes, path), quantities_named(speaking) or quantities_named(path.parent.name))
+    found = assignments(given_roles(columns, table, wishes), quantities_named(speaking) or quantities_named(path.parent.name))
     if wanted:
         found = [a for a in found if a.quantity == wanted]
     if not found:
@@ -71,8 +72,10 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
             f"{path.name}: {holds}: no quantity{f' {wanted}' if wanted else ''} of a campaign fits; give units by --unit 'COLUMN=UNIT', what it is by"
             f" --quantity '{path.name}=QUANTITY' ({', '.join(QUANTITIES)}), or a column by --column value=COLUMN"
         )
+    stated = stated_roles(table, wishes)
+    found = as_stated(found, stated)
     best = found[0]
-    quantity, doubts = quantity_guess(found, wanted, path), list(table.doubts)
+    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *not_taken(path, best, stated)]
     if not quantity.sure:
         doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
     by_name = {c.name: c for c in columns}
@@ -92,19 +95,42 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     )
 
 
-def given_roles(columns: list[Column], table: Table, wishes: Wishes, path: Path) -> list[Column]:
+def given_roles(columns: list[Column], table: Table, wishes: Wishes) -> list[Column]:
     """Columns as ``--column ROLE=HEADER`` says: they mean their role and nothing else does."""
-    named = {header: role for role, header in wishes.columns.items()}
+    named = {name: role for role, name in stated_roles(table, wishes).items()}
     found = []
     for c in columns:
-        role = named.get(c.name) or named.get(table.headers.get(c.name, c.name))
+        role = named.get(c.name)
         meaning = {"angle": "angle", "value": None, "load_torque": "torque", "depth_angle": "angle"}.get(role, role) if role else c.meaning
         if role == VALUE:
             meaning = {"angle": "error", "torque": "input_torque", "length": "wear"}.get(c.stated[1] if c.stated else "")
         found.append(Column(c.name, meaning, c.stated, c.shape))
-    value = wishes.columns.get(VALUE)
-    kept = [c for c in found if {c.name, table.headers.get(c.name)} & named.keys()]
-    return kept if value and len(kept) > 1 else found
+    kept = [c for c in found if c.name in named]
+    return kept if VALUE in wishes.columns and len(kept) > 1 else found
+
+
+def stated_roles(table: Table, wishes: Wishes) -> dict[str, str]:
+    """Role -> the reader's name of the column that ``--column`` says for it, of those that this file has."""
+    return {role: name for role, given in wishes.columns.items() for name in table.columns if is_meant(given, name, table.headers.get(name, name))}
+
+
+def is_meant(given: str, name: str, header: str) -> bool:
+    """Whether a column is given by the reader's name or by its header, with its unit or without."""
+    return given in (name, header, name_of(header))
+
+
+def as_stated(found: list[Assignment], stated: Mapping[str, str]) -> list[Assignment]:
+    """What is stated wins over what looks likelier: those that follow most of it."""
+    followed = [sum(role in a.roles and a.roles[role].value == name for role, name in stated.items()) for a in found]
+    return [a for a, count in zip(found, followed) if count == max(followed)]
+
+
+def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[Doubt]:
+    return [
+        Doubt(path.name, f"column {name!r} is not taken for {role}, as --column says: {best.quantity} has no place for it beside the others",
+              f"--quantity '{path.name}=QUANTITY', or leave --column '{role}={name}' out")
+        for role, name in stated.items() if role not in best.roles or best.roles[role].value != name
+    ]  # fmt: skip
 
 
 def quantity_guess(found: list[Assignment], wanted: str | None, path: Path) -> Guess[str]:

@@ -14,7 +14,7 @@ from discrepancy.campaign.guess.text_layout import layout_of
 from discrepancy.campaign.readers import ENDINGS, Options, ReadFault, contents, kind_of, read_columns
 from discrepancy.campaign.readers.csv import first_lines, scan, sniff_decimal
 from fmu_src.arrays import Floats
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, nearest_path
 from fmu_src.reading import reading
 
 # A column is one of numbers if so many of its filled cells are (assumed: the others are dropouts).
@@ -44,7 +44,7 @@ class Table:
 def table_of(path: Path) -> Table:
     """InputFault with the file's name if it cannot be read."""
     if not path.is_file():
-        raise InputFault(f"{path}: there is no such file; correct the name")
+        raise InputFault(f"{path}: there is no such file{nearest_path(path) or '; correct the name'}")
     kind = kind_of(path)
     if path.suffix.lower() in SHEETS:
         raise InputFault(f"{path}: such sheets are not read; save it as .xlsx (or the sheet as CSV) and name that file")
