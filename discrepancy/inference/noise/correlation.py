@@ -94,7 +94,7 @@ def autoregression_of(series: Sequence[Floats], trends: Sequence[Floats], shares
         lost = [float(np.sum(basis[lag:] * basis[: e.size - lag])) for lag in range(most + 1)]
         c += share * np.array([left[lag:] @ left[: e.size - lag] + variance * lost[lag] for lag in range(most + 1)])
     c /= c[0]
-    best = (0.0, np.zeros(0))
+    best: tuple[float, Floats] = (0.0, np.zeros(0))
     for order in range(1, most + 1):
         matrix = c[np.abs(np.subtract.outer(np.arange(order), np.arange(order)))]
         taps = np.linalg.solve(matrix, c[1: order + 1])
