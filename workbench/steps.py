@@ -85,19 +85,20 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
-    from discrepancy.wording import base_texts, error_text, left_text, share_text, tone
+    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down
 
     effects = []
     for effect in answer.effects:
         effects.append({
-            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": share_text(answer, effect["share_explained"]),
-            "error": error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
+            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": shares_text(answer, effect),
+            "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
         "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
-        "alternatives": answer.diagnosis.alternatives, "rejected": [r | {"why": asdict(of_rival(r))} for r in answer.diagnosis.rejected],
+        "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),
+        "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [law.text for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page_data(page_of(answer)),
     }  # fmt: skip

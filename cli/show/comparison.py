@@ -14,7 +14,7 @@ from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import base_texts, error_text, left_text, share_text
+from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down
 
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
@@ -106,7 +106,7 @@ def show_answer(answer: Answer) -> None:
         out.print(f"\nbase off: {text}")
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
-        out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
+        out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
         # Waves by their size, largest first: of ten numbers that is what one asks for.
         for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):
             value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
@@ -116,21 +116,24 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
-        error = error_text(answer, effect)
+        error = "" if fitted_together(answer) else error_text(answer, effect)
         if error:
             out.print(f"  {error}")
+    together = together_text(answer)
+    if together:
+        out.print(f"\n{together}")
     left = left_text(answer)
     if left:
         out.print(f"\nnot explained: {left}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
-    for name, others in answer.diagnosis.alternatives.items():
-        out.print(f"in place of {name} could stand: {', '.join(others)}")
+    for text in stand_ins(answer).values():
+        out.print(text)
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
     show_figures(answer.figures, out)
-    rejected = answer.diagnosis.rejected[:6]
+    rejected = turned_down(answer)[:6]
     if rejected:
         out.print("\nclosest rivals")
         for rival in rejected:

@@ -54,12 +54,13 @@ def sentence(answer: Answer) -> str:
     best = answer.effects[0] if answer.effects else None
     share = f" It {wording.share_text(answer, best['share_explained'])}" if best else ""
     error = wording.error_text(answer, best).replace("->", "→") if best else ""
+    together = wording.together_text(answer).replace("->", "→")
     share += f"; {error}" if error else ""
     left = wording.left_text(answer)
     off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
-        ONE: f"The model lacks {listed(names)}.{share}.",
+        ONE: f"The model lacks {listed(names)}.{share if not together else f' {together[:1].upper()}{together[1:]}'}.",
         SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: (
@@ -79,11 +80,12 @@ def sentence(answer: Answer) -> str:
 def unused(answer: Answer, best: dict[str, Any]) -> Card:
     """Error on what was not fitted; green only if runs that were held out show that it fell."""
     worse = best["held_out_error_after"] >= best["held_out_error_before"]
+    judged = answer.effects if wording.fitted_together(answer) else [best]
     by_runs, drowned = wording.by_unused_runs(answer, best), wording.below_noise(answer, best)
     return Card(
         "Error on unused conditions" if by_runs else "Error on conditions left out in turn",
         number(best["held_out_error_after"]),
-        f"with {named(best)}" + ("; the samples are off by less than their noise" if drowned else ""),
+        f"with {' + '.join(named(e) for e in judged)}" + ("; the samples are off by less than their noise" if drowned else ""),
         number(best["held_out_error_before"]),
         "in the patterns that matter" if drowned else "times noise",
         "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
@@ -95,10 +97,12 @@ def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
     made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
-        best = answer.effects[0]
+        best, together = answer.effects[0], wording.fitted_together(answer)
         most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
         share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
-        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}", why=whys.of_share(answer)))
+        alone = ", ".join(f"{named(e)} {wording.percent(e['share_alone'])}" for e in answer.effects) if together else ""
+        title = "Share of the misfit explained" + (" together" if together else "")
+        made.append(Card(title, share, f"alone: {alone}" if together else f"best: {named(best)}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
             made.append(unused(answer, best))
     made.append(
