@@ -31,7 +31,7 @@ def rendered(template: Path, figures: Sequence[Figure], hours: Sequence[str] = (
         loader=FileSystemLoader([template.parent, HERE]), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     return environment.get_template(template.name).render(
-        style=inside("page.css"), script=inside("page.js"), plotly=Markup(packed_plotly()),
+        style=inside("page.css"), dark=inside("dark.js"), script=inside("page.js"), plotly=Markup(packed_plotly()),
         content=embedded(figures, hours), hours=hours, **values,
     )  # fmt: skip
 
