@@ -62,13 +62,25 @@
     return figure.choices.length ? structuredClone({ ...figure.layout, ...choiceOf(figure).layout }) : figure.layout;
   }
 
-  const draw = (figure) => Plotly.react(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+  // A card that is too narrow for its names grows.
+  function draw(figure) {
+    const place = placeOf(figure);
+    const fitting = narrowed(figure, tracesOf(figure), layoutOf(figure), place.clientWidth);
+    if (!place.style.aspectRatio) place.style.height = fitting.height + "px";
+    return Plotly.react(place, fitting.data, fitting.layout, config);
+  }
 
   for (const figure of content.figures) {
-    Plotly.newPlot(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+    draw(figure);
     if (figure.choices.length) selectOf(figure).addEventListener("change", () => draw(figure));
   }
 
+  let wide = innerWidth;
+  addEventListener("resize", () => {
+    if (innerWidth === wide) return;
+    wide = innerWidth;
+    content.figures.forEach(draw);
+  });
   const repaint = (dark) => {
     paint(dark);
     content.figures.forEach(draw);
@@ -96,7 +108,8 @@
   function fit(printing) {
     document.body.classList.toggle("printing", printing);
     // Paper is white.
-    if (darkness.matches) repaint(!printing);
+    if (darkness.matches) paint(!printing);
+    content.figures.forEach(draw);
     for (const figure of content.figures) {
       const place = placeOf(figure);
       // Plots.resize would wait a moment, and the sheet would be printed by then.

@@ -8,7 +8,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
-from discrepancy.key_figures import KeyFigure
+from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
@@ -45,20 +45,18 @@ def show_comparison(comparison: Comparison) -> None:
         units = {p.name: p.unit for p in comparison.model.nuisances}
         texts = (f"{told_name(k, tables_of(comparison.model))} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
         out.print("calibrated  " + ", ".join(texts))
-    show_figures(comparison.figures, out)
+    show_figures(comparison.figures, out, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console) -> None:
+def show_figures(figures: list[KeyFigure], out: Console, calibrated: bool) -> None:
     """Key figures that are furthest off the model, one row each with the condition where it is."""
-    worst: dict[tuple[str, str], KeyFigure] = {}
-    for f in sorted(figures, key=lambda f: -abs(f.off)):
-        worst.setdefault((f.signal, f.name), f)
+    worst = furthest(figures)
     if not worst:
         return
-    table = dense("key figures, measured against the base model")
-    rows = list(worst.values())[:LONGEST]
+    table = dense("key figures, measured against the base model" + (" as it was calibrated to this campaign" if calibrated else ""))
+    rows = worst[:LONGEST]
     signals = [f.signal.replace("[", "\n[") for f in rows]
     cells = []
     for signal, f in zip(signals, rows):
@@ -132,7 +130,7 @@ def show_answer(answer: Answer) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
-    show_figures(answer.figures, out)
+    show_figures(answer.figures, out, bool(answer.diagnosis.nuisances))
     rejected = turned_down(answer)[:6]
     if rejected:
         out.print("\nclosest rivals")

@@ -46,7 +46,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
       "div",
       { class: "panel" },
       table(
-        ["signal", "figure", "condition", "measured", "noise", "model", "off, in noise", ""],
+        ["signal", "figure", "condition", "measured", "noise", result.calibrated.length ? "model, calibrated" : "model", "off, in noise", ""],
         rows.map((f, i) => [
           rows[i - 1]?.title === f.title ? "" : f.title,
           h("b", {}, f.name),

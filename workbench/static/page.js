@@ -57,8 +57,9 @@ export const warnings = (list) =>
 
 const tableOf = (t) =>
   h(
-    "div",
+    t.folded ? "details" : "div",
     { style: { "margin-top": "10px" } },
+    t.folded ? h("summary", {}, t.folded) : null,
     t.title ? h("h3", {}, t.title) : null,
     table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right),
     t.note ? h("p", { class: "quiet small" }, t.note) : null,
