@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+from itertools import pairwise
 
 import pytest
 
@@ -77,7 +78,7 @@ def test_nothing_leaves_a_narrow_page(chromium, file):
     outside = [edge for edge in edges if edge[0] < 0 or edge[1] > 390]
     assert not outside, json.dumps(outside[:5])
     boxes = page.evaluate("[...document.querySelectorAll('#plot-map .xtick text')].map((e) => e.getBoundingClientRect()).map((r) => [r.left, r.right])")
-    assert len(boxes) == 9 and all(left >= right for (_, right), (left, _) in zip(boxes, boxes[1:]))
+    assert len(boxes) == 9 and all(left >= right for (_, right), (left, _) in pairwise(boxes))
     # A row says what its cells are; what is folded is not shown.
     assert "measured 1.25 arcmin" in page.evaluate(
         "[...document.querySelectorAll('table.stack td')].map((e) => getComputedStyle(e, '::before').content.replaceAll('\"', '') + e.textContent).join('|')"

@@ -174,6 +174,7 @@ def test_a_tooth_wears_where_force_and_sliding_say(result):
 def test_known_orders_follow_from_the_counts(result):
     orders = {cause.order for cause in spectrum.causes(result)}
     assert {39, 40, 78, 80, 120, 121, 1560} <= orders
+    assert [c.text for c in spectrum.causes(result) if c.order == 120] == ["sun against the carrier, and 3 × crank against the carrier"]
     # 16 rollers, 40 turns of the crank against the carrier, races of 10.25 and 13.25 mm.
     assert {round(o) for o in orders} >= {361, 279, 17}
     assert spectrum.explanation(result, 160) == "4 × crank against the carrier"

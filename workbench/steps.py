@@ -83,6 +83,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
+    from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
     from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down
@@ -95,6 +96,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {
+        "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
         "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
         "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),

@@ -49,32 +49,37 @@ def page(answer: Answer) -> Page:
 
 
 def sentence(answer: Answer) -> str:
-    """The verdict as one would say it."""
+    """The verdict as one would say it, with what it rests on."""
+    said = headline(answer)
+    if answer.verdict == ONE:
+        best, together = answer.effects[0], wording.together_text(answer)
+        error = wording.error_text(answer, best)
+        share = f"It {wording.share_text(answer, best['share_explained'])}{f'; {error}' if error else ''}"
+        said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
+    if answer.verdict in (UNKNOWN, SEVERAL):
+        said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
+    left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
+    return said + (f" Left are: {left}." if left else "")
+
+
+def headline(answer: Answer) -> str:
+    """The verdict alone."""
     names = [named(e) for e in answer.effects]
-    best = answer.effects[0] if answer.effects else None
-    share = f" It {wording.share_text(answer, best['share_explained'])}" if best else ""
-    error = wording.error_text(answer, best).replace("->", "→") if best else ""
-    together = wording.together_text(answer).replace("->", "→")
-    share += f"; {error}" if error else ""
-    left = wording.left_text(answer)
     off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
-        ONE: f"The model lacks {listed(names)}.{share if not together else f' {together[:1].upper()}{together[1:]}'}.",
+        ONE: f"The model lacks {listed(names)}.",
         SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: (
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
-            f"{answer.left_over}{f': {left}' if left else ''}."
+            f"{answer.left_over}."
         ),
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
-    reason = answer.reason
-    return texts.get(answer.verdict, answer.verdict) + (
-        f" ({reason[:1].upper() + reason[1:]}.)" if answer.verdict in (UNKNOWN, SEVERAL) else ""
-    )
+    return texts.get(answer.verdict, answer.verdict)
 
 
 def unused(answer: Answer, best: dict[str, Any]) -> Card:

@@ -34,7 +34,7 @@ def groups(result: Result) -> list[dict[str, Any]]:
     sizes = result.dataset.sizes
     bins = Resolution(sizes["flank_bin"], sizes["pin_bin"], sizes["race_bin"])
     plant, wear = plant_table(result.topology), wear_table(result.topology, bins)
-    found = [
+    found: list[dict[str, Any]] = [
         {"title": "Operation", "rows": rows(result, result.plant, plant, lambda v: v.role == "input")},
         {"title": "Reducer",
          "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and not v.shape)},

@@ -97,13 +97,13 @@ export function show(root, context) {
         "div",
         { class: `panel verdict ${answer.tone}`, id: "verdict" },
         h("p", { class: "quiet small" }, `verdict: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
-        h("h1", {}, answer.page.finding),
-        answer.page.finding.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+        h("h1", {}, answer.headline),
+        answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
         answer.effects.map(effectOf),
         answer.together ? h("p", { class: "quiet small" }, answer.together) : null,
         answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
-        answer.left ? h("p", {}, `not explained: ${answer.left}`) : null,
-        answer.laws.map((law) => h("p", {}, `law without a name: ${law}`)),
+        answer.left ? h("p", { class: "small" }, h("b", {}, "Not explained: "), answer.left) : null,
+        answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
       ),
       cards(answer.page.cards),
       rivals(),
@@ -131,7 +131,7 @@ export function show(root, context) {
           why(p.why, p.name),
         ),
       ),
-      answer.effects.length > 1 ? h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")) : null,
+      h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")),
     );
 
   const rivals = () =>
