@@ -130,7 +130,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
         report(run, place)
     proposals = [{"experiment": p.experiment, "cost": p.cost, "least": p.least, "mean": p.score} for p in run.result.proposals[:12]] if run.result else []
     write_json(place / "result.json", {
-        "verdict": run.verdict, "rivals": run.rivals, "open": run.open, "proposals": proposals, "stakes": run.stakes(),
+        "verdict": run.verdict, "rivals": run.rivals, "asked": [asdict(asked) for asked in run.asked], "proposals": proposals, "stakes": run.stakes(),
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip
     return False

@@ -170,8 +170,7 @@ def show_ladder(file: ModelFile) -> None:
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
     out.print(run.verdict)
-    for text in run.open:
-        out.print(f"  {text}")
+    show_asked(run, out)
     if run.result is None:
         return
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
@@ -182,3 +181,14 @@ def show_next(run: NextRun) -> None:
     out.print(table)
     for name, text in run.stakes().items():
         out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")
+
+
+def show_asked(run: NextRun, out: Console) -> None:
+    """What would show a misfit better that nothing explains, each with where, cost and what is expected of it."""
+    rig = run.answer.model.campaign.rig
+    for a in run.asked:
+        out.print(f"  {a.text}")
+        cost = "" if a.cost is None else f"cost {a.cost:g}{f' {rig.currency}' if rig and rig.currency != '1' else ''}"
+        expected = "" if a.expected is None else f"expected misfit {a.expected:.3g} in chi-square, of two runs that are off as those so far"
+        if more := "; ".join(filter(None, (a.like, cost, expected))):
+            out.print(f"    {more}")
