@@ -29,6 +29,7 @@ export function nextPart(bag) {
                 ["☐", "experiment", "price", "least separation", "mean separation"],
                 next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
                 [2, 3, 4],
+                { class: "rows" },
               ),
             )
           : null,

@@ -178,6 +178,7 @@ export const fails = (result, context) =>
                 why(p.why, `${words(p.signal)}, ${p.feature}`),
               ]),
             [3],
+            { class: "rows" },
           ),
         ),
         h(
