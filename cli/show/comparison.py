@@ -185,8 +185,8 @@ def show_next(run: NextRun) -> None:
 
 def show_asked(run: NextRun, out: Console) -> None:
     """What would show a misfit better that nothing explains, each with where, cost and what is expected of it."""
-    rig = run.answer.model.campaign.rig
     for a in run.asked:
+        rig = run.answer.model.campaign.rig
         out.print(f"  {a.text}")
         cost = "" if a.cost is None else f"cost {a.cost:g}{f' {rig.currency}' if rig and rig.currency != '1' else ''}"
         expected = "" if a.expected is None else f"expected misfit {a.expected:.3g} in chi-square, of two runs that are off as those so far"
