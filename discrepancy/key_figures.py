@@ -94,6 +94,14 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
     return found
 
 
+def furthest(figures: Sequence[KeyFigure]) -> list[KeyFigure]:
+    """Each figure of each signal at the condition where it is furthest off, the furthest first."""
+    worst: dict[tuple[str, str], KeyFigure] = {}
+    for f in sorted(figures, key=lambda f: -abs(f.off)):
+        worst.setdefault((f.signal, f.name), f)
+    return list(worst.values())
+
+
 def calibrated_first(figures: Sequence[KeyFigure]) -> list[str]:
     """Effects that the key figures call for by name where the base is stiffer by a factor: springs, friction of an open loop, play."""
     clear = [f for f in figures if abs(f.off) > CLEARLY]

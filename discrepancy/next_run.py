@@ -1,7 +1,7 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise, product
 from typing import Any
 
@@ -59,14 +59,35 @@ class Measurement(Experiment):
 
 
 @dataclass(frozen=True)
+class Asked:
+    """An experiment that shows a misfit better that nothing explains: ``like`` is the condition that has all else, ``cost`` that of its runs,
+    ``expected`` what they are off by [chi-square] if it goes on as in the runs of this signal; None where no law says so."""
+
+    experiment: str
+    why: str
+    like: str = ""
+    cost: float | None = None
+    expected: float | None = None
+
+    @property
+    def text(self) -> str:
+        return f"{self.experiment}: {self.why}"
+
+
+@dataclass(frozen=True)
 class NextRun:
-    """``proposals`` best first; ``rivals`` are what they separate; ``open``: what shows a misfit better that nothing explains."""
+    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains."""
 
     answer: Answer
     result: NextExperiment | None
     rivals: list[str]
     verdict: str
-    open: list[str] = field(default_factory=list)
+    asked: list[Asked] = field(default_factory=list)
+
+    @property
+    def open(self) -> list[str]:
+        """What is asked for, in words."""
+        return [asked.text for asked in self.asked]
 
     def as_json(self) -> dict[str, Any]:
         plain = self.result.to_dict() if self.result else {"separable": None, "proposals": [], "at_stake": {}}
@@ -75,7 +96,8 @@ class NextRun:
             proposal["settings"] = {name: as_told.setting(name, value, campaign) for name, value in proposal["settings"].items()}
             proposal["spans"] = {name: [as_told.setting(name, value, campaign) for value in span] for name, span in proposal["spans"].items()}
         plain["at_stake"] = {name: {"text": text, "si": self.result.at_stake[name]} for name, text in self.stakes().items()} if self.result else {}
-        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open}
+        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open,
+                        "asked": [asdict(asked) for asked in self.asked]}  # fmt: skip
 
     def stakes(self) -> dict[str, str]:
         """By which the rivals differ where the reducer is used, in the unit of each signal."""
@@ -133,23 +155,31 @@ def plainly(member: Refit) -> str:
     return " + ".join(dict.fromkeys(f"the base's {variant}" if effect == BASE else effect for effect, _, variant in pairs))
 
 
-def open_questions(answer: Answer, campaign: Campaign) -> list[str]:
+def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
     """Where a misfit that nothing explains should be measured: at the widest gaps of what it changes with."""
     findings = answer.diagnosis.leftover.get("findings") or answer.diagnosis.localisation.get("findings", [])
-    pairs = [(f["signal"], f["dependence"]) for f in findings]
-    pairs += [(law.signal, law.leading) for law in answer.laws]
-    texts = []
-    for signal, name in dict.fromkeys(pairs):
+    left: dict[tuple[str, str], float] = {}
+    for f in findings:
+        key = f["signal"], f["dependence"]
+        left[key] = max(left.get(key, 0.0), f.get("statistic", 0.0))
+    for law in answer.laws:
+        left.setdefault((law.signal, law.leading), 0.0)
+    cost = REPEATS * (campaign.rig.cost_per_run if campaign.rig else 1.0)
+    asked = []
+    for (signal, name), size in left.items():
+        runs = sum(stream_of(r) == signal and not r.held_out for r in answer.model.records)
+        expected = REPEATS * size / runs if size and runs else None
         if name == "everywhere":
-            texts.append(f"{signal}: off at all conditions alike; mount sensor and unit anew and repeat, to tell the bench from the reducer")
+            why = "off at all conditions alike; mount sensor and unit anew and repeat, to tell the bench from the reducer"
+            asked.append(Asked(signal, why, "any condition of it, in another mounting", cost, expected))
         elif name in FACTORS_SET:
-            texts.append(gap_text(signal, name, answer.model, campaign))
-    return list(dict.fromkeys(texts))[:MOST_OPEN] or [
-        "what is left shows no place and no dependence: repeat the runs that are off, and measure at conditions between those that there are"
+            asked.append(replace(at_gap(signal, name, answer.model, campaign), cost=cost, expected=expected))
+    return asked[:MOST_OPEN] or [
+        Asked("what is left shows no place and no dependence", "repeat the runs that are off, and measure at conditions between those that there are")
     ]
 
 
-def gap_text(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -> str:
+def at_gap(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -> Asked:
     """The value of a factor furthest from those at which the signal was measured, within the rig's limits."""
     seen = [v for r in model.records if stream_of(r) == signal for v in np.atleast_1d(r.axes.get(name, r.factors.get(name, np.nan)))]
     measured = sorted({float(v) for v in seen if np.isfinite(v)})
@@ -158,7 +188,10 @@ def gap_text(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -
     trials = ends + [0.5 * (a + b) for a, b in pairwise(measured)]
     best = max(trials, key=lambda v: min((abs(v - m) for m in measured), default=0.0), default=low)
     texts = list(dict.fromkeys(describe({name: v}, campaign) for v in measured))
-    return f"{signal} at {describe({name: best}, campaign)}: what is left changes with {name}, measured at {', '.join(texts[:MOST_TEXTS])}"
+    stated = [r for r in model.records if stream_of(r) == signal and name in r.factors]
+    like = min(stated, key=lambda r: abs(float(r.factors[name]) - best)).condition if stated else ""
+    return Asked(f"{signal} at {describe({name: best}, campaign)}", f"what is left changes with {name}, measured at {', '.join(texts[:MOST_TEXTS])}",
+                 f"all else as {like}" if like else "")  # fmt: skip
 
 
 def at_rated(model: PhysicalModel) -> list[Measurement]:

@@ -118,7 +118,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
 
 def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, figures: list[KeyFigure]) -> Answer:
     """A diagnosis with its effects by name, and the law where none is named."""
-    effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
+    effects = effects_of(found, doctor)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
     beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"
@@ -158,6 +158,23 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
     if verdict == SEVERAL:
         return f"one effect in several forms, each significant beside the others: {forms}"
     return f"one effect explains the misfit; which of its forms this campaign cannot tell, for they look alike in it: {forms}"
+
+
+def effects_of(found: Diagnosis, doctor: Diagnostician) -> list[dict[str, Any]]:
+    """Effects by name; what was fitted together has the share of each alone, too."""
+    effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
+    if not found.fits.members or len(found.fits.members[0].candidates) < 2:
+        return effects
+    return [effect | {"share_alone": share_alone(effect["candidates"], doctor, found)} for effect in effects]
+
+
+def share_alone(names: list[str], doctor: Diagnostician, found: Diagnosis) -> float:
+    """Share of the misfit that one of several effects takes without the others: effects that do alike take it from each other beside them."""
+    refits, together = doctor.refits, found.fits.members[0].gain
+    whole = refits.fitted.get(frozenset(names))
+    forms = [refits.fitted[key].gain if (key := frozenset([n])) in refits.fitted else refits.scores[n].statistic for n in names]
+    gain = max([*forms, *([whole.gain] if whole else [])])
+    return float(min(1.0, max(gain, 0.0) / max(together, 1e-300)) * found.captured)
 
 
 def merged(effects: list[dict[str, Any]], verdict: str) -> list[dict[str, Any]]:

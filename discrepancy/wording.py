@@ -22,6 +22,52 @@ def share_text(answer: Answer, share: float) -> str:
     return f"explains {100.0 * share:.0f} % of the misfit"
 
 
+def fitted_together(answer: Answer) -> bool:
+    """Whether what is named was fitted as one: effects beside each other, or beside numbers of the base model."""
+    members = answer.diagnosis.fits.members
+    return bool(members) and len(members[0].candidates) > 1
+
+
+def percent(share: float) -> str:
+    """An effect that is significant takes something, however small."""
+    return "less than 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
+
+
+def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
+    """The share of an effect; of one of several that which it has alone, and what it adds to the others."""
+    if effect.get("share_alone") is None:
+        return share_text(answer, effect["share_explained"])
+    others = "the others" if len(answer.effects) > 1 else "what of the base model is off"
+    return f"explains {percent(effect['share_alone'])} of the misfit alone, adds {percent(effect['share_explained'])} beside {others}"
+
+
+def together_text(answer: Answer) -> str:
+    """What all that is named does as one, and its error on what was not fitted; empty where each effect is judged by itself."""
+    if not fitted_together(answer) or not answer.effects:
+        return ""
+    error = error_text(answer, answer.effects[0])
+    base = ", with what of the base model is off," if answer.diagnosis.base_off else ""
+    return f"together{base} this {share_text(answer, answer.diagnosis.captured)}" + (f"; {error}" if error else "")
+
+
+def stand_ins(answer: Answer) -> dict[str, str]:
+    """What could stand in place of each effect, as a sentence."""
+    beside = ", beside the others," if fitted_together(answer) else ""
+    return {name: f"in place of {name}{beside} could stand: {', '.join(others)}" for name, others in answer.diagnosis.alternatives.items()}
+
+
+def turned_down(answer: Answer) -> list[dict[str, Any]]:
+    """The rivals that are no stand-ins; beside several effects a rival alone is held against all of them."""
+    if not fitted_together(answer):
+        return answer.diagnosis.rejected
+    standing = {name for others in answer.diagnosis.alternatives.values() for name in others}
+    return [
+        r | ({"reason": f"alone {r['reason']} than all that is named"} if r["chi2_difference"] is not None else {})
+        for r in answer.diagnosis.rejected
+        if r["name"] not in standing
+    ]
+
+
 def base_texts(answer: Answer) -> list[str]:
     """What of the base model is off and by how much, one text each, in the units of campaign and field."""
     texts = []

@@ -46,7 +46,7 @@ class Card:
 
 @dataclass(frozen=True)
 class Table:
-    """``right`` numbers the columns with numbers in them; ``whys``, if given, answer for each row."""
+    """``right`` numbers the columns with numbers in them; ``whys``, if given, answer for each row; ``folded`` stands where it opens."""
 
     title: str
     head: list[str]
@@ -54,6 +54,7 @@ class Table:
     right: tuple[int, ...] = ()
     note: str = ""
     whys: list[Why] = field(default_factory=list)
+    folded: str = ""
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,19 @@
   document.head.append(library);
 
   const content = JSON.parse(document.getElementById("content").textContent);
+  const darkness = matchMedia("(prefers-color-scheme: dark)");
+  const onPaper = structuredClone(content.figures);
   const touch = matchMedia("(hover: none)").matches;
   const config = {
     responsive: true, displaylogo: false, doubleClick: "reset", displayModeBar: touch ? false : "hover",
     // A picture for a paper; the command line writes PDF and the width of its column (--picture).
     modeBarButtonsToAdd: [{
       name: "Download as SVG", icon: Plotly.Icons.disk,
-      click: (plot) => Plotly.downloadImage(plot, { format: "svg", filename: plot.id.replace("plot-", "") }),
+      click: async (plot) => {
+        if (darkness.matches) repaint(false);
+        await Plotly.downloadImage(plot, { format: "svg", filename: plot.id.replace("plot-", "") });
+        if (darkness.matches) repaint(true);
+      },
     }],
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d", "pan2d"],
   };
@@ -22,6 +28,15 @@
   const selectOf = (figure) => document.querySelector(`select[data-figure="${figure.name}"]`);
   const hour = document.getElementById("chosen-hour");
   const disc = document.getElementById("chosen-disc");
+
+  // Figures in the colours of the screen, or of paper.
+  function paint(dark) {
+    paintKeys(dark);
+    painted(onPaper, dark).forEach((figure, i) => Object.assign(content.figures[i], figure));
+    // A phone that scrolls over a plot must not zoom it.
+    if (touch) for (const figure of content.figures) figure.layout.dragmode = false;
+  }
+  paint(darkness.matches);
 
   // The chosen entry of a figure with a selector of its own.
   const choiceOf = (figure) => figure.choices[Number(selectOf(figure).value)];
@@ -47,14 +62,30 @@
     return figure.choices.length ? structuredClone({ ...figure.layout, ...choiceOf(figure).layout }) : figure.layout;
   }
 
-  const draw = (figure) => Plotly.react(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+  // A card that is too narrow for its names grows.
+  function draw(figure) {
+    const place = placeOf(figure);
+    const fitting = narrowed(figure, tracesOf(figure), layoutOf(figure), place.clientWidth);
+    if (!place.style.aspectRatio) place.style.height = fitting.height + "px";
+    return Plotly.react(place, fitting.data, fitting.layout, config);
+  }
 
   for (const figure of content.figures) {
-    // A phone that scrolls over a plot must not zoom it.
-    if (touch) figure.layout.dragmode = false;
-    Plotly.newPlot(placeOf(figure), tracesOf(figure), layoutOf(figure), config);
+    draw(figure);
     if (figure.choices.length) selectOf(figure).addEventListener("change", () => draw(figure));
   }
+
+  let wide = innerWidth;
+  addEventListener("resize", () => {
+    if (innerWidth === wide) return;
+    wide = innerWidth;
+    content.figures.forEach(draw);
+  });
+  const repaint = (dark) => {
+    paint(dark);
+    content.figures.forEach(draw);
+  };
+  darkness.addEventListener("change", () => repaint(darkness.matches));
 
   function choose() {
     const text = content.hours[hour ? Number(hour.value) : 0];
@@ -76,6 +107,9 @@
   // Plots measure themselves on the screen, so the page takes a sheet's width before it is printed.
   function fit(printing) {
     document.body.classList.toggle("printing", printing);
+    // Paper is white.
+    if (darkness.matches) paint(!printing);
+    content.figures.forEach(draw);
     for (const figure of content.figures) {
       const place = placeOf(figure);
       // Plots.resize would wait a moment, and the sheet would be printed by then.

@@ -31,7 +31,7 @@ def rendered(template: Path, figures: Sequence[Figure], hours: Sequence[str] = (
         loader=FileSystemLoader([template.parent, HERE]), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     return environment.get_template(template.name).render(
-        style=inside("page.css"), script=inside("page.js"), plotly=Markup(packed_plotly()),
+        style=inside("page.css"), dark=inside("dark.js"), narrow=inside("narrow.js"), script=inside("page.js"), plotly=Markup(packed_plotly()),
         content=embedded(figures, hours), hours=hours, **values,
     )  # fmt: skip
 
@@ -68,6 +68,6 @@ def embedded(figures: Sequence[Figure], hours: Sequence[str]) -> Markup:
 def described(figure: Figure) -> dict[str, Any]:
     choices = figure.choices if isinstance(figure, Choosable) else []
     return {
-        "name": figure.name, "data": figure.data, "layout": figure.layout, "states": figure.states, "rows": figure.rows_of,
+        "name": figure.name, "data": figure.data, "layout": figure.layout, "states": figure.states, "rows": figure.rows_of, "height": figure.height,
         "choices": [{"traces": choice.traces, "layout": choice.layout} for choice in choices],
     }  # fmt: skip

@@ -11,19 +11,20 @@ import plotly.graph_objects as go
 import pytest
 from shared import unpacked
 
+from cli.show.comparison import show_answer
 from discrepancy.compare import Comparison, by_signal, warnings_of
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, Extension
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, UNKNOWN
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.spectra import amplitudes
 from discrepancy.problem import Candidate, Parameter, Record
-from discrepancy.verdict import Answer, merged
+from discrepancy.verdict import Answer, effects_of
 from pages.words import counted
 
 ARCSEC = np.pi / 180.0 / 3600.0
@@ -41,7 +42,7 @@ def law(record, v):
     load = record.factors["load"]
     if record.quantity == "input_torque":
         return np.full(1, v.get("friction", 0.01) * load * (1.0 + v.get("gain", 0.0)))
-    return (3.0 * ARCSEC * np.cos(40 * ANGLE) + 2.0 * v.get("gap", 0.0) * load / 167.0 * np.cos(20 * ANGLE)
+    return (3.0 * ARCSEC * np.cos(40 * ANGLE) + 2.0 * (v.get("gap", 0.0) + v.get("tilt", 0.0)) * load / 167.0 * np.cos(20 * ANGLE)
             + v.get("run_c", 0.0) * np.cos(ANGLE) + v.get("run_s", 0.0) * np.sin(ANGLE))  # fmt: skip
 
 
@@ -94,8 +95,7 @@ def diagnosed(model):
     doctor = Diagnostician(model)
     found = doctor.run()
     laws = recover(found.fits.space, found.fits.space.base, ["transmission_error"]) if found.verdict == UNKNOWN else []
-    effects = merged([e.to_dict() for e in found.effects], found.verdict)
-    return Answer(model, found, found.verdict, found.reason, effects, found.confusable, laws, list(found.warnings), [], doctor)
+    return Answer(model, found, found.verdict, found.reason, effects_of(found, doctor), found.confusable, laws, list(found.warnings), [], doctor)
 
 
 def spike(load):
@@ -338,3 +338,24 @@ def test_speeds_stand_where_the_campaign_states_them(tmp_path):
     over = next(c for c in figure(page, "run_number_input_torque")["choices"] if "speed" in str(c["layout"]))
     title = over["layout"]["xaxis"]["title"]
     assert "output speed [rpm]" in str(title) and over["traces"][0]["x"][0] == pytest.approx(19.1, abs=0.01)
+
+
+def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
+    """The share beside the others is small where effects do alike; a stand-in is no rival that was turned down, and errors are those of all together."""
+    model = model_of({"gap": 1e-5, "run_c": 2e-5, "run_s": 1e-5})
+    model.candidates = (*CANDIDATES, Candidate("tilt", "tilt", (Parameter("tilt", "m", 0.0, 0.0, 1e-4, 1e-6, 1),), signals=("transmission_error",)))
+    found = diagnosed(model)
+    assert found.verdict == SEVERAL and found.diagnosis.alternatives == {"clearance": ["tilt"]}
+    found.effects[0]["share_alone"], found.effects[0]["share_explained"] = 0.93, 0.001
+    assert 0.0 < found.effects[1]["share_alone"] < 1.0
+    left = replace(found.diagnosis, rejected=[*found.diagnosis.rejected, {"name": "tilt", "chi2_difference": 8009.0, "reason": "fits worse by 8009.0 in chi-square"}])
+    found = replace(found, diagnosis=left)
+    show_answer(found)
+    told = " ".join(capsys.readouterr().out.split())
+    assert "runout explains 93 % of the misfit alone, adds less than 1 % beside the others" in told
+    assert told.count("error on unused conditions") == 1 and "together this explains" in told
+    assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
+    page = written(found, tmp_path)
+    bars = figure(page, "shares")["data"]
+    assert [t["name"] for t in bars] == ["alone", "beside the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "less than 1 %"
+    assert len(figure(page, "held_out")["data"][0]["y"]) == 1 and "8009" not in page

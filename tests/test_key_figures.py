@@ -1,6 +1,7 @@
 """Key figures: stiffness, lost motion, width of a loop and transmission error by order, measured against the model, with their noise."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, too_soft, ways
+from discrepancy.prediction.orders import named_orders
 from discrepancy.problem import Candidate, Parameter, Record
 from studies.hysteresis import torque_way
 
@@ -80,6 +82,14 @@ def test_amplitudes_of_orders_that_are_resolved():
     found = orders_over(ANGLE, ORDERS)(error)
     assert found["output shaft, orders 1, 2"] == pytest.approx(np.hypot(2e-6, 1e-6)) and found["ring pins, order 78"] == pytest.approx(3e-6)
     assert not any("first mesh" in name for name in found)
+
+
+@pytest.mark.parametrize("times, name", [(3.0, "sun (order 120 also 3 x crank against carrier)"), (2.6, "sun")])
+def test_an_order_of_two_makers_names_both(times, name):
+    """A whole first stage puts the sun's turns against the carrier on the third harmonic of the cranks', which a hole off its place makes, too."""
+    reducer = SimpleNamespace(topology=SimpleNamespace(lobes=39, pins=40, discs=2))
+    made = named_orders(SimpleNamespace(reducer=reducer, ratio=1.0 + 40.0 * times, starts=[{"first_stage_ratio": times, "sun_teeth": 12.0}]))
+    assert made[name] == (40.0 * times, 1.0 + 40.0 * times) and [n for n in made if n.startswith("sun")] == [name]
 
 
 def test_figures_hold_what_was_measured_against_the_model_with_noise():

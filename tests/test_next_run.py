@@ -6,6 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cli.screen import console
+from cli.show.comparison import show_asked
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
@@ -88,13 +90,21 @@ def answer_of(verdict, members=(), findings=()):
 
 
 @pytest.mark.parametrize(("verdict", "members"), [(INCOMPLETE, ["drag"]), (UNKNOWN, [])])
-def test_after_incomplete_or_unknown_something_is_left(verdict, members):
+def test_after_incomplete_or_unknown_something_is_left(verdict, members, capsys):
     finding = {"signal": "mass_loss[part=disc]", "feature": "value", "dependence": "load", "p": 1e-6}
     run = proposal_for(answer_of(verdict, members, [finding]), CAMPAIGN)
     assert "nothing is left" not in run.verdict and "something is left" in run.verdict
     # The widest gap between the loads that were measured, 20 and 167 N m.
     assert run.open == ["mass_loss[part=disc] at 94 N.m: what is left changes with load, measured at 20 N.m, 167 N.m"]
     assert run.as_json()["open"] == run.open
+    # With the columns of a proposal: the condition that has all else, the price of two runs, and what they would show.
+    (asked,) = run.asked
+    assert asked.like == "all else as test" and asked.cost == 200.0 and asked.expected is None
+    known = proposal_for(answer_of(verdict, members, [finding | {"statistic": 30.0}]), CAMPAIGN)
+    assert known.asked[0].expected == pytest.approx(30.0) and known.as_json()["asked"][0]["cost"] == 200.0
+    show_asked(known, console(100))
+    told = " ".join(capsys.readouterr().out.split())
+    assert all(text in told for text in ("mass_loss[part=disc] at 94 N.m", "all else as test; cost 200 EUR; expected misfit 30 in chi-square"))
     assert proposal_for(answer_of(verdict, members), CAMPAIGN).open
 
 

@@ -3,6 +3,7 @@
 import html
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import plotly.graph_objects as go
@@ -173,6 +174,7 @@ def test_a_tooth_wears_where_force_and_sliding_say(result):
 def test_known_orders_follow_from_the_counts(result):
     orders = {cause.order for cause in spectrum.causes(result)}
     assert {39, 40, 78, 80, 120, 121, 1560} <= orders
+    assert [c.text for c in spectrum.causes(result) if c.order == 120] == ["sun against the carrier, and 3 × crank against the carrier"]
     # 16 rollers, 40 turns of the crank against the carrier, races of 10.25 and 13.25 mm.
     assert {round(o) for o in orders} >= {361, 279, 17}
     assert spectrum.explanation(result, 160) == "4 × crank against the carrier"
@@ -181,7 +183,7 @@ def test_known_orders_follow_from_the_counts(result):
 
 
 def test_inputs_list_every_parameter_with_its_source(result, page):
-    rows = {row["name"]: row for group in inputs.groups(result) for row in group["rows"]}
+    rows = {row["name"]: row for group in inputs.groups(result) for row in (*group["rows"], *group["off"])}
     paths = plant_table(result.topology).renamed
     assert {paths.get(name, name) for name in result.plant} <= set(rows)
     assert {"material.hardness", "wear.run_in_time", "wear.pins"} <= set(rows)
@@ -190,6 +192,21 @@ def test_inputs_list_every_parameter_with_its_source(result, page):
     assert (rows["bearing.clearance"]["value"], rows["bearing.clearance"]["unit"]) == ("2.5", "µm")
     assert rows["bearing.clearance"]["assumed"] and not rows["pin.radius"]["assumed"]
     assert result.dataset.attrs["source_hash"] in page and json.loads(result.dataset.attrs["software"])["numpy"] in page
+
+
+def test_effects_that_are_off_are_folded(dataset):
+    """Half of the parameters of a page; an effect that acts stands with all of its own among the others."""
+    result = Result.of(dataset)
+    groups = inputs.groups(result)
+    assert sum(len(group["off"]) for group in groups) > 100 and not [row for group in groups for row in group["rows"] if row["effect"]]
+    given = json.loads(dataset.attrs["inputs"])
+    name = next(name for name, path in plant_table(result.topology).renamed.items() if path == "effects.carrier_stiffness.turn_cos")
+    given["parameters"]["plant"][name] = 0.2
+    reducer = inputs.groups(replace(result, inputs=given))[1]
+    shown = [row["name"] for row in reducer["rows"] if row["effect"]]
+    assert len(shown) == 4 and all(name.startswith("effects.carrier_stiffness.") for name in shown)
+    page = page_of(result)
+    assert page.count('<details class="fold">') == 2 and "effects that are off" in page
 
 
 def test_the_finding_is_computed(result):

@@ -75,8 +75,8 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
                             predictions=lambda values, which: [np.zeros(2) for _ in which],
                             noise=SimpleNamespace(whiteners=[whitener, whitener], streams={"hysteresis": SimpleNamespace(patterns={})}))
     entry = {"before": before, "after": after, "rms": rms} | ({"kind": kind} if kind else {})
-    diagnosis = SimpleNamespace(fits=SimpleNamespace(space=space), held_out={"play": entry}, leftover=leftover or {}, captured=1.0, reason="r",
-                                alternatives={}, rejected=[], base_off=[])
+    diagnosis = SimpleNamespace(fits=SimpleNamespace(space=space, members=[]), held_out={"play": entry}, leftover=leftover or {}, captured=1.0, reason="r",
+                                alternatives={}, rejected=[], base_off=[], nuisances={})
     effect = {"name": "play", "variant": "", "candidates": ["play"], "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
     return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[],

@@ -18,7 +18,7 @@ def test_a_lifes_numbers_are_whole_however_much_has_worn(capsys, monkeypatch):
 
 def test_key_figures_are_whole_beside_long_names(capsys):
     name, place = "torsional stiffness, backward, unloading", "RV20E_50N.m_15rpm_38degC_forward"
-    show_figures([KeyFigure(f"signal_{k}", place, name, "1", 945.25, 1.25, 1.0, 2, True) for k in range(3)], console(WIDTH))
+    show_figures([KeyFigure(f"signal_{k}", place, name, "1", 945.25, 1.25, 1.0, 2, True) for k in range(3)], console(WIDTH), True)
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= WIDTH
     assert any("off/noise" in line for line in lines)

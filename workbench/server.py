@@ -20,6 +20,7 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
+import pages
 from fmu_src.faults import InputFault, RunFault
 from reducers.library import available
 from workbench import jobs
@@ -47,7 +48,7 @@ class Workbench:
     def routes(self) -> list[Route | Mount]:
         get, post = ["GET"], ["POST"]
         return [
-            Route("/", self.index), Route("/events", self.events), Route("/plotly.js", self.plotly),
+            Route("/", self.index), Route("/events", self.events), Route("/plotly.js", self.plotly), Route("/narrow.js", self.narrow),
             Route("/in", said(self.intake), methods=get), Route("/in/choices", said(self.choices), methods=get),
             Route("/in/wishes", said(self.wish), methods=post), Route("/in/save", said(self.save), methods=post),
             Route("/in/edit", said(self.edit), methods=post),
@@ -72,6 +73,10 @@ class Workbench:
 
         return FileResponse(Path(plotly.__file__).parent / "package_data" / "plotly.min.js", media_type="text/javascript",
                             headers={"cache-control": "private, max-age=86400"})  # fmt: skip
+
+    async def narrow(self, _: Request) -> Response:
+        """What fits figures of pages to a narrow card."""
+        return FileResponse(Path(pages.__file__).parent / "narrow.js", media_type="text/javascript")
 
     # in -------------------------------------------------------------------------------------
     async def intake(self, _: Request) -> Response:

@@ -83,21 +83,24 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
+    from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
-    from discrepancy.wording import base_texts, error_text, left_text, share_text, tone
+    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down
 
     effects = []
     for effect in answer.effects:
         effects.append({
-            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": share_text(answer, effect["share_explained"]),
-            "error": error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
+            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": shares_text(answer, effect),
+            "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {
+        "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
         "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
-        "alternatives": answer.diagnosis.alternatives, "rejected": [r | {"why": asdict(of_rival(r))} for r in answer.diagnosis.rejected],
+        "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),
+        "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [law.text for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page_data(page_of(answer)),
     }  # fmt: skip
@@ -127,7 +130,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
         report(run, place)
     proposals = [{"experiment": p.experiment, "cost": p.cost, "least": p.least, "mean": p.score} for p in run.result.proposals[:12]] if run.result else []
     write_json(place / "result.json", {
-        "verdict": run.verdict, "rivals": run.rivals, "open": run.open, "proposals": proposals, "stakes": run.stakes(),
+        "verdict": run.verdict, "rivals": run.rivals, "asked": [asdict(asked) for asked in run.asked], "proposals": proposals, "stakes": run.stakes(),
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip
     return False

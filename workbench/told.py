@@ -26,13 +26,13 @@ def page_data(page: Page) -> dict[str, Any]:
 def figure_data(figure: Figure) -> dict[str, Any]:
     data = described(figure)
     asks = {"asks": getattr(figure, "asks", ""), "labels": [choice.label for choice in getattr(figure, "choices", [])]}
-    return data | asks | {"title": str(figure.title), "caption": str(figure.caption), "height": figure.height, "aspect": figure.aspect,
+    return data | asks | {"title": str(figure.title), "caption": str(figure.caption), "aspect": figure.aspect,
                           "keys": [[str(text), colour, dash] for text, colour, dash in figure.keys], "columns": figure.columns}  # fmt: skip
 
 
 def table_data(table: Table) -> dict[str, Any]:
     return {"title": table.title, "head": table.head, "rows": table.rows, "right": list(table.right), "note": table.note,
-            "whys": [asdict(w) for w in table.whys]}
+            "whys": [asdict(w) for w in table.whys], "folded": table.folded}
 
 
 def write_json(place: Path, content: object) -> None:

@@ -318,6 +318,7 @@ def run_ladder(options: argparse.Namespace) -> int:
 def run_next(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_next
+    from discrepancy.inference.verdict import SET
     from discrepancy.next_run import next_run
 
     given = inputs(options)
@@ -328,5 +329,9 @@ def run_next(options: argparse.Namespace) -> int:
         json_text(run.as_json())
     else:
         show_next(run)
+        if run.answer.verdict != SET and (run.asked or not run.result) and (line := line_after(options, run.answer)):
+            print(f"\nnext  {line}")
+            if run.asked:
+                print(f"then  {shlex.join(['rvwear', 'next', options.model, options.campaign])}    # with the new runs in it: it diagnoses anew")
     say_page(options)
     return 0

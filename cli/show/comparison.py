@@ -8,13 +8,13 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
-from discrepancy.key_figures import KeyFigure
+from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import base_texts, error_text, left_text, share_text
+from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down
 
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
@@ -45,20 +45,18 @@ def show_comparison(comparison: Comparison) -> None:
         units = {p.name: p.unit for p in comparison.model.nuisances}
         texts = (f"{told_name(k, tables_of(comparison.model))} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
         out.print("calibrated  " + ", ".join(texts))
-    show_figures(comparison.figures, out)
+    show_figures(comparison.figures, out, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console) -> None:
+def show_figures(figures: list[KeyFigure], out: Console, calibrated: bool) -> None:
     """Key figures that are furthest off the model, one row each with the condition where it is."""
-    worst: dict[tuple[str, str], KeyFigure] = {}
-    for f in sorted(figures, key=lambda f: -abs(f.off)):
-        worst.setdefault((f.signal, f.name), f)
+    worst = furthest(figures)
     if not worst:
         return
-    table = dense("key figures, measured against the base model")
-    rows = list(worst.values())[:LONGEST]
+    table = dense("key figures, measured against the base model" + (" as it was calibrated to this campaign" if calibrated else ""))
+    rows = worst[:LONGEST]
     signals = [f.signal.replace("[", "\n[") for f in rows]
     cells = []
     for signal, f in zip(signals, rows):
@@ -106,7 +104,7 @@ def show_answer(answer: Answer) -> None:
         out.print(f"\nbase off: {text}")
     for effect in answer.effects:
         variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
-        out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {share_text(answer, effect['share_explained'])}"))
+        out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
         # Waves by their size, largest first: of ten numbers that is what one asks for.
         for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):
             value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
@@ -116,21 +114,24 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
-        error = error_text(answer, effect)
+        error = "" if fitted_together(answer) else error_text(answer, effect)
         if error:
             out.print(f"  {error}")
+    together = together_text(answer)
+    if together:
+        out.print(f"\n{together}")
     left = left_text(answer)
     if left:
         out.print(f"\nnot explained: {left}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
-    for name, others in answer.diagnosis.alternatives.items():
-        out.print(f"in place of {name} could stand: {', '.join(others)}")
+    for text in stand_ins(answer).values():
+        out.print(text)
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
-    show_figures(answer.figures, out)
-    rejected = answer.diagnosis.rejected[:6]
+    show_figures(answer.figures, out, bool(answer.diagnosis.nuisances))
+    rejected = turned_down(answer)[:6]
     if rejected:
         out.print("\nclosest rivals")
         for rival in rejected:
@@ -169,8 +170,7 @@ def show_ladder(file: ModelFile) -> None:
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
     out.print(run.verdict)
-    for text in run.open:
-        out.print(f"  {text}")
+    show_asked(run, out)
     if run.result is None:
         return
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
@@ -181,3 +181,14 @@ def show_next(run: NextRun) -> None:
     out.print(table)
     for name, text in run.stakes().items():
         out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")
+
+
+def show_asked(run: NextRun, out: Console) -> None:
+    """What would show a misfit better that nothing explains, each with where, cost and what is expected of it."""
+    for a in run.asked:
+        rig = run.answer.model.campaign.rig
+        out.print(f"  {a.text}")
+        cost = "" if a.cost is None else f"cost {a.cost:g}{f' {rig.currency}' if rig and rig.currency != '1' else ''}"
+        expected = "" if a.expected is None else f"expected misfit {a.expected:.3g} in chi-square, of two runs that are off as those so far"
+        if more := "; ".join(filter(None, (a.like, cost, expected))):
+            out.print(f"    {more}")

@@ -20,7 +20,7 @@ def against(judged: HeldOut | None) -> str:
     if judged.after > max(judged.before, WITHIN_NOISE):
         return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
     if judged.p_after < 0.0005 and judged.after > 1.5:
-        return f"runs that were not used are not explained: their error is {judged.after:.2f} after {judged.before:.2f}, with 1 for noise alone"
+        return "runs that were not used are not explained: their error is far above their noise"
     return ""
 
 

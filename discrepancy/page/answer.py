@@ -33,7 +33,7 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
-    sections += comparison.figures_section(answer.figures)
+    sections += comparison.figures_section(answer.figures, bool(diagnosis.nuisances))
     if diagnosis.base_off:
         sections.insert(0, base_off(answer))
     where = comparison.conditions(answer, runs) if runs else ""
@@ -49,41 +49,48 @@ def page(answer: Answer) -> Page:
 
 
 def sentence(answer: Answer) -> str:
-    """The verdict as one would say it."""
+    """The verdict as one would say it, with what it rests on."""
+    said = headline(answer)
+    if answer.verdict == ONE:
+        best, together = answer.effects[0], wording.together_text(answer)
+        error = wording.error_text(answer, best)
+        share = f"It {wording.share_text(answer, best['share_explained'])}{f'; {error}' if error else ''}"
+        said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
+    if answer.verdict in (UNKNOWN, SEVERAL):
+        said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
+    left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
+    return said + (f" Left are: {left}." if left else "")
+
+
+def headline(answer: Answer) -> str:
+    """The verdict alone."""
     names = [named(e) for e in answer.effects]
-    best = answer.effects[0] if answer.effects else None
-    share = f" It {wording.share_text(answer, best['share_explained'])}" if best else ""
-    error = wording.error_text(answer, best).replace("->", "→") if best else ""
-    share += f"; {error}" if error else ""
-    left = wording.left_text(answer)
     off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
-        ONE: f"The model lacks {listed(names)}.{share}.",
+        ONE: f"The model lacks {listed(names)}.",
         SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: (
             f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
-            f"{answer.left_over}{f': {left}' if left else ''}."
+            f"{answer.left_over}."
         ),
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
-    reason = answer.reason
-    return texts.get(answer.verdict, answer.verdict) + (
-        f" ({reason[:1].upper() + reason[1:]}.)" if answer.verdict in (UNKNOWN, SEVERAL) else ""
-    )
+    return texts.get(answer.verdict, answer.verdict)
 
 
 def unused(answer: Answer, best: dict[str, Any]) -> Card:
     """Error on what was not fitted; green only if runs that were held out show that it fell."""
     worse = best["held_out_error_after"] >= best["held_out_error_before"]
+    judged = answer.effects if wording.fitted_together(answer) else [best]
     by_runs, drowned = wording.by_unused_runs(answer, best), wording.below_noise(answer, best)
     return Card(
         "Error on unused conditions" if by_runs else "Error on conditions left out in turn",
         number(best["held_out_error_after"]),
-        f"with {named(best)}" + ("; the samples are off by less than their noise" if drowned else ""),
+        f"with {' + '.join(named(e) for e in judged)}" + ("; the samples are off by less than their noise" if drowned else ""),
         number(best["held_out_error_before"]),
         "in the patterns that matter" if drowned else "times noise",
         "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
@@ -95,10 +102,12 @@ def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
     made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
-        best = answer.effects[0]
+        best, together = answer.effects[0], wording.fitted_together(answer)
         most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
         share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
-        made.append(Card("Share of the misfit explained", share, f"best: {named(best)}", why=whys.of_share(answer)))
+        alone = ", ".join(f"{named(e)} {wording.percent(e['share_alone'])}" for e in answer.effects) if together else ""
+        title = "Share of the misfit explained" + (" together" if together else "")
+        made.append(Card(title, share, f"alone: {alone}" if together else f"best: {named(best)}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
             made.append(unused(answer, best))
     made.append(

@@ -35,37 +35,54 @@ def pairs(
     words: tuple[str, str] = ("before", "after"),
 ) -> Figure:
     """Two horizontal bars per group, in times the noise."""
-    data = [
+    data = two_bars(groups, (before, after), [f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>" for word in words], words)
+    for trace, values, texts in zip(data, (before, after), hover):
+        trace |= {"customdata": list(texts), "text": [f"{v:.2f}" if v is not None else "" for v in values]}
+    shape, label = noise_line(horizontal=False)
+    most = max([v for v in (*before, *after) if v is not None], default=1.0)
+    layout = two_bars_layout("error over noise", [0.0, 1.12 * max(most, 1.1)]) | {"shapes": [shape], "annotations": [label]}
+    return Figure(name, title, caption, data, layout, columns, 132 + 46 * max(len(groups), 2))
+
+
+def shares(
+    name: str, title: str, caption: str, groups: Sequence[str], alone: Sequence[float], beside: Sequence[float], texts: tuple[Sequence[str], ...]
+) -> Figure:
+    """Of each of several effects the share [%] that it has alone, and what it adds to the others."""
+    words = ("alone", "beside the others")
+    data = two_bars(groups, (alone, beside), [f"%{{y}}<br>{word}: %{{text}}<extra></extra>" for word in words], words)
+    for trace, text in zip(data, texts):
+        trace |= {"text": list(text)}
+    return Figure(name, title, caption, data, two_bars_layout("share [%]", [0.0, 115.0]), 12, 132 + 46 * max(len(groups), 2))
+
+
+def two_bars(groups: Sequence[str], values: Sequence[Sequence[float | None]], hover: Sequence[str], words: Sequence[str]) -> list[dict[str, Any]]:
+    return [
         {
             "type": "bar",
             "orientation": "h",
             "name": word,
             "y": list(groups),
-            "x": short([float("nan") if v is None else v for v in values], 4),
+            "x": short([float("nan") if v is None else v for v in own], 4),
             "marker": {"color": colour},
-            "customdata": list(texts),
-            "hovertemplate": f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>",
-            "text": [f"{v:.2f}" if v is not None else "" for v in values],
+            "hovertemplate": text,
             "textposition": "outside",
             "cliponaxis": False,
         }
-        for word, values, colour, texts in ((words[0], before, BEFORE, hover[0]), (words[1], after, AFTER, hover[1]))
+        for word, own, colour, text in zip(words, values, (BEFORE, AFTER), hover)
     ]
-    shape, label = noise_line(horizontal=False)
+
+
+def two_bars_layout(x_title: str, x_range: list[float]) -> dict[str, Any]:
     legend = {"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yref": "container", "yanchor": "top", "font": {"size": 11.5}}
-    most = max([v for v in (*before, *after) if v is not None], default=1.0)
-    layout = look.layout(
+    return look.layout(
         barmode="group",
         bargap=0.35,
         showlegend=True,
         legend=legend,
-        shapes=[shape],
-        annotations=[label],
-        xaxis=look.axis("error over noise", range=[0.0, 1.12 * max(most, 1.1)]),
+        xaxis=look.axis(x_title, range=x_range),
         yaxis=look.axis("", type="category", autorange="reversed", showgrid=False, ticks=""),
         margin={"l": 60, "r": 20, "t": 48, "b": 46},
     )
-    return Figure(name, title, caption, data, layout, columns, 132 + 46 * max(len(groups), 2))
 
 
 def single(

@@ -1,11 +1,11 @@
 """The page of a comparison: measured against predicted, and where they differ."""
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison
-from discrepancy.key_figures import KeyFigure
+from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
@@ -16,6 +16,7 @@ from pages.words import counted, number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6
+FEW_FIGURES = 12
 
 
 def page(result: Comparison) -> Page:
@@ -23,7 +24,7 @@ def page(result: Comparison) -> Page:
     runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
     # What one asks first: numbers, then curves, then maps.
     sections = [
-        *figures_section(result.figures),
+        *figures_section(result.figures, bool(result.nuisances)),
         Section(
             "runs",
             "Measured against predicted",
@@ -189,20 +190,30 @@ def order_figures(runs: list[Run]) -> list[Figure]:
     return [figure for figure in found if figure is not None]
 
 
-def figures_section(figures: list[KeyFigure]) -> list[Section]:
-    """Key figures, measured against the base model; also of a diagnosis."""
+def figures_section(figures: list[KeyFigure], calibrated: bool) -> list[Section]:
+    """Key figures, measured against the base model; also of a diagnosis.  Of many those that are furthest off, all of them folded."""
     if not figures:
         return []
-    rows = []
-    for f in figures:
-        measured, noise, model = (amounts.text(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
-        rows.append([amounts.signal_title(f.signal), f.condition, f.name, measured, noise, model, number(abs(f.off))])
     lead = (
         "Read alike from what was measured and from what the base model predicts there. Noise is what repetitions differ by, over the root of their"
         " number; where nothing is repeated, what the noise of the samples makes of it."
     )
-    head = ["signal", "condition", "figure", "measured", "noise", "model", "off, in noise"]
-    return [Section("figures", "Key figures", lead, [], [Table("", head, rows, (3, 4, 5, 6), whys=[whys.of_key_figure(f) for f in figures])])]
+    if calibrated:
+        lead += " The model's are those after its calibration to this campaign; rvwear hysteresis and bench give them without it."
+    if len(figures) <= FEW_FIGURES:
+        return [Section("figures", "Key figures", lead, [], [figures_table(figures, calibrated)])]
+    worst = furthest(figures)[:FEW_FIGURES]
+    tables = [figures_table(worst, calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]
+    return [Section("figures", "Key figures", lead + f" Of {len(figures)} each is shown where it is furthest off.", [], tables)]
+
+
+def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
+    rows = []
+    for f in figures:
+        measured, noise, model = (amounts.text(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
+        rows.append([amounts.signal_title(f.signal), f.condition, f.name, measured, noise, model, number(abs(f.off))])
+    head = ["signal", "condition", "figure", "measured", "noise", "model, calibrated" if calibrated else "model", "off, in noise"]
+    return Table("", head, rows, (3, 4, 5, 6), whys=[whys.of_key_figure(f) for f in figures])
 
 
 def nuisances(result: Comparison) -> Section:

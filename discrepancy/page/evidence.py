@@ -10,13 +10,14 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL
+from discrepancy.wording import NEARLY_ALL, fitted_together, percent, together_text, turned_down
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
 from pages.words import number
 
 MOST_RIVALS = 12
+SHARES = "Share of the misfit explained"
 
 
 def named(effect: dict[str, Any]) -> str:
@@ -48,20 +49,21 @@ def effects(answer: Answer) -> Section:
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
-    names, shares = [named(e) for e in answer.effects], [100.0 * e["share_explained"] for e in answer.effects]
-    figure = bars.single(
-        "shares",
-        "Share of the misfit explained",
-        "What an effect takes off the chi-square, of all that is more than noise.",
-        names,
-        shares,
-        "share [%]",
-        [look.NOW] * len(names),
-        ["most" if answer.verdict == INCOMPLETE and s >= 100.0 * NEARLY_ALL else f"{s:.0f} %" for s in shares],
-        12,
-        range=[0.0, 112.0],
-    )
-    return Section("effects", "Effects", lead, [figure] if answer.verdict != SET and (len(names) > 1 or shares[0] < 99.5) else [], [table])
+    return Section("effects", "Effects", lead, [shares(answer)] if answer.verdict != SET and answer.effects[0]["share_explained"] < 0.995 else [], [table])
+
+
+def shares(answer: Answer) -> Figure:
+    """How much of the misfit each effect takes."""
+    names, beside = [named(e) for e in answer.effects], [e["share_explained"] for e in answer.effects]
+    text = "What an effect takes off the chi-square, of all that is more than noise."
+    if not fitted_together(answer):
+        texts = ["most" if answer.verdict == INCOMPLETE and s >= NEARLY_ALL else percent(s) for s in beside]
+        values = [100.0 * s for s in beside]
+        return bars.single("shares", SHARES, text, names, values, "share [%]", [look.NOW] * len(names), texts, 12, range=[0.0, 112.0])
+    alone = [e["share_alone"] for e in answer.effects]
+    text += f" Effects that do alike have much alone and little beside the others; {together_text(answer).partition(';')[0]}."
+    both = [100.0 * s for s in alone], [100.0 * s for s in beside]
+    return bars.shares("shares", SHARES, text, names, *both, ([percent(s) for s in alone], [percent(s) for s in beside]))
 
 
 def base_off(answer: Answer) -> Section:
@@ -98,8 +100,8 @@ def held_out(answer: Answer) -> Section:
         )
     )
     names = [named(e) for e in measured]
-    if answer.verdict in (SEVERAL, INCOMPLETE):
-        # Fitted together, judged together.
+    if fitted_together(answer):
+        # Judged together.
         names, measured = [" + ".join(names)], measured[:1]
     before, after = [e["held_out_error_before"] for e in measured], [e["held_out_error_after"] for e in measured]
     hover = [f"{number(v)}, 1 is what noise leaves there" for v in before], [f"{number(v)}, 1 is what noise leaves there" for v in after]
@@ -135,14 +137,14 @@ def confusable(answer: Answer) -> Section:
     lead = (
         f"This campaign cannot tell apart: {listed([words(n) for n in answer.confusable])}. rvwear next proposes what would."
         if answer.confusable
-        else "Effects that could stand in place of one that is named."
+        else "Effects that could stand in place of one that is named" + (", beside the others." if fitted_together(answer) else ".")
     )
     tables, figures = [], []
     if answer.diagnosis.alternatives:
         tables.append(
             Table(
                 "In place of",
-                ["named", "could be"],
+                ["named", "could be, beside the others" if fitted_together(answer) else "could be"],
                 [[words(n), ", ".join(words(o) for o in others) or "nothing else"] for n, others in answer.diagnosis.alternatives.items()],
             )
         )
@@ -171,7 +173,7 @@ def correlations(pairs: dict[str, float]) -> Figure:
 
 
 def rivals(answer: Answer) -> Section:
-    rejected = answer.diagnosis.rejected
+    rejected = turned_down(answer)
     if not rejected:
         return Section("rivals", "Rivals", "No rival came near.")
     rows = [[words(r["name"]), r["reason"]] for r in rejected]

@@ -19,16 +19,19 @@ ENOUGH_COLOUR, POOR = look.NOW, "#98a3af"
 
 
 def page(run: NextRun) -> Page:
-    currency = run.answer.model.campaign.rig.currency if run.answer.model.campaign.rig else ""
+    rig = run.answer.model.campaign.rig
+    currency = rig.currency if rig and rig.currency != "1" else ""
     sections = (
         [proposals(run.result, currency, run.rivals), stake(run)]
         if run.result
         else [Section("proposals", "Proposals", "There are no two effects to separate.")]
     )
     if run.open:
-        rows = [[readable(text)] for text in run.open]
+        rows = [[readable(a.experiment), readable(a.why), a.like, number(a.cost), number(a.expected)] for a in run.asked]
         lead = f"Something is left {run.answer.left_over}. Where it would show its law:"
-        sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", ["measure"], rows)]))
+        head = ["measure", "because", "condition", f"cost{f' [{currency}]' if currency else ''}", "expected misfit"]
+        note = "Misfit in chi-square, of two runs that are off as those of this signal are on average."
+        sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", head, rows, (3, 4), note)]))
     rivals = listed([effect_title(r) for r in run.rivals])
     verdict = readable(run.verdict) if run.result else effect_title(run.verdict)
     finding = verdict[:1].upper() + verdict[1:] + "."

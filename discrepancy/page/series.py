@@ -70,10 +70,13 @@ def template(words: tuple[str, str, str], width: int) -> list[dict[str, Any]]:
     """The traces without data: bands, measured, predicted, differences."""
     area: dict[str, Any] = {"type": "scatter", "mode": "lines", "fill": "toself", "fillcolor": panels.BAND, "line": {"width": 0}, "hoverinfo": "skip"}
     dots: dict[str, Any] = {"type": "scatter", "mode": "lines", "line": {"color": panels.MEASURED, "width": 1}}
+    # A prediction lies on top, dashed, so that what was measured is seen under it where they agree.
+    agreeing = words == panels.WORDS
+    broad: dict[str, Any] = {"line": {"color": panels.MEASURED, "width": 2.4}} if agreeing else {}
     traces = [area | {"name": "noise, 2 σ"}, area | {"yaxis": "y2", "showlegend": False}]
     for k in range(width):
         look_of = {"opacity": 0.9 - 0.15 * k, "hovertemplate": f"{words[0]}, replicate {k + 1}: %{{y}} at %{{x}}<extra></extra>"}
-        traces.append(dots | look_of | {"name": words[0], "legendgroup": "measured", "showlegend": k == 0})
+        traces.append(dots | look_of | broad | {"name": words[0], "legendgroup": "measured", "showlegend": k == 0})
         traces.append(
             dots
             | look_of
@@ -88,7 +91,7 @@ def template(words: tuple[str, str, str], width: int) -> list[dict[str, Any]]:
         {
             "type": "scatter",
             "mode": "lines",
-            "line": {"color": panels.PREDICTED, "width": 1.6},
+            "line": {"color": panels.PREDICTED, "width": 1.6, "dash": "dash" if agreeing else "solid"},
             "name": words[1],
             "hovertemplate": f"{words[1]}: %{{y}} at %{{x}}<extra></extra>",
         }

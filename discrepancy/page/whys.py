@@ -15,6 +15,7 @@ from discrepancy.key_figures import CLEARLY, DRAWS, KeyFigure
 from discrepancy.page import amounts
 from discrepancy.page.amounts import effect_title
 from discrepancy.verdict import Answer
+from discrepancy.wording import turned_down
 from pages.content import Why
 from pages.words import counted, number
 
@@ -104,8 +105,8 @@ def of_step(kind: str, before: float, after: float, runs: int) -> Why:
 
 def of_verdict(answer: Answer) -> Why:
     """What the verdict rests on."""
-    turned_down = [r for r in answer.diagnosis.rejected if r["chi2_difference"] is not None]
-    nearest = min(turned_down, key=lambda r: r["chi2_difference"], default=None)
+    fitted = [r for r in turned_down(answer) if r["chi2_difference"] is not None]
+    nearest = min(fitted, key=lambda r: r["chi2_difference"], default=None)
     rival = f"nearest rival: {effect_title(nearest['name'])}, {nearest['reason']}" if nearest else "no rival was near enough to be fitted"
     space = answer.diagnosis.fits.space
     return Why(
@@ -116,7 +117,8 @@ def of_verdict(answer: Answer) -> Why:
 
 
 def of_share(answer: Answer) -> Why:
-    gain = sum(e["gain"] for e in answer.effects)
+    members = answer.diagnosis.fits.members
+    gain = members[0].gain if members else 0.0
     return Why(
         "what the fit takes off chi-square, of all that is more than noise",
         f"{number(gain)} of chi-square" if gain else "the fitted runs",

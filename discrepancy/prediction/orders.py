@@ -31,5 +31,12 @@ def named_orders(bench: Bench, more: Mapping[str, tuple[float, ...]] | None = No
     found["pin mesh"] = (lobes * pins,)
     if bench.starts[0]["first_stage_ratio"] > 0.0:
         teeth = bench.starts[0]["sun_teeth"]
-        found |= {"sun": (ratio - 1.0, ratio), "first mesh": ((ratio - 1.0) * teeth,)}
+        found |= {sun(ratio - 1.0, pins): (ratio - 1.0, ratio), "first mesh": ((ratio - 1.0) * teeth,)}
     return found | dict(more or {})
+
+
+def sun(against_carrier: float, pins: int) -> str:
+    """Its name; a whole first stage puts its turns against the carrier on a harmonic of the cranks', which holes and bearings of a disc make, too."""
+    times = against_carrier / pins
+    coincides = times > 1.5 and abs(times - round(times)) < 1e-9
+    return f"sun (order {against_carrier:.4g} also {round(times)} x crank against carrier)" if coincides else "sun"

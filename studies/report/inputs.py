@@ -2,12 +2,14 @@
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+import rv_plant.effects
+import wear_fmu.effects
 from fmu_src.table import Table
 from fmu_src.variables import Variable
 from pages.words import number
@@ -22,15 +24,17 @@ SHOWN = {
     "s": (("h", 1.0 / 3600.0, 0.0),), "N.m": (("N·m", 1.0, 0.0),), "rad/(N.m)": (("rad/(N·m)", 1.0, 0.0),),
     "1": (("", 1.0, 0.0),),
 }  # fmt: skip
+# At their starts an effect is off, whatever its other parameters are.
+AMPLITUDES = {p.variable.name for effects in (rv_plant.effects.EFFECTS, wear_fmu.effects.EFFECTS) for effect in effects.values() for p in effect.amplitudes()}
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def groups(result: Result) -> list[dict[str, Any]]:
-    """Tables of parameters: heading and rows (name, value, unit, meaning, source, assumed, set for the run)."""
+    """Tables of parameters: heading and rows (name, value, unit, meaning, source, assumed, set for the run), those of effects that are off by themselves."""
     sizes = result.dataset.sizes
     bins = Resolution(sizes["flank_bin"], sizes["pin_bin"], sizes["race_bin"])
     plant, wear = plant_table(result.topology), wear_table(result.topology, bins)
-    return [
+    found: list[dict[str, Any]] = [
         {"title": "Operation", "rows": rows(result, result.plant, plant, lambda v: v.role == "input")},
         {"title": "Reducer",
          "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and not v.shape)},
@@ -38,6 +42,14 @@ def groups(result: Result) -> list[dict[str, Any]]:
         {"title": "Deviations of single parts",
          "rows": rows(result, result.plant, plant, lambda v: v.role == "parameter" and bool(v.shape))},
     ]  # fmt: skip
+    return [group | parted(group["rows"]) for group in found]
+
+
+def parted(every: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Rows of what acts, those of effects that are off, and how many effects these are."""
+    acting = {row["effect"] for row in every if row["acts"]}
+    off = [row for row in every if row["effect"] and row["effect"] not in acting]
+    return {"rows": [row for row in every if row not in off], "off": off, "effects_off": len({row["effect"] for row in off})}
 
 
 def is_own(variable: Variable, plant: Table) -> bool:
@@ -59,10 +71,12 @@ def rows(
             continue
         value, unit = shown(values[name], variable.unit)
         chosen = name in settings
+        acts = name in AMPLITUDES and not np.array_equal(np.asarray(values[name]), np.asarray(variable.start))
         source = "set for this run" if chosen else sources.get(name) or own_source(variable)
         made.append({
             "name": variable.path, "value": value, "unit": unit, "meaning": variable.description, "source": source,
             "assumed": source.startswith("assumed"), "chosen": chosen,
+            "effect": variable.path.split(".")[1] if variable.path.startswith("effects.") else "", "acts": chosen or acts,
         })  # fmt: skip
     return made
 

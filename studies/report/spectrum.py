@@ -42,8 +42,11 @@ def causes(result: Result) -> list[Cause]:
         Cause(passing * inner, "rollers passing the outer raceway"),
     ]
     if plant["first_stage_ratio"] > 0.0:
-        ratio = 1.0 + plant["first_stage_ratio"] * t.pins
-        known += [Cause(ratio, "sun in the housing"), Cause(ratio - 1.0, "sun against the carrier")]
+        times = plant["first_stage_ratio"]
+        ratio = 1.0 + times * t.pins
+        # A whole first stage puts the sun's turns on a harmonic of the cranks', which holes of a disc make, too.
+        also = f", and {round(times)} × crank against the carrier" if times > 1.5 and abs(times - round(times)) < 1e-9 else ""
+        known += [Cause(ratio, "sun in the housing"), Cause(ratio - 1.0, "sun against the carrier" + also)]
     return sorted(known, key=lambda cause: cause.order)
 
 

@@ -9,7 +9,18 @@ export function nextPart(bag) {
   const sheet = next
     ? [
         h("p", { class: "lead" }, next.verdict),
-        next.open.map((text) => h("p", {}, `• ${text}`)),
+        next.asked.length
+          ? h(
+              "div",
+              { id: "asked" },
+              table(
+                ["☐", "measure", "because", "condition", "price", "expected misfit"],
+                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : number(a.cost, 4), number(a.expected, 3)]),
+                [4, 5],
+                { class: "rows" },
+              ),
+            )
+          : null,
         next.proposals.length
           ? h(
               "div",
@@ -18,6 +29,7 @@ export function nextPart(bag) {
                 ["☐", "experiment", "price", "least separation", "mean separation"],
                 next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
                 [2, 3, 4],
+                { class: "rows" },
               ),
             )
           : null,

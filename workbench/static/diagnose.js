@@ -97,12 +97,13 @@ export function show(root, context) {
         "div",
         { class: `panel verdict ${answer.tone}`, id: "verdict" },
         h("p", { class: "quiet small" }, `verdict: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
-        h("h1", {}, answer.page.finding),
-        answer.page.finding.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+        h("h1", {}, answer.headline),
+        answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
         answer.effects.map(effectOf),
+        answer.together ? h("p", { class: "quiet small" }, answer.together) : null,
         answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
-        answer.left ? h("p", {}, `not explained: ${answer.left}`) : null,
-        answer.laws.map((law) => h("p", {}, `law without a name: ${law}`)),
+        answer.left ? h("p", { class: "small" }, h("b", {}, "Not explained: "), answer.left) : null,
+        answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
       ),
       cards(answer.page.cards),
       rivals(),
@@ -130,19 +131,17 @@ export function show(root, context) {
           why(p.why, p.name),
         ),
       ),
-      answer.effects.length > 1 ? h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")) : null,
+      h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")),
     );
 
   const rivals = () =>
-    answer.rejected.length || answer.confusable.length
+    answer.rejected.length || answer.confusable.length || answer.stand_ins.length
       ? h(
           "details",
-          { class: "panel", open: answer.confusable.length > 0 },
+          { class: "panel", open: answer.confusable.length + answer.stand_ins.length > 0 },
           h("summary", {}, h("b", {}, "Rivals, and why not")),
           answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${answer.confusable.map(words).join(", ")}.`) : null,
-          Object.entries(answer.alternatives).map(([name, others]) =>
-            h("p", {}, `in place of ${effectName(name)} could stand: ${others.map(effectName).join(", ")}`),
-          ),
+          answer.stand_ins.map((text) => h("p", {}, text)),
           table(
             ["effect", "why not", ""],
             answer.rejected.slice(0, 12).map((r) => [effectName(r.name), r.reason, why(r.why, effectName(r.name))]),

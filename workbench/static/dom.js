@@ -59,7 +59,7 @@ export function table(head, rows, right = [], given = {}) {
             : h(
                 "tr",
                 {},
-                row.map((cell, i) => h("td", side(i), cell)),
+                row.map((cell, i) => h("td", { ...side(i), "data-head": head[i] }, cell)),
               ),
         ),
       ),

@@ -158,6 +158,7 @@ export function show(root, context) {
             ["quantity", "runs", "held out", "conditions", "repetitions"],
             data.campaign.quantities.map((q) => [words(q.quantity), String(q.runs), String(q.held_out), String(q.conditions), String(q.replicates)]),
             [1, 2, 3, 4],
+            { class: "rows" },
           )
         : null,
       h(

@@ -41,12 +41,12 @@ export function cells(found, put) {
     ),
   ];
   return [
-    h("details", { class: "panel", id: "cells-conditions" }, h("summary", {}, h("b", {}, "Correct conditions")), table(["condition", ...found.keys.map(words)], names.map(condition))),
+    h("details", { class: "panel", id: "cells-conditions" }, h("summary", {}, h("b", {}, "Correct conditions")), table(["condition", ...found.keys.map(words)], names.map(condition), [], { class: "rows" })),
     h(
       "details",
       { class: "panel", id: "cells-runs" },
       h("summary", {}, h("b", {}, "Correct the columns of single files")),
-      table(["run", "file", "quantity", "condition", "columns and units"], found.runs.map(run)),
+      table(["run", "file", "quantity", "condition", "columns and units"], found.runs.map(run), [], { class: "rows" }),
     ),
   ];
 }

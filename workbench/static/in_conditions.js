@@ -9,6 +9,8 @@ const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", tem
 export function questions(bag) {
   const { data, putIn } = bag;
   const { needs, doubts } = data.proposal;
+  // What was saved was taken as it stands: it asks no more.
+  const unsettled = !(data.saved && data.same);
   const general = needs.filter((n) => n.place !== "campaign").flatMap((n) => [...n.text.matchAll(/needs (.+)$/g)].map((m) => [n, m[1].split(" or ")]));
   const asked = new Map(general.map(([n, keys]) => [keys.join(), [n, keys]]));
   return [
@@ -31,8 +33,8 @@ export function questions(bag) {
     doubts.length
       ? h(
           "details",
-          { open: doubts.length < 6 },
-          h("summary", {}, `${doubts.length} not sure`),
+          { open: unsettled && doubts.length < 6 },
+          h("summary", {}, unsettled ? `${doubts.length} not sure` : `saved with ${doubts.length} guess${doubts.length === 1 ? "" : "es"} that ${doubts.length === 1 ? "was" : "were"} not sure`),
           doubts.map((d) => note([h("b", {}, d.place), `: ${d.text}`])),
         )
       : null,
@@ -99,6 +101,6 @@ export function conditions(bag) {
       { class: "quiet small" },
       "Read from names and heads of the files; what stands here wins. Held-out conditions are never fitted: the error that counts is theirs.",
     ),
-    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows)),
+    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows" })),
   );
 }

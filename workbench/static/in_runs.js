@@ -3,6 +3,8 @@
 import { choose, h, spark, table, words } from "./dom.js";
 import { drop } from "./net.js";
 
+const COLUMNS = ["role", "column", "curve", "unit", "why"];
+
 export function runs(bag) {
   const { data } = bag;
   const groups = new Map();
@@ -98,14 +100,16 @@ function group(bag, members) {
     ),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
     table(
-      ["role", "column", "curve", "unit", "why"],
+      COLUMNS,
       rows.map((row) =>
         h(
           "tr",
           {},
-          row.map((cell, i) => h("td", { class: i === 4 ? "reason" : undefined }, cell)),
+          row.map((cell, i) => h("td", { class: i === 4 ? "reason" : undefined, "data-head": COLUMNS[i] }, cell)),
         ),
       ),
+      [],
+      { class: "rows" },
     ),
     h(
       "details",
@@ -132,6 +136,8 @@ function group(bag, members) {
             "put aside",
           ),
         ]),
+        [],
+        { class: "rows" },
       ),
     ),
   );

@@ -46,7 +46,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
       "div",
       { class: "panel" },
       table(
-        ["signal", "figure", "condition", "measured", "noise", "model", "off, in noise", ""],
+        ["signal", "figure", "condition", "measured", "noise", result.calibrated.length ? "model, calibrated" : "model", "off, in noise", ""],
         rows.map((f, i) => [
           rows[i - 1]?.title === f.title ? "" : f.title,
           h("b", {}, f.name),
@@ -86,6 +86,8 @@ export function spec({ part, shift, several }, signal, members) {
     bands = [];
   // Orders stand apart: a line through them would be none.
   const look = members[0].stems ? { stems: true, sorted: true, width: 2.4 } : {};
+  // Both ways of a loop lie close: dashed, the prediction lets what was measured be seen under it.
+  const [broad, dash] = signal.loop ? [2, [8, 5]] : [1.1, undefined];
   members.forEach((run, k) => {
     const raw = part(run.x),
       x = shift ? raw.map((v) => v + shift) : raw,
@@ -102,7 +104,7 @@ export function spec({ part, shift, several }, signal, members) {
       x,
       y: part(run.measured),
       colour: "--measured",
-      width: 1.1,
+      width: broad,
       opacity,
       dots: run.dots,
       ...look,
@@ -119,7 +121,7 @@ export function spec({ part, shift, several }, signal, members) {
       ...look,
     });
     if (k === 0 || several)
-      upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, opacity: several ? 0.8 : 1, ...look, shift: 0.3 });
+      upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, dash, opacity: several ? 0.8 : 1, ...look, shift: 0.3 });
   });
   return {
     xTitle: signal.axis.title,
@@ -176,6 +178,7 @@ export const fails = (result, context) =>
                 why(p.why, `${words(p.signal)}, ${p.feature}`),
               ]),
             [3],
+            { class: "rows" },
           ),
         ),
         h(

@@ -57,10 +57,13 @@ export const warnings = (list) =>
 
 const tableOf = (t) =>
   h(
-    "div",
+    t.folded ? "details" : "div",
     { style: { "margin-top": "10px" } },
+    t.folded ? h("summary", {}, t.folded) : null,
     t.title ? h("h3", {}, t.title) : null,
-    table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right),
+    table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right, {
+      class: t.head.length > 2 ? "rows" : undefined,
+    }),
     t.note ? h("p", { class: "quiet small" }, t.note) : null,
   );
 
@@ -74,10 +77,12 @@ export function figure(f) {
       )
     : null;
   const draw = async () => {
-    await script("plotly.js");
+    await Promise.all([script("plotly.js"), script("narrow.js")]);
     const choice = select ? f.choices[Number(select.value)] : null;
     const data = choice ? f.data.map((trace, i) => ({ ...trace, ...choice.traces[i] })) : f.data;
-    window.Plotly.react(place, themed(data), coloured(themed({ ...f.layout, ...(choice?.layout ?? {}) })), config);
+    const fitting = window.narrowed(f, data, { ...f.layout, ...(choice?.layout ?? {}) }, place.clientWidth);
+    if (!f.aspect) place.style.height = `${fitting.height}px`;
+    window.Plotly.react(place, themed(fitting.data), coloured(themed(fitting.layout)), config);
   };
   const watch = new IntersectionObserver((entries) => {
     if (entries.some((e) => e.isIntersecting)) {

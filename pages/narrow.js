@@ -1,0 +1,51 @@
+"use strict";
+// Figures on a narrow card: names beside rows and bars fold, heads stand upright where they would lie over each other.
+
+const NARROW = 520, LETTER = 6.2, LINE = 13;
+// Names have so much of a card's width; a map's row takes so much beside its lines.
+const SHARE = 0.32, MARGIN = 10;
+
+// Words of a name in lines of so many letters at most; what is one long word is cut where it has a sign.
+function folded(name, letters) {
+  const lines = [""];
+  for (const part of String(name).replace(/<br>/g, " ").match(/[^\s_.,]+[\s_.,]*/g) ?? []) {
+    if (lines.at(-1) && (lines.at(-1) + part).trimEnd().length > letters) lines.push("");
+    lines[lines.length - 1] += part;
+  }
+  return lines.map((line) => line.trim());
+}
+
+const longest = (texts) => Math.max(...texts.map((text) => Math.max(...String(text).split("<br>").map((line) => line.length))));
+const named = (values) => values?.length && values.every((v) => typeof v === "string");
+
+// Ticks of an axis of names, folded to a width [px]; and how many lines the longest has.
+function ticks(names, width) {
+  const texts = names.map((name) => folded(name, Math.max(6, Math.floor(width / LETTER))));
+  return { axis: { tickmode: "array", tickvals: names, ticktext: texts.map((t) => t.join("<br>")) }, lines: Math.max(...texts.map((t) => t.length)), texts };
+}
+
+// What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
+function narrowed(figure, data, layout, width) {
+  const bar = data.find((trace) => trace.type === "bar" && trace.orientation === "h");
+  const map = data.find((trace) => trace.type === "heatmap" && named(trace.y));
+  const names = [...new Set((bar ?? map)?.y ?? [])];
+  if (!named(names)) return { data, layout, height: figure.height };
+  const narrow = width < NARROW;
+  if (!narrow && longest(names) * LETTER < SHARE * width) return { data, layout, height: figure.height };
+  const rows = ticks(names, SHARE * width);
+  const bars = bar ? data.filter((trace) => trace.type === "bar").length : 1;
+  let height = Math.max(figure.height, figure.height + names.length * (rows.lines * LINE + MARGIN - (bar ? 28 + 18 * (bars - 1) : 27)));
+  const shown = { ...layout, yaxis: { ...layout.yaxis, ...rows.axis } };
+  if (bar) return { data, layout: { ...shown, margin: { ...layout.margin, l: 8 } }, height };
+  // A map: its scale goes, for the colours are told below and the cells have their numbers.
+  const cell = (width - Math.max(...rows.texts.flat().map((line) => line.length)) * LETTER - 30) / map.x.length;
+  const heads = ticks(map.x, cell);
+  const fit = longest(heads.axis.ticktext) * LETTER < cell;
+  const upright = { tickangle: -90, tickmode: "array", tickvals: map.x, ticktext: map.x.map((head) => String(head).replace(/<br>/g, " ")) };
+  shown.xaxis = { ...layout.xaxis, ...(fit ? { ...heads.axis, tickangle: 0 } : upright) };
+  height += fit ? (heads.lines - 1) * LINE : Math.min(longest(upright.ticktext), 30) * LETTER - LINE;
+  shown.margin = { ...layout.margin, l: 8, r: 4 };
+  // Numbers of a few signs stand in narrow cells, too.
+  const tight = map.text && longest(map.text.flat()) * LETTER > cell;
+  return { data: data.map((t) => (t === map ? { ...t, showscale: false, ...(tight ? { textfont: { ...t.textfont, size: 8 } } : {}) } : t)), layout: shown, height };
+}

@@ -1,0 +1,86 @@
+"""Saved pages on a dark and on a narrow screen, in a browser."""
+
+import json
+import re
+import shutil
+from itertools import pairwise
+
+import pytest
+
+from discrepancy.page import bars, maps
+from pages.content import Card, Page, Section, Table
+from pages.render import rendered_sections
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+LONG = "base.hole_position_errors.disc_hole_radial_1 + clock_slip.transmission_error + runout.output"
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    if CHROMIUM is None:
+        pytest.skip("no Chromium: apt-get install chromium")
+    with pytest.importorskip("playwright.sync_api").sync_playwright() as tools:
+        browser = tools.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    cells = {(signal, f"loop{k}"): 1.0 + k for signal in ("hysteresis[locked=input]", "transmission_error") for k in range(9)}
+    figures = [bars.pairs("both", LONG, "caption", [LONG], [352.2], [4.1], (["a"], ["b"])), maps.grid("Map", "caption", "map", cells)]
+    rows = [[LONG, "97 % of the misfit", "1.25 arcmin", "-0.3 to 0.4", "what it means in many words, so that the row becomes wide"]]
+    head = ["number", "share", "measured", "held to lie in", "meaning"]
+    tables = [Table("The base model is off", head, rows, (2,)), Table("", head, rows, folded="All 1 rows")]
+    page = Page("kind", LONG, "conditions", f"It lacks {LONG}.", [Card("error", "4.1", tone="good")], [Section("one", "One", "lead", figures, tables)], [])
+    path = tmp_path_factory.mktemp("pages") / "page.html"
+    path.write_text(rendered_sections(page), encoding="utf-8")
+    return path
+
+
+def opened(chromium, file, width, scheme):
+    page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page.goto(file.as_uri())
+    page.wait_for_selector("#plot-map .heatmaplayer image, #plot-map .heatmaplayer path, #plot-map .hm")
+    return page
+
+
+def light(colour):
+    """From 0 (black) to 1 of ``rgb(r, g, b)``."""
+    return sum(float(part) for part in re.findall(r"[\d.]+", colour)[:3]) / 765.0
+
+
+def colours(page):
+    style = "(e, name) => getComputedStyle(e)[name]"
+    bar = page.locator("#plot-both .bars path").nth(1).evaluate(style, "fill")
+    return light(page.locator("body").evaluate(style, "backgroundColor")), light(bar), light(page.locator("#plot-both .xtick text").first.evaluate(style, "fill"))
+
+
+def test_pages_follow_the_scheme_of_the_screen_and_print_on_white(chromium, file):
+    ground, bar, text = colours(opened(chromium, file, 1280, "light"))
+    assert ground > 0.9 and bar < 0.5 and text < 0.5
+    page = opened(chromium, file, 1280, "dark")
+    ground, bar, text = colours(page)
+    assert ground < 0.15 and bar > 0.5 and text > 0.5
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    assert colours(page)[1] < 0.5
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(color_scheme="light")
+    page.wait_for_function("getComputedStyle(document.body).backgroundColor === 'rgb(246, 248, 250)'")
+    assert colours(page)[1] < 0.5
+
+
+def test_nothing_leaves_a_narrow_page(chromium, file):
+    page = opened(chromium, file, 390, "light")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    edges = page.evaluate("""[...document.querySelectorAll('main *, .plot text')].filter((e) => e.getClientRects().length).map((e) => {
+        const r = e.getBoundingClientRect(); return [Math.floor(r.left), Math.ceil(r.right), e.textContent.slice(0, 30)]; })""")
+    outside = [edge for edge in edges if edge[0] < 0 or edge[1] > 390]
+    assert not outside, json.dumps(outside[:5])
+    boxes = page.evaluate("[...document.querySelectorAll('#plot-map .xtick text')].map((e) => e.getBoundingClientRect()).map((r) => [r.left, r.right])")
+    assert len(boxes) == 9 and all(left >= right for (_, right), (left, _) in pairwise(boxes))
+    # A row says what its cells are; what is folded is not shown.
+    assert "measured 1.25 arcmin" in page.evaluate(
+        "[...document.querySelectorAll('table.stack td')].map((e) => getComputedStyle(e, '::before').content.replaceAll('\"', '') + e.textContent).join('|')"
+    )
+    assert page.locator("details.fold table").is_hidden()
