@@ -101,7 +101,7 @@ def autoregression_of(series: Sequence[Floats], trends: Sequence[Floats], shares
         variance = 1 - taps @ c[1: order + 1]
         if variance <= 0:
             continue
-        score = 0.5 * total * np.log(variance) + order
+        score = 0.5 * total * float(np.log(variance)) + order
         if score < best[0] - 1:
             best = (score, np.append(taps, np.sqrt(variance)))
     return best[1]
