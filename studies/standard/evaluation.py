@@ -29,6 +29,8 @@ STIFF_FROM = 0.5
 REACHED = 0.99
 # A way is read by a line through so many samples at least, within this share of the torques to either side; and what is a turning point.
 ENOUGH, NEAR, TURNS_BACK = 5, 0.01, 0.05
+# So many times the noise of neighbours a straight line may leave.
+BENT = 2.0
 # A measured curve shorter than this says nothing.
 FEWEST = 8
 
@@ -112,12 +114,15 @@ class Way:
     angle: Floats
 
     def at(self, torque: float) -> float:
-        """Angle at a torque: by a straight line through what lies about it where that is much, else between its neighbours."""
+        """Angle at a torque: by a straight line through what lies about it where that is much and straight, else between its neighbours."""
         near = np.abs(self.torque - torque) <= NEAR * (self.torque[-1] - self.torque[0])
         inside = self.torque[0] <= torque <= self.torque[-1]
         if inside and np.count_nonzero(near) >= ENOUGH and np.ptp(self.torque[near]) > 0.0:
-            _slope, level = np.polyfit(self.torque[near] - torque, self.angle[near], 1)
-            return float(level)
+            slope, level = np.polyfit(self.torque[near] - torque, self.angle[near], 1)
+            left = self.angle[near] - slope * (self.torque[near] - torque) - level
+            # White noise has second differences of six times its variance; what leaves more is no straight line: play.
+            if np.std(left) <= BENT * np.std(np.diff(self.angle[near], 2)) / np.sqrt(6.0):
+                return float(level)
         return float(np.interp(torque, self.torque, self.angle))
 
 
