@@ -112,13 +112,14 @@ class PhysicalModel:
 
     def angle_nuisances(self) -> list[Parameter]:
         width = 2.0 * np.pi / PHASE_ORDER
-        return [
+        found = [
             Parameter(name, "rad", zero, zero - 0.25 * width, zero + 0.25 * width, 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
-        ] + [
-            Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, of that of the base model")
-        ][: any(r.of_output for r in self.records)]  # fmt: skip
+        ]  # fmt: skip
+        if any(r.of_output for r in self.records):
+            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, of that of the base model"))
+        return found
 
     def align(self, always: bool) -> None:
         """Where each mounting counts its angles from, by the pattern of the transmission error.

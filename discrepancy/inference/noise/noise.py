@@ -17,7 +17,7 @@ from discrepancy.inference.noise.replicates import Deviation, deviations_of
 from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
 from discrepancy.inference.noise.series import fast_part, path_of, position_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
-from discrepancy.inference.noise.whiten import SLOW, Whitener, autoregress, correlations, gains, innovations, slow_waves, whitener
+from discrepancy.inference.noise.whiten import SLOW, Whitener, autoregress, correlations, gains, innovations, slow_waves, whitener, with_slow
 from discrepancy.problem import ORDERS, Record
 from discrepancy.repetitions import outlying
 from discrepancy.rounding import noise_of, step_of
@@ -304,7 +304,9 @@ def _whitener(
     names = list(between)
     patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
     variances = np.array([between[n] for n in names]) if patterns.shape[1] else np.zeros(0)
-    slow = slow_waves(position, max(stream.length, _spacing(position))) if SLOW in stream.dof and rows >= SHORT else None
-    return whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
-                    np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
-                    tuple((key, n) for n in names), key, slow)
+    found = whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
+                     np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
+                     tuple((key, n) for n in names), key)
+    if SLOW not in stream.dof or rows < SHORT:
+        return found
+    return with_slow(found, slow_waves(position, max(stream.length, _spacing(position))))

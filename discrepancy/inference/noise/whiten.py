@@ -130,18 +130,15 @@ def autoregress(columns: Floats, taps: Floats) -> Floats:
 
 def whitener(
     kept: Mask, scale: Floats, position: Floats, length: float, nugget: float, taps: Floats, weight: Floats, patterns: Floats,
-    variances: Floats, components: Sequence[tuple[str, str]], quantity: str, slow: Floats | None = None,
+    variances: Floats, components: Sequence[tuple[str, str]], quantity: str,
 ) -> Whitener:  # fmt: skip
-    """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale).
-
-    ``slow`` (n, m): waves that are booked on the component "slow".
-    """
+    """Builds the map; ``patterns`` (n, k) over the kept rows carry random amounts of ``variances`` (in units of scale)."""
     correlation = correlations(position, length)
     gain, deviation = gains(correlation, nugget)
     plain = Whitener(kept, scale, correlation, gain, deviation, taps, weight,
                      np.zeros((scale.size, 0)), np.zeros(0), (), quantity)
     if not patterns.shape[1]:
-        return with_slow(plain, slow)
+        return plain
     whole = np.zeros((kept.size, patterns.shape[1]))
     whole[kept] = patterns * scale[:, None]
     inside = plain(whole)
@@ -152,9 +149,8 @@ def whitener(
     owner = np.abs(directions.T @ (inside / np.maximum(np.linalg.norm(inside, axis=0), 1e-300)))
     booked = tuple(components[i] for i in np.argmax(owner, axis=1))
     shrink = 1.0 - 1.0 / np.sqrt(1.0 + np.maximum(values, 0.0))
-    patterned = Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity,
-                         float(np.sum(variances)))
-    return with_slow(patterned, slow)
+    return Whitener(kept, scale, correlation, gain, deviation, taps, weight, directions, shrink, booked, quantity,
+                    float(np.sum(variances)))
 
 
 def slow_waves(position: Floats, length: float) -> Floats:
@@ -164,10 +160,8 @@ def slow_waves(position: Floats, length: float) -> Floats:
     return np.cos(math.pi * np.outer((position - position.min()) / span, waves))
 
 
-def with_slow(plain: Whitener, slow: Floats | None) -> Whitener:
-    """The same map, which keeps the directions of ``slow`` waves apart too."""
-    if slow is None:
-        return plain
+def with_slow(plain: Whitener, slow: Floats) -> Whitener:
+    """The same map, which keeps the directions of ``slow`` waves (n, m) apart too, booked on the component "slow"."""
     whole = np.zeros((plain.kept.size, slow.shape[1]))
     whole[plain.kept] = slow * plain.scale[:, None]
     inside = plain.weight[:, None] * plain.innovate(whole)
