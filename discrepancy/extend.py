@@ -15,7 +15,8 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
-from discrepancy.inference.refit.refit import Refit, estimates
+from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.orders import named_orders
@@ -94,7 +95,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     extended = replace(file, effects=effects, settings=settings_found)
     judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
     fitted = judgement(diagnostician, fit, diagnostician.space.training)
-    outcome, reason = verdict_of(judged)
+    outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
@@ -107,8 +108,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
             for b, a in zip(before, by_signal(after))
         ],
     }  # fmt: skip
-    # What was tested on unused runs and not seen there stays out.
-    keep = outcome == HELPED or judged is None or anyway
+    # What was tested on unused runs and did not help there stays out.
+    keep = outcome == HELPED or judged is None or (outcome == NOT_PROVEN and not judged.seen) or anyway
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
                      {p.name: p.unit for p in diagnostician.space.base.parameters})
@@ -160,6 +161,21 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
         f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
         " runs fell: the effect fits noise or stands for another one; the model stays as it was"
     )
+
+
+def unseen(diagnostician: Diagnostician, fit: Refit) -> tuple[str, str]:
+    """Of an effect that does nothing in the unused runs: conditions that are left out in turn judge it instead."""
+    space = diagnostician.space
+    acts = sorted({stream_of(space.records[i]) for c in fit.candidates for i in space.touched(c)})
+    blind = sorted({stream_of(space.records[i]) for i in space.held_out})
+    before, after = (sum(leave_condition_out(space, f).values()) / space.size for f in (space.base, fit.fit))
+    told = f"no unused run shows it: it acts on {', '.join(acts)}, and the unused runs of {', '.join(blind)} are as they were with it"
+    if after < BETTER * before:
+        return NOT_PROVEN, (
+            f"{told}; with one condition left out at a time the misfit falls from {before:.2f} to {after:.2f} of chi-square per value,"
+            f" which speaks for it; hold out a condition of {acts[0]} to prove it"
+        )
+    return DID_NOT_HELP, f"{told}, and with one condition left out at a time the misfit does not fall: the model stays as it was"
 
 
 def build_units(file: ModelFile, folder: Path) -> list[Path]:

@@ -126,11 +126,11 @@ def compare_orders() -> None:
 
 
 def of_angles(name, first) -> float:
-    """Rounding of a path with the input held: a little way between two angles that are known to some units of their last place."""
+    """Rounding of a path with the input held: a little way between two angles, of which equilibrium knows some digits less than the last."""
     if not (name.startswith("held") and name.endswith("_path")):
         return 0.0
     force = np.abs(first[name.removesuffix("_path")]).max() if name.removesuffix("_path") in first else 1.0
-    return 8.0 * np.finfo(float).eps * np.abs(first["held crank_angle"]).max() * force
+    return 256.0 * np.finfo(float).eps * np.abs(first["held crank_angle"]).max() * force
 
 
 def every_stage_starts_anew(reducer) -> None:

@@ -247,12 +247,47 @@ def test_seat_loses_work_at_every_reversal_and_closes_its_loop(rv20e):
     assert area == pytest.approx(2.0 * branch, rel=0.01)
 
 
-def test_tangent_of_the_seat_is_its_derivative(rv20e):
-    r = in_equilibrium(rv20e.plant, **seat(2e-7, 400.0, 5.0))
+@pytest.mark.parametrize("rest", [0.0, 1e-7, 1e-6])
+def test_tangent_of_the_seat_is_its_derivative(rv20e, rest):
+    r = in_equilibrium(rv20e.plant, ring_seat_compliance=rest, **seat(2e-7, 400.0, 5.0))
+
+    def torque_at(turn):
+        return (turn + 2e-7 * support_hysteresis.seat_at(r, turn)[0]) / (2e-7 + rest)
+
     for turn in (2.0 * r.z[-1], -r.z[-1], 0.1 * r.z[-1]):
         step = 1e-4 * abs(r.z[-1])
-        slope = (support_hysteresis.held_at(r, turn + step)[0] - support_hysteresis.held_at(r, turn - step)[0]) / (2.0 * step)
-        assert support_hysteresis.held_at(r, turn)[1] == pytest.approx(slope, rel=1e-6)
+        force, stiffness, psi = support_hysteresis.seat_at(r, turn)
+        slope = (torque_at(turn + step) - torque_at(turn - step)) / (2.0 * step)
+        assert (1.0 / 2e-7 + stiffness) / (1.0 + rest * (1.0 / 2e-7 + stiffness)) == pytest.approx(slope, rel=1e-6)
+        # The seat's torque is what the rest yields to.
+        assert psi + rest * (psi / 2e-7 + force) == pytest.approx(turn, rel=1e-12)
+        assert torque_at(turn) == pytest.approx(psi / 2e-7 + force, rel=1e-9)
+
+
+def test_what_else_yields_under_the_ring_lies_in_series_with_the_seat(rv20e):
+    """With c_0 under it the ring stands c_0 M further on every branch: the loop is no wider, and c_0 sticks nowhere."""
+    way, rest = there_and_back(167.0), 3e-7
+    alone, torque = held(rv20e.plant, way, seat(4e-7, 20.0, 6.0))
+    records = records_of(rv20e.plant, input_speed=0.0, load_torque=way[0], ring_seat_compliance=rest, **seat(4e-7, 20.0, 6.0))
+    assert plant.initialise(records) == 0
+    for place, moment, load in zip(alone, torque, way):
+        records["load_torque"] = load
+        assert plant.step(records, 0.0, 1.0) == 0
+        assert float(only(records).z[-1]) == pytest.approx(place + rest * moment, abs=2e-3 * np.ptp(alone))
+
+
+def test_ring_bears_what_friction_of_its_pins_holds(rv20e):
+    """Moments on the whole: with the input held, friction changes the ring's torque by no more than the input's, load over ratio."""
+    soft = load_reducer("RV20E-121")
+    way = there_and_back(167.0)
+    records = records_of(soft.plant, input_speed=0.0, load_torque=way[0], friction_coefficient=0.05)
+    assert plant.initialise(records) == 0
+    for load in way:
+        records["load_torque"] = load
+        assert plant.step(records, 0.0, 1.0) == 0
+        r = only(records)
+        assert float(r.z[-1] / r.compliance[-1]) == pytest.approx(-load * (1.0 - 1.0 / RATIO), abs=0.3 * 167.0 / RATIO)
+    assert float(r.friction_torque) > 10.0
 
 
 def test_turning_that_reverses_its_torque_remembers(rv20e):

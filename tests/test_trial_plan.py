@@ -19,6 +19,7 @@ from benchmarks.blind_trial.generator.laws import CATALOGUE, GainFault, OffsetFa
 from benchmarks.blind_trial.generator.make import LAWS, TRUE_PARAMETERS, Task, blocks_for, make
 from benchmarks.blind_trial.generator.noise import Noise
 from benchmarks.blind_trial.generator.outside import NEW, OUTSIDE
+from benchmarks.blind_trial.generator.reducer import SOFT
 from benchmarks.blind_trial.generator.strength import LONG, Ruler, axis_variance, whitener
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES, STIFF, TAILS
 from benchmarks.blind_trial.generator.truth import Bench
@@ -144,8 +145,32 @@ def test_distance_to_the_nearest_rival_is_what_projection_leaves():
 def test_every_other_effect_in_the_same_quantity_is_a_rival():
     ruler, (offset,) = torque_ruler([OffsetFault])
     found = rivals.distances(ruler, offset, np.random.default_rng(0))
-    assert set(found) == {law.effect for law in CATALOGUE if "input_torque" in law.quantities} - {"sensor_offset"} | {"sensor_drift"}
+    assert set(found) == {law.effect for law in CATALOGUE if "input_torque" in law.quantities} - {"sensor_offset"} | {"sensor_drift", rivals.NUMBERS}
     assert max(found.values()) <= ruler.size([offset]) * 1.001
+
+
+def test_numbers_of_the_file_are_a_rival_as_far_as_they_may_be_off():
+    """Of a soft reducer's input torque an offset of some seal torque is one of them, within its range; a law that is such a number has none of its own."""
+    rng = np.random.default_rng(0)
+    design = make_design(rng, ["torque"], "tiny")
+    for s in design.series:
+        s.noise = Noise(1e-4)
+    ruler = Ruler(design, TRUE_PARAMETERS, Bench({}, name=SOFT))
+    changes = rivals.base_changes(ruler)
+    seal, whole = changes["input_seal_torque"], {*changes} - {"input_seal_torque", "input_churning_torque"}
+    assert rivals.base_distance(ruler, seal, ()) <= 1.0
+    # Twice as far off as its deviation is twice as unlikely; the others of its kind make up for some.
+    assert 0.3 < rivals.base_distance(ruler, 4.0 * seal, ()) <= 4.0
+    assert rivals.base_distance(ruler, 4.0 * seal, {"input_seal_torque", "input_churning_torque"}) > 3.0 * rivals.base_distance(ruler, 4.0 * seal, ())
+    assert {"mesh_friction", "roller_friction"} <= whole
+
+
+def test_beside_a_law_its_size_tells_nothing():
+    ruler, (offset, gain) = torque_ruler([OffsetFault, GainFault])
+    both = ruler.beside(gain)
+    assert both.size([gain]) == pytest.approx(0.0, abs=1e-9 * ruler.size([gain]))
+    a, b = ruler.column([offset]), ruler.column([gain])
+    assert both.size([offset]) == pytest.approx(np.linalg.norm(a - b * (a @ b) / (b @ b)), rel=1e-9)
 
 
 def test_command_says_how_near_other_effects_come(monkeypatch, capsys):

@@ -155,7 +155,6 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
         "judged": judged(cases) | {
             "false_alarms": counted(nulls, lambda c: c.alarm),
             "false_alarms_with_faults": counted(faults, lambda c: c.physical_alarm),
-            "pairs_both": counted(pairs, lambda c: c.covered),
             "held_out_worse": counted([c for c in strong if c.held_out and c.names_something], lambda c: c.held_out is not None and c.held_out[1] > c.held_out[0]),
             "coverage": counted([x for c in cases for x in c.coverage() if x[2]], lambda x: x[1]),
         },
@@ -193,7 +192,7 @@ def score(results: dict[int, dict[str, Any]]) -> dict[str, Any]:
 
 
 def judged(cases: Sequence[Case]) -> dict[str, dict[str, Any]]:
-    """What is asked of single effects and of laws outside the catalogue."""
+    """What is asked of single effects, of pairs and of laws outside the catalogue."""
     outside = [c for c in cases if c.kind == "outside"]
     single = [c for c in cases if c.kind == "effect" and c.size != "poor"]
     strong = [c for c in single if c.strength >= 10]
@@ -203,6 +202,7 @@ def judged(cases: Sequence[Case]) -> dict[str, dict[str, Any]]:
         "first_from_10": counted(strong, lambda c: c.first), "set_holds_from_10": counted(strong, lambda c: c.covered),
         "set_holds_6": counted([c for c in single if c.strength == 6], lambda c: c.covered),
         "one_name_is_right": counted(named_once, lambda c: c.names[0] in c.acceptable),
+        "pairs_both": counted([c for c in cases if c.kind == "pair"], lambda c: c.covered),
         "set_size": {"share": mean(sizes), "of": len(sizes)},
         **{f"outside_{s:g}": counted([c for c in outside if c.strength == s], lambda c: not c.plainly or c.first)
            for s in sorted({c.strength for c in outside})},

@@ -55,7 +55,8 @@ TARGETS = (
     Target("experiments", "a proposed experiment resolves, times a random one of all that the rig can do", least=3.0, digits=2),
 )
 # What is shown beside without the campaigns that no test can tell.
-TOLD_APART = ("first_from_10", "set_holds_6", "set_holds_from_10", "one_name_is_right", "set_size", "outside_10", "outside_20")
+TOLD_APART = ("first_from_10", "set_holds_6", "set_holds_from_10", "one_name_is_right", "pairs_both", "set_size", "outside_10",
+              "outside_20")
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from discrepancy.forecast.forecast import Forecast, Reading
 
@@ -29,7 +29,7 @@ def contradictions(readings: Sequence[Reading], found: Forecast, unit: str) -> l
     """
     ordered = sorted(readings, key=lambda r: r.hours)
     said = [Contradiction(text) for text in falls(ordered, unit)]
-    if chi2.sf(found.chi_square, len(ordered)) < RARE:
+    if chdtrc(len(ordered), found.chi_square) < RARE:
         off = [(r, m) for r, m in zip(ordered, found.misfits) if abs(m) > FAR] or [max(zip(ordered, found.misfits), key=lambda pair: abs(pair[1]))]
         which = ", ".join(f"{r.value:.4g} {unit} at {r.hours:g} h ({abs(m):.1f} times its noise too {'low' if m > 0.0 else 'high'})" for r, m in off)
         text = f"the readings do not fit the best growth (chi-square {found.chi_square:.0f} on {len(ordered)} readings): {which}"

@@ -4,7 +4,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -197,7 +197,7 @@ class Diagnostician:
 
     def beyond_chance(self, final: Refit) -> bool:
         """Whether a fit gains in earnest more than the best of all candidates may by chance: scores are made of rough predictions."""
-        return float(chi2.sf(max(final.gain, 0.0), len(final.own))) * len(self.refits.scores) < BY_CHANCE
+        return float(chdtrc(len(final.own), max(final.gain, 0.0))) * len(self.refits.scores) < BY_CHANCE
 
     def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float) -> Diagnosis:
         """No candidate explains anything; ``by_place`` something is off all the same."""

@@ -17,7 +17,7 @@ def against(judged: HeldOut | None) -> str:
     """What runs that were not fitted say against what is named; empty if nothing."""
     if judged is None:
         return ""
-    if judged.after > max(judged.before, WITHIN_NOISE):
+    if judged.seen and judged.after > max(judged.before, WITHIN_NOISE):
         return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
     if judged.p_after < 0.0005 and judged.after > 1.5:
         return "runs that were not used are not explained: their error is far above their noise"
@@ -76,11 +76,12 @@ class Judgement:
         return HeldOutJudge(self.space, self.localisation, rivals, self.orders)
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
-        """Whether runs that were not fitted, or conditions left out in turn, are nearer to ``joint`` than to what there is already."""
+        """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""
         if self.space.held_out:
             judge = self.held_out([joint, current])
-            after, before = judge.judge(joint), judge.judge(current)
-            if after is not None and before is not None:
-                return after.after < before.after
+            if judge.tells(joint, current):
+                after, before = judge.judge(joint), judge.judge(current)
+                if after is not None and before is not None:
+                    return after.after < before.after
         left = [sum(leave_condition_out(self.space, r.fit).values()) for r in (joint, current)]
         return left[0] < left[1]

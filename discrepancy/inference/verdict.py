@@ -27,7 +27,7 @@ class Settings:
     gain of that which is left.
     """
 
-    screen_level: float = 0.002
+    screen_level: float = 0.004
     localise_level: float = 0.0008
     naming_level: float = 0.02
     leftover_level: float = 0.0015

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from scipy.linalg import solve_toeplitz
-from scipy.signal import lfilter
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
@@ -32,7 +31,6 @@ KNOWN, BESIDE, CLOSE_BESIDE = 0.9, 0.08, 0.05
 SHOWS = 1.0
 # Samples that one of the noise remembers.
 LAGS = 10
-ONE = np.ones(1)
 # Share of itself by which a ripple errs at few nodes.
 RIPPLE_ERRS = 0.06
 
@@ -115,11 +113,11 @@ def whitening(rest: Floats) -> Callable[[Floats], Floats]:
     # A little more on the diagonal: without noise the equations would have no solution.
     products[0] = products[0] * (1.0 + 1e-9) + 1e-300
     taps = np.concatenate([[1.0], -solve_toeplitz(products[:-1], products[1:])])
-    error = lfilter(taps, ONE, rest)[order:]
+    error = np.convolve(rest, taps, "valid")
     scale = max(float(np.sqrt(error @ error / len(error))), 1e-150)
 
     def white(columns: Floats) -> Floats:
-        found: Floats = lfilter(taps / scale, ONE, columns - columns.mean(axis=0), axis=0)[order:]
+        found: Floats = np.apply_along_axis(np.convolve, 0, columns - columns.mean(axis=0), taps / scale, "valid")
         return found
 
     return white

@@ -3,8 +3,8 @@
     mu(v) = mu_c + mu_s exp(-v/v_s) + c v      at every pin, v = |m(phi) omega_crank|
     loss  = sum mu F v + mu_r sum F_roller r_i |omega_crank - omega_disc|
 
-Loss shows at the input: torque + loss/omega.  With the input held, the contacts stick and slip
-under the output's torque.  N parallel elastic-slip elements (Jenkins, Iwan 1966) carry at
+Loss shows at the input: torque + loss/omega.  With the input held, the contacts of discs and pins stick and slip
+under the output's torque, and the ring bears what they hold.  N parallel elastic-slip elements (Jenkins, Iwan 1966) carry at
 most T_s = (mu_c + mu_s) sum F |arm| together and yield one after the other at theta_i = 2 theta_p i/N: the loop
 follows Masing's rules and closes.  Their stiffness goes with the contact forces: where it grows an element keeps
 its force, where it falls its stretch, so that a change of load gives no energy away.
@@ -18,6 +18,7 @@ from fmu_src.effect import Effect, amplitude, shape
 from fmu_src.kernel import kernel
 from fmu_src.variables import Variable
 from rv_plant.geometry import shortening, sliding_per_crank_angle
+from rv_plant.mesh import ring_coordinate
 from rv_plant.supports import sliding_friction, sticking_friction
 
 ELEMENTS = 6
@@ -84,9 +85,9 @@ def before(r):
     r.friction_torque = max(known + slope * (abs(r.load_torque) - r.holding_load), 0.0)
     r.held_last = known
     if r.friction_torque > last:
-        carrier = 3 * r.throw_added.shape[0]
+        turn = turned_in_ring(r)
         for i in range(ELEMENTS):
-            r.slider[i] = r.z[carrier] - (r.z[carrier] - r.slider[i]) * last / r.friction_torque
+            r.slider[i] = turn - (turn - r.slider[i]) * last / r.friction_torque
 
 
 @kernel
@@ -97,26 +98,35 @@ def element(i, r):
 
 
 @kernel
+def turned_in_ring(r):
+    """Turning of the carrier against the ring [rad], whose pins hold what friction holds."""
+    return r.z[3 * r.throw_added.shape[0]] - r.z[ring_coordinate(r)]
+
+
+@kernel
 def hold(r):
-    """The elements resist turning of the carrier while the input stands."""
+    """The elements resist turning of the carrier against the ring while the input stands."""
     if r.friction_torque == 0.0:
         return
-    carrier = 3 * r.throw_added.shape[0]
+    carrier, ring = 3 * r.throw_added.shape[0], ring_coordinate(r)
+    turn = turned_in_ring(r)
     for i in range(ELEMENTS):
         stiffness, most = element(i, r)
-        torque = stiffness * (r.z[carrier] - r.slider[i])
+        torque = stiffness * (turn - r.slider[i])
         if abs(torque) < most:
-            r.residual_vector[carrier] += torque
             r.tangent[carrier, carrier] += stiffness
+            r.tangent[ring, ring] += stiffness
+            r.tangent[carrier, ring] -= stiffness
         else:
-            r.residual_vector[carrier] += most if torque > 0.0 else -most
+            torque = most if torque > 0.0 else -most
+        r.residual_vector[carrier] += torque
+        r.residual_vector[ring] -= torque
 
 
 @kernel
 def after(r):
     """Sliders follow; loss of power when turning."""
-    carrier = 3 * r.throw_added.shape[0]
-    load = abs(r.load_torque)
+    load, turn = abs(r.load_torque), turned_in_ring(r)
     if load != r.holding_load:
         # From a turning input on in proportion to the load: what is held at no load is nothing.
         r.holding_load_before = r.holding_load if r.held_last > 0.0 else 0.0
@@ -125,13 +135,13 @@ def after(r):
     if r.input_speed == 0.0 and r.friction_torque > 0.0:
         for i in range(ELEMENTS):
             stiffness, most = element(i, r)
-            stretch = r.z[carrier] - r.slider[i]
+            stretch = turn - r.slider[i]
             longest = most / stiffness
             if abs(stretch) > longest:
-                r.slider[i] = r.z[carrier] - (longest if stretch > 0.0 else -longest)
+                r.slider[i] = turn - (longest if stretch > 0.0 else -longest)
     else:
         for i in range(ELEMENTS):
-            r.slider[i] = r.z[carrier]
+            r.slider[i] = turn
     coulomb, excess, bearings = sliding_friction(r), sticking_friction(r), r.roller_friction + r.bearing_friction
     if coulomb + excess + r.friction_viscous + bearings == 0.0:
         return

@@ -1,6 +1,7 @@
 """One campaign from a seed and a kind: drawn, scaled to its d', written, sealed."""
 
 import copy
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -32,7 +33,7 @@ ATTEMPTS = 6
 class Task:
     """What to make: ``kind`` null, effect, outside, pair, wrong base, fault; ``laws`` by name; ``size`` of the design.
 
-    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects of a single law; ``base`` is the reducer.
+    ``trouble`` is what a null has that is not ideal; ``rivals`` asks for the nearest other effects; ``base`` is the reducer.
     """
 
     number: int
@@ -105,13 +106,24 @@ def attempt_to_draw(task: Task, rng: np.random.Generator) -> Drawn:
             if not 0.9 < factor < 1.1:
                 raise CannotMake(task.laws[k])
             sizes.append(factor * task.strength)
-        if task.rivals and len(truths) == 1:
-            ruler = Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench)
-            rivals = distances(ruler, truths[0], np.random.default_rng([task.seed, 41]))
+        if task.rivals:
+            rivals = nearest(Ruler(design, {**TRUE_PARAMETERS, **parameters}, bench), truths, task.seed)
     if task.trouble == trouble.WORN:
         truths = [trouble.SlightlyOff(rng)]
     whole, parameters = trouble.bench_of(task.trouble, parameters, rng, task.base)
     return Drawn(rng, truths, design, whole, parameters, sizes, rivals)
+
+
+def nearest(ruler: Ruler, truths: Sequence[Truth], seed: int) -> dict[str, float]:
+    """d' of the nearest law of every other effect; of two laws, in place of each beside the other."""
+    if len(truths) == 1:
+        return distances(ruler, truths[0], np.random.default_rng([seed, 41]))
+    found: dict[str, float] = {}
+    for truth, other in zip(truths, reversed(truths)):
+        own = distances(ruler.beside(other), truth, np.random.default_rng([seed, 41]))
+        # In place of one, the other once more is no rival.
+        found |= {f"{name} for {truth.effect}": d for name, d in own.items() if name != other.effect}
+    return found
 
 
 def written(task: Task, made: Drawn, folder: Path, sealed: Path) -> dict[str, Any]:

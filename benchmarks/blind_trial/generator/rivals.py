@@ -3,17 +3,19 @@
 A test of the truth against another effect can do no better than one that is told both, at the rival's strength, shape and calibration that come
 nearest: by Neyman and Pearson it errs with probability Phi(-d/2) at equal risk, d being their distance in units of the true noise.  The rival's
 family is searched from a few draws by Gauss and Newton's method; a better search could only find a smaller distance.
+
+What the reducer file does not know for sure is a rival too: all numbers that have a range there, each as far off as it may be.
 """
 
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Container
 
 import numpy as np
 from scipy.optimize import lsq_linear
 
 from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.strength import Ruler
-from benchmarks.blind_trial.generator.truth import Truth
+from benchmarks.blind_trial.generator.truth import Bench, Truth
 from fmu_src.arrays import Floats
 
 # Draws of a rival that are tried; draws that say which shapes it has; steps of the search from the best.
@@ -25,8 +27,10 @@ FIRST, FAR = 2, 0.97
 SENSORS: dict[str, Callable[[Floats], Floats]] = {
     "sensor_gain": lambda y: y, "sensor_offset": np.ones_like, "sensor_drift": lambda y: np.linspace(-0.5, 0.5, len(y)),
 }  # fmt: skip
-# A number of a soft reducer's file, and where it shows.
-SEALS, DRIVE = "base.input_seal_torque", "input_torque"
+# What stands for the numbers of the reducer file; standard deviation of one over its range, and the step of a difference over that.
+NUMBERS, SPREAD, PART = "base numbers", 12.0**-0.5, 0.5
+# Numbers that laws of the catalogue change: rivals as those.
+AS_LAWS = ("bearing_clearance", "load_exponent", "run_in_ratio", "run_in_time")
 # Step of a difference, in shares of a shape's range or of the strength.
 STEP = 0.03
 
@@ -45,9 +49,33 @@ def distances(ruler: Ruler, truth: Truth, rng: np.random.Generator) -> dict[str,
     others = [(effect, quantity) for effect in SENSORS if effect != truth.effect for quantity in seen]
     for effect, quantity in others:
         found[effect] = min(beyond(ruler, target, SENSORS[effect], quantity), found.get(effect, np.inf))
-    if ruler.bench.plain.rubs and DRIVE in seen:
-        # The seals' torque, which nobody knows for sure, is constant as well.
-        found[SEALS] = beyond(ruler, target, np.ones_like, DRIVE)
+    found[NUMBERS] = base_distance(ruler, target, truth.numbers)
+    return found
+
+
+def base_distance(ruler: Ruler, target: Floats, own: Container[str]) -> float:
+    """d' between a column and what the file's numbers may make together, with what is unlikely of them; ``own`` are what the law itself is."""
+    columns = [change for name, change in base_changes(ruler).items() if name not in own]
+    if not columns:
+        return float(np.linalg.norm(target))
+    stack = np.column_stack(columns)
+    sizes = np.linalg.lstsq(np.vstack([stack, np.eye(len(columns))]), np.concatenate([target, np.zeros(len(columns))]), rcond=None)[0]
+    return float(np.sqrt(np.sum((target - stack @ sizes) ** 2) + np.sum(sizes**2)))
+
+
+def base_changes(ruler: Ruler) -> dict[str, Floats]:
+    """What each number of the file that is not known for sure changes by its standard deviation; without what may be calibrated."""
+    plain, found = ruler.bench.plain, {}
+    for name, (low, high) in sorted(plain.reducer.ranges.items()):
+        records = next((r for r in (plain.plants, plain.wears) if name in (r.dtype.names or ())), None)
+        if records is None or records[name].size != 1 or name in AS_LAWS or name in ruler.design.nuisances:
+            continue
+        value, deviation = float(records[name].flat[0]), SPREAD * (high - low)
+        step = PART * deviation * (-1.0 if value + PART * deviation > high else 1.0)
+        moved = Bench({**ruler.nominal, name: value + step}, name=plain.name)
+        column = ruler.projected([(moved.values(s, []) - y) * deviation / step for s, y in zip(ruler.series, ruler.base)])
+        if np.any(column):
+            found[name] = column
     return found
 
 

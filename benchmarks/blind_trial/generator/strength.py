@@ -1,5 +1,6 @@
 """d': the size of a hidden law in units of the noise, after what may be calibrated is projected out."""
 
+import copy
 from collections.abc import Callable
 
 import numpy as np
@@ -57,7 +58,7 @@ class Ruler:
     """Whitened training series of one campaign and its nuisance columns."""
 
     def __init__(self, design: Design, nominal: dict[str, float], bench: Bench):
-        self.design, self.bench = design, bench
+        self.design, self.nominal, self.bench = design, nominal, bench
         self.series = [s for s in design.series if s.condition not in design.held_out]
         self.base = [bench.values(s, []) for s in self.series]
         self.whiteners: list[Whiten] = []
@@ -70,12 +71,12 @@ class Ruler:
             if plain:
                 known[(noise, len(y))] = made
             self.whiteners.append(made)
-        self.columns = self.nuisance_columns(nominal)
+        self.columns = self.nuisance_columns()
 
     def white(self, changes: list[Floats]) -> Floats:
         return np.concatenate([np.sqrt(s.replicates) * whiten(c) for s, whiten, c in zip(self.series, self.whiteners, changes)])
 
-    def nuisance_columns(self, nominal: dict[str, float]) -> Floats:
+    def nuisance_columns(self) -> Floats:
         """Columns of declared nuisances, free levels and free zeros, with their priors below."""
         columns, priors = [], []
         zero = [np.zeros(len(y)) for y in self.base]
@@ -86,7 +87,7 @@ class Ruler:
         for name, entry in self.design.nuisances.items():
             unit = 1e-6 if entry["unit"] == "um" else 1.0
             step = 0.01 * entry["start"] * unit
-            moved = Bench({**nominal, name: nominal[name] + step}, name=self.bench.plain.name)
+            moved = Bench({**self.nominal, name: self.nominal[name] + step}, name=self.bench.plain.name)
             # Only what the parameter can touch.
             touched = ("wear_depth", "wear_profile") if name != "mesh_stiffness" else FREE_LEVEL
             changes = [(moved.values(s, []) - y) / step if s.quantity in touched else z for s, y, z in zip(self.series, self.base, zero)]
@@ -106,6 +107,12 @@ class Ruler:
         keep = sizes > 0.0
         stack = np.vstack([stack, np.diag(priors)])[:, keep] / sizes[keep]
         return np.linalg.qr(stack)[0]
+
+    def beside(self, law: Truth) -> "Ruler":
+        """The same ruler where a law's size may be calibrated too."""
+        found, column = copy.copy(self), self.column([law])
+        found.columns = np.column_stack([self.columns, column / np.linalg.norm(column)])
+        return found
 
     def column(self, truths: list[Truth]) -> Floats:
         """What the laws change together at their present strengths, whitened, what may be calibrated projected out."""

@@ -22,17 +22,23 @@ from fmu_src.arrays import Floats
 
 # Error over noise that noise alone makes now and then.
 WITHIN_NOISE = 1.3
+# In noise units over all unused runs: what changes them by less cannot be judged by them.
+SEEN = 2.0
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left."""
+    """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left.
+
+    Not ``seen``: what is judged does nothing in these runs, so that they speak neither for nor against it.
+    """
 
     before: float
     after: float
     p_after: float
     rms: dict[str, dict[str, float]]
     kind: str
+    seen: bool = True
 
 
 class HeldOutJudge:
@@ -114,7 +120,15 @@ class HeldOutJudge:
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
-                       self.rms(rival.fit.values), "held-out runs")
+                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)))
+
+    def tells(self, one: Refit, other: Refit) -> bool:
+        """Whether these runs differ by more than noise between two fits."""
+        return bool(self.indices) and self._visible(self._raw(one.fit.values) - self._raw(other.fit.values))
+
+    def _visible(self, change: Floats) -> bool:
+        """Whether a whitened change stands out where what cannot be known is left aside."""
+        return float(np.linalg.norm(change - self.blind @ (self.blind.T @ change))) > SEEN
 
     def _sensitivities(self, rival: Refit) -> Floats:
         """Derivatives of the held-out runs by the fit's parameters: those of nuisances at the base fit."""
