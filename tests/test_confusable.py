@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.inference.held_out.held_out import HeldOut
-from discrepancy.inference.judgement import against
+from discrepancy.inference.judgement import CONFIRMING, against, borne_out
 from discrepancy.inference.refit.confusable import DECADE, PLAUSIBLE, confusable_set, ends_at_a_bound, implausible, unsettled
 from discrepancy.inference.refit.starts import halved
 from discrepancy.inference.verdict import INCOMPLETE, SEVERAL, Settings, decide
@@ -107,8 +107,8 @@ def test_what_puts_the_cause_elsewhere_stays_in_the_set_over_the_whole_margin():
     assert left_open(offset, rival("base.stiffness", 99.0, part="base")) == []
 
 
-def judged(before, after, p=0.5):
-    return HeldOut(before, after, p, {}, "held-out runs")
+def judged(before, after, p=0.5, **more):
+    return HeldOut(before, after, p, {}, "held-out runs", **more)
 
 
 def test_effects_that_make_unused_runs_worse_are_not_several_effects():
@@ -121,6 +121,22 @@ def test_effects_that_make_unused_runs_worse_are_not_several_effects():
 def test_unused_runs_within_the_noise_say_nothing_against_it():
     assert against(judged(0.9, 1.1)) == against(judged(5.0, 1.0)) == against(None) == ""
     assert "not explained" in against(judged(9.0, 3.0, 1e-6))
+
+
+def test_unused_runs_that_show_nothing_of_it_say_nothing_against_it():
+    assert against(judged(3.0, 4.2, seen=False)) == ""
+    assert "not explained" in against(judged(9.0, 9.1, 1e-6, seen=False))
+
+
+@pytest.mark.parametrize(("p", "gain", "named"), [
+    (5e-4, -9.0, True), (3e-3, 0.5, True), (3e-3, -0.5, False), (1e-2, CONFIRMING + 1.0, True), (1e-2, CONFIRMING - 1.0, False),
+])  # fmt: skip
+def test_what_is_not_beyond_doubt_is_named_as_far_as_unused_runs_agree(p, gain, named):
+    settings = Settings()
+    assert borne_out(p, judged(2.0, 1.0, gain=gain), settings) == named
+    # Runs that do not show it, or none, leave it to the level of the test.
+    for silent in (None, judged(2.0, 1.0, gain=gain, seen=False)):
+        assert borne_out(p, silent, settings) == (p < settings.screen_level)
 
 
 def test_a_start_that_is_worse_than_no_effect_is_halved():

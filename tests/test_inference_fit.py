@@ -82,6 +82,26 @@ def test_a_rival_a_little_behind_that_leaves_nothing_stays_in_the_set():
     assert mild.verdict == "set" and mild.confusable == ["unbalance", "other"]
 
 
+class Braked(Shaker):
+    """The shaker with its drive's torque, which is measured at speeds of the training alone and which a drag raises."""
+
+    def predict(self, values, which=None):
+        found = super().predict(values, which)
+        indices = range(len(self.records)) if which is None else which
+        return [np.full(24, values.get("drag", 0.0)) if self.records[i].quantity == "input_torque" else y for i, y in zip(indices, found)]
+
+
+def test_a_further_effect_that_unused_runs_do_not_show_is_named_all_the_same():
+    rng = np.random.default_rng(4)
+    model = shaken(60.0 * LINES["unbalance"], {"unbalance": LINES["unbalance"]})
+    torque = [Record(f"torque {s:g} {k}", "input_torque", "N.m", f"{s:g}", k, 0.05 + 0.02 * rng.standard_normal(24), {"angle": np.linspace(0.0, 6.0, 24)}, {"speed": s, "load": 1.0})
+              for s in SPEEDS[:-1] for k in range(5)]
+    model = Braked([*model.records, *torque], model.shapes)
+    model.candidates += (Candidate("drag", "drag", (Parameter("drag", "N.m", 0.0, 0.0, 5.0, 0.05, 1),), signals=("input_torque",)),)
+    answer = diagnose(model)
+    assert answer.verdict == "several effects" and {e.name for e in answer.effects} == {"unbalance", "drag"}
+
+
 def test_what_one_condition_alone_determines_stays_within_its_range_without_it():
     """A pattern that hardly shows at the other speed: without this one its size is anything, but not beyond its bounds."""
     model = shaken(20.0 * LINES["unbalance"], {"unbalance": LINES["unbalance"]})

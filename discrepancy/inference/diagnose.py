@@ -8,7 +8,7 @@ from scipy.special import chdtrc
 
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.judgement import Judgement, against, widening
+from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
@@ -134,8 +134,8 @@ class Diagnostician:
         self.say_scores()
         p_local = min((g.p for g in local.groups), default=1.0)
         by_place = bool(local.findings)
-        # where the misfit is beyond doubt, naming needs less
-        by_candidate = p_screen < (settings.naming_level if by_place else settings.screen_level)
+        # where the misfit is beyond doubt, or unused runs may confirm what is named, naming needs less
+        by_candidate = p_screen < (settings.naming_level if by_place or self.space.held_out else settings.screen_level)
         if not by_candidate:
             return self.nothing_named(by_place, self.selection.singles() if by_place else [], p_screen, p_local)
         selection, judgement = self.selection, self.judgement
@@ -174,6 +174,8 @@ class Diagnostician:
         self.report([*members, *rivals])
         judge = judgement.held_out([*members, *[r for r in rivals[:2] if r not in members]])
         judged = judge.judge(final)
+        if not by_place and not borne_out(p_screen, judged, settings):
+            return self.nothing_named(by_place, rivals, p_screen, p_local)
         unproved = against(judged)
         if unproved:
             over = True

@@ -11,6 +11,11 @@ from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation, Localiser
 from discrepancy.inference.refit.refit import Refit, leave_condition_out
+from discrepancy.inference.verdict import Settings
+
+
+# Of chi-square that unused runs gain: one campaign in twenty without an effect.
+CONFIRMING = 6.0
 
 
 def against(judged: HeldOut | None) -> str:
@@ -22,6 +27,18 @@ def against(judged: HeldOut | None) -> str:
     if judged.p_after < 0.0005 and judged.after > 1.5:
         return "runs that were not used are not explained: their error is far above their noise"
     return ""
+
+
+def borne_out(p: float, judged: HeldOut | None, settings: Settings) -> bool:
+    """Whether what fits at level ``p`` may be named: beyond doubt as it is, else as far as unused runs that would show it agree.
+
+    Of noise alone they gain more than x in chi-square in no more than exp(-x/2) of campaigns (Markov, of a likelihood ratio).
+    """
+    if p < settings.sure_level:
+        return True
+    if judged is None or not judged.seen:
+        return p < settings.screen_level
+    return judged.gain > (0.0 if p < settings.screen_level else CONFIRMING)
 
 
 def widening(over: bool, inflation: float) -> float:

@@ -21,13 +21,15 @@ STOPPED = "stopped"
 
 @dataclass(frozen=True)
 class Settings:
-    """Thresholds.  Levels are for all tests of one kind together.
+    """Thresholds.  Levels are for all tests of one kind together: of what is named without more ado (``sure_level``), where unused runs do not
+    speak against it (``screen_level``), where they confirm it or a place is beyond doubt (``naming_level``).
 
     ``second_gain``: what a further effect must gain of the first where nothing else is left to explain; ``needed``: what it must
     gain of that which is left.
     """
 
     screen_level: float = 0.004
+    sure_level: float = 0.001
     localise_level: float = 0.0008
     naming_level: float = 0.02
     leftover_level: float = 0.0015

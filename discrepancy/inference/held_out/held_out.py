@@ -30,7 +30,7 @@ SEEN = 2.0
 class HeldOut:
     """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left.
 
-    Not ``seen``: what is judged does nothing in these runs, so that they speak neither for nor against it.
+    ``gain`` is what they gain in chi-square.  Not ``seen``: what is judged does nothing in these runs, so that they speak neither for nor against it.
     """
 
     before: float
@@ -39,6 +39,7 @@ class HeldOut:
     rms: dict[str, dict[str, float]]
     kind: str
     seen: bool = True
+    gain: float = 0.0
 
 
 class HeldOutJudge:
@@ -120,7 +121,7 @@ class HeldOutJudge:
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
-                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)))
+                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after)
 
     def tells(self, one: Refit, other: Refit) -> bool:
         """Whether these runs differ by more than noise between two fits."""
