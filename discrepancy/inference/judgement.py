@@ -13,7 +13,6 @@ from discrepancy.inference.misfit.localise import Localisation, Localiser
 from discrepancy.inference.refit.refit import Refit, leave_condition_out
 from discrepancy.inference.verdict import Settings
 
-
 # Of chi-square that unused runs gain: one campaign in twenty without an effect.
 CONFIRMING = 6.0
 
