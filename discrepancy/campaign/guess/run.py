@@ -1,5 +1,6 @@
 """One file's run: its quantity, columns, units, tags."""
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -59,7 +60,7 @@ class GuessedRun:
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     """InputFault with the file's name where nothing can be made of it."""
     table = table_of(path)
-    name = parsed(path, list(wishes.names))
+    name = parsed(path, wishes.names)
     columns = columns_of(table, wishes.units_for(path.name))
     speaking = stem(path)
     wanted = wishes.quantity_for(path.name)
@@ -75,7 +76,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     stated = stated_roles(table, wishes)
     found = as_stated(found, stated)
     best = found[0]
-    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *not_taken(path, best, stated)]
+    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *unfitting(path, name, wishes), *not_taken(path, best, stated)]
     if not quantity.sure:
         doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
     by_name = {c.name: c for c in columns}
@@ -123,6 +124,13 @@ def as_stated(found: list[Assignment], stated: Mapping[str, str]) -> list[Assign
     """What is stated wins over what looks likelier: those that follow most of it."""
     followed = [sum(role in a.roles and a.roles[role].value == name for role, name in stated.items()) for a in found]
     return [a for a, count in zip(found, followed) if count == max(followed)]
+
+
+def unfitting(path: Path, name: Parsed, wishes: Wishes) -> list[Doubt]:
+    """A name that fits none of the patterns that are given: it is guessed as without them."""
+    if not wishes.names or name.given:
+        return []
+    return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", f"{shlex.join(['--names', name.pattern])} beside the others, corrected")]
 
 
 def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[Doubt]:
