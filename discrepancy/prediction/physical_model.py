@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import chain, model_error
@@ -221,9 +222,12 @@ class PhysicalModel:
         record = curve_of(measured)
         try:
             predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough)
-        except RunFault:
+        except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
-                raise
+                torque = impossible_torque(measured, self.campaign)
+                if torque is None:
+                    raise
+                raise RunFault(f"{fault}. {torque.text}; {torque.remedy}") from None
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(measured.values)) % 2 == 0, 1.0, -1.0)
             return measured.values + IMPOSSIBLE * self.sizes.get(measured.quantity, 1.0) * signs

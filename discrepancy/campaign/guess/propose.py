@@ -95,7 +95,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         measured[run.condition].append(run.guessed.quantity.value)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), tuple(merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))])), needs_of(runs, conditions, wishes),
+        tuple(runs), tuple([*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]), needs_of(runs, conditions, wishes),
     )  # fmt: skip
 
 
@@ -145,6 +145,16 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
         for key, text in wishes.conditions.items() if key in said and said[key].replace(" ", "") != text.replace(" ", "")
     ]
+
+
+def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
+    """Tags that are given and that no file's quantity has."""
+    found = []
+    for tag, word in wishes.tags.items():
+        if not any(tag in run.tags for run in runs):
+            having = [q.name for q in QUANTITIES.values() if tag in (*q.tags, *q.optional_tags)]
+            found.append(Doubt("campaign", f"--tag {tag}={word} says nothing: no file is taken for {' or '.join(having)}", f"--quantity 'FILES={having[0]}'"))
+    return found
 
 
 def given_for_one(conditions: dict[str, dict[str, str]], wishes: Wishes) -> None:

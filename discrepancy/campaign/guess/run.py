@@ -14,8 +14,9 @@ from discrepancy.campaign.guess.file_names import Parsed, parsed, stem
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
-from discrepancy.campaign.guess.unit_words import COUNTS, name_of
+from discrepancy.campaign.guess.unit_words import COUNTS, name_of, unknown_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from fmu_src.faults import InputFault
@@ -64,7 +65,11 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     columns = columns_of(table, wishes.units_for(path.name))
     speaking = stem(path)
     wanted = wishes.quantity_for(path.name)
-    found = assignments(given_roles(columns, table, wishes), quantities_named(speaking) or quantities_named(path.parent.name))
+    text = " ".join((path.parent.name, speaking, *table.above, *table.headers.values()))
+    named = quantities_named(speaking) or quantities_named(path.parent.name)
+    if unloaded(text) and "no_load_torque" not in named:
+        named = [*named, "no_load_torque"]
+    found = assignments(given_roles(columns, table, wishes), named, wishes.tags)
     if wanted:
         found = [a for a in found if a.quantity == wanted]
     if not found:
@@ -88,8 +93,10 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         doubts += [Doubt(path.name, text, remedy) for text, remedy in more]
         if not guess.sure:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
-    tags, more_doubts = tags_of(quantity.value, f"{path.parent.name} {speaking} {' '.join(table.above)}", speaking, wishes, path)
+    tags, more_doubts = tags_of(quantity.value, text, speaking, wishes, path)
     factors, speed_doubts = factors_of(name, table, path)
+    if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
+        factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
     headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
     return GuessedRun(
         path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts), headers
@@ -177,6 +184,8 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
         unit = Guess(column.stated[0], column.stated[2])
     else:
         unit = unit_by_size(what, column.shape)
+        if written := unknown_in(header):
+            unit = Guess(unit.value, f"[{written}] in its header is no unit that is known here; {unit.reason.partition('; ')[2]}", False)
         if not unit.sure:
             doubts.append((f"unit of column {header!r} taken for {unit.value}: {unit.reason}", f"--unit '{header}=UNIT'"))
     if column.shape.jumps and role in ANGLES:
@@ -201,15 +210,6 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
             if said is None:
                 doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD"))
     return found, doubts
-
-
-def locked_side(text: str) -> str | None:
-    low = text.lower()
-    words = {
-        "input": ("input locked", "input_locked", "antrieb fest", "antrieb blockiert", "输入固定"),
-        "output": ("output locked", "output_locked", "abtrieb fest", "abtrieb blockiert", "输出固定"),
-    }
-    return next((side for side, said in words.items() if any(word in low for word in said)), None)
 
 
 def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:
