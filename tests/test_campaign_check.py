@@ -230,3 +230,13 @@ def test_repetition_that_stands_out_is_named_with_file_and_size(tmp_path):
         )
     (found,) = [f for f in campaign(tmp_path, {"a": condition()}, runs).findings if f.code == "outlying repetition"]
     assert "run r2 (replicate 3, of 5" in found.text and "spans 111 arcmin, the others 14 to 23" in found.text and "r2.csv, column phi [arcmin]" in found.text
+
+
+def test_each_quantity_of_which_nothing_is_held_out_is_said(tmp_path):
+    conditions = {f"t{t}": condition(temperature=t, held_out=t == 30) for t in (20, 30, 40)} | {f"s{s}": condition(speed=s) for s in (5, 10, 15)}
+    runs = [value("input_torque", "1 N.m", name) for name in conditions if name[0] == "t"] + [value("efficiency", "60 %", name) for name in conditions if name[0] == "s"]
+    two = [value("torsional_stiffness", "50 N.m/arcmin", name) for name in ("s5", "s10")]
+    (said,) = [f for f in campaign(tmp_path, conditions, runs + two).findings if f.code == "no held-out condition"]
+    assert said.text == "efficiency: none of its 3 conditions is held out: an effect that shows in efficiency alone cannot be proven"
+    conditions["s10"] += "\nheld_out = true"
+    assert "no held-out condition" not in codes(campaign(tmp_path, conditions, runs + two))

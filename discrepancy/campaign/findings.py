@@ -9,9 +9,12 @@ from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_or
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
 from discrepancy.campaign.repetition_words import words
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.problem import ERROR, ORDERS
 from discrepancy.repetitions import outlying
 
 PROBLEM, WARNING = "problem", "warning"
+# Of a quantity from so many on one may be held out: two are left to fit.
+LEAST_CONDITIONS = 3
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,16 @@ def held_out(design: Design) -> Iterator[Finding]:
             WARNING, "no held-out condition", f"{text}: whether an effect improves the model elsewhere stays open",
             "set held_out = true in one or two whole conditions, best inside the range of the others",
         )  # fmt: skip
+        return
+    for quantity in design.quantities:
+        alike = (ERROR, ORDERS) if quantity in (ERROR, ORDERS) else (quantity,)
+        conditions = {record.condition for record in design.campaign.records if record.quantity in alike}
+        if len(conditions) >= LEAST_CONDITIONS and not conditions & (kept - trained):
+            yield Finding(
+                WARNING, "no held-out condition",
+                f"{quantity}: none of its {len(conditions)} conditions is held out: an effect that shows in {quantity} alone cannot be proven",
+                "set held_out = true in one of them, best inside the range of the others",
+            )  # fmt: skip
 
 
 # (factor, quantities, levels wanted, what aliases with fewer)
