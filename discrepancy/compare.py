@@ -12,7 +12,7 @@ from discrepancy import as_told
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
-from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
@@ -155,6 +155,7 @@ def incomplete(campaign: Campaign) -> list[str]:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
+    warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
     warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")

@@ -55,6 +55,8 @@ def run_from(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.guesses import show
     from discrepancy.campaign.angle_doubts import angle_doubts
+    from discrepancy.campaign.design import Design
+    from discrepancy.campaign.findings import copied
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -64,7 +66,8 @@ def run_from(options: argparse.Namespace) -> int:
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
-        findings = angle_doubts(checked(proposal)) if proposal.reducer else []
+        campaign = checked(proposal) if proposal.reducer else None
+        findings = [*copied(Design(campaign)), *angle_doubts(campaign)] if campaign else []
     step = ["campaign", "check"] if proposal.needs else ["compare", str(proposal.reducer)]
     command = shlex.join(["rvwear", *step, str(folder)])
     text = campaign_text(proposal, folder)

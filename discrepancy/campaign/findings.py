@@ -7,7 +7,7 @@ import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
-from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.problem import ERROR, ORDERS
 from discrepancy.repetitions import outlying
@@ -223,6 +223,11 @@ def repetitions(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
+def copied(design: Design) -> Iterator[Finding]:
+    if design.campaign.copies:
+        yield Finding(WARNING, "copied runs", *copied_words(design.campaign.copies))
+
+
 def zeros(design: Design) -> Iterator[Finding]:
     for text, remedy in unused_means(design.campaign.records):
         yield Finding(WARNING, "means not used", text, remedy)
@@ -250,4 +255,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, zeros, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, copied, zeros, statements)
