@@ -24,7 +24,7 @@ from discrepancy.prediction.model_error import LOOPS, is_loop, with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table
 from fmu_src.threads import Threads
@@ -283,14 +283,19 @@ def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None)
 
 def defined(record: Record, campaign: Campaign) -> Record:
     """A loop without the samples near no torque, where the output floats in its clearances."""
-    if record.quantity != "hysteresis" or "torque" not in record.axes:
-        return record
-    torque = np.asarray(record.axes["torque"], float)
-    rated = campaign.rated_torque or float(np.abs(torque).max())
-    kept = np.abs(torque) > FLOATING * rated
+    kept = defined_at(record, campaign)
     if kept.all():
         return record
     return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
+
+
+def defined_at(record: Record, campaign: Campaign) -> Mask:
+    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes:
+        return np.ones(len(record.values), bool)
+    torque = np.asarray(record.axes["torque"], float)
+    rated = campaign.rated_torque or float(np.abs(torque).max())
+    return np.abs(torque) > FLOATING * rated
 
 
 def typical_size(records: list[Record]) -> float:
