@@ -295,7 +295,8 @@ def defined_at(record: Record, campaign: Campaign) -> Mask:
         return np.ones(len(record.values), bool)
     torque = np.asarray(record.axes["torque"], float)
     rated = campaign.rated_torque or float(np.abs(torque).max())
-    return np.abs(torque) > FLOATING * rated
+    kept: Mask = np.abs(torque) > FLOATING * rated
+    return kept
 
 
 def typical_size(records: list[Record]) -> float:

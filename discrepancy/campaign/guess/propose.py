@@ -93,9 +93,10 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     measured = defaultdict(list)
     for run in runs:
         measured[run.condition].append(run.guessed.quantity.value)
+    doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), tuple([*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]), needs_of(runs, conditions, wishes),
+        tuple(runs), tuple(doubts), needs_of(runs, conditions, wishes),
     )  # fmt: skip
 
 
@@ -230,7 +231,8 @@ def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], w
                     remedy = f"{shlex.join(['--names', asked])} if the number in the names is the load, else {remedy}"
                 found[run.condition, factor, remedy] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
     if not wishes.reducer:
-        found["", "reducer", ""] = Doubt("campaign", "which reducer it is has to be said", "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
+        needed = "which reducer it is has to be said"
+        found["", "reducer", ""] = Doubt("campaign", needed, "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
     whole: dict[tuple[str, str], list[Doubt]] = {}
     for need in found.values():
         whole.setdefault((need.text, need.remedy), []).append(need)

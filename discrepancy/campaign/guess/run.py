@@ -137,7 +137,8 @@ def unfitting(path: Path, name: Parsed, wishes: Wishes) -> list[Doubt]:
     """A name that fits none of the patterns that are given: it is guessed as without them."""
     if not wishes.names or name.given:
         return []
-    return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", f"{shlex.join(['--names', name.pattern])} beside the others, corrected")]
+    remedy = f"{shlex.join(['--names', name.pattern])} beside the others, corrected"
+    return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", remedy)]
 
 
 def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[Doubt]:

@@ -11,7 +11,8 @@ IS_HELD = {
     side: re.compile(rf"\b(?:{words})\w*? ?(?:{BETWEEN} ){{0,3}}(?:{HELD})\b|\b(?:{HELD}) (?:{words})|{CHINESE[side]}") for side, words in SIDES.items()
 }  # fmt: skip
 UNLOADED = re.compile(
-    r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|no load|unloaded|without (?:a |any |external )?load|leerlauf\w*)\b|空载|无负载|無負荷"
+    r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
+    r"|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
 )
 
 

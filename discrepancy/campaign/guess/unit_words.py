@@ -16,7 +16,8 @@ WRITTEN = {
         "turn": "turn turns rev revs U Umdr Umdrehungen 圈 転", COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB 脉冲 パルス",
     },
     TORQUE: {
-        "N.m": "N.m Nm 牛米 牛.米 Newtonmeter", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm", "N.mm": "N.mm Nmm", "N.cm": "N.cm Ncm", "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
+        "N.m": "N.m Nm 牛米 牛.米 Newtonmeter", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm", "N.mm": "N.mm Nmm", "N.cm": "N.cm Ncm",
+        "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
         "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm", "ozf.inch": "ozf.in oz.in in.oz",
         "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
     },
