@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cli.main import main
-from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.problem import Record
 from discrepancy.repetitions import copies, outlying
 
@@ -95,3 +95,8 @@ def test_a_file_that_was_copied_counts_once_and_is_said(tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     assert [run["run"] for run in told["runs"]] == ["loop_1"] and 0.1 < told["runs"][0]["ratio"] < 1e3
     assert any(said in warning for warning in told["warnings"])
+
+
+def test_copies_are_named_together():
+    text, _ = copied_words({"a2": "a1", "a3": "a1"} | {f"{n}2": f"{n}1" for n in "bcdef"})
+    assert text.startswith("runs a1 and a2 and a3; b1 and b2; c1 and c2; d1 and d2; and 2 more like them hold the same numbers")

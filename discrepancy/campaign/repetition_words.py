@@ -8,8 +8,8 @@ from discrepancy.repetitions import Outlying
 from fmu_src.units import conversion
 
 WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
-# Pairs of equal runs that are named.
-MOST_PAIRS = 4
+# Sets of equal runs that are named.
+MOST_ALIKE = 4
 
 
 def words(found: Outlying) -> str:
@@ -29,8 +29,8 @@ def words(found: Outlying) -> str:
 
 def copied_words(copies: Mapping[str, str]) -> tuple[str, str]:
     """What is wrong with runs that hold the numbers of others, copy -> the other, and the remedy."""
-    pairs = [f"{original} and {copy}" for copy, original in copies.items()]
-    some = ", ".join(pairs[:MOST_PAIRS]) + (f" and {len(pairs) - MOST_PAIRS} pairs more" if len(pairs) > MOST_PAIRS else "")
+    alike = [" and ".join([original, *(copy for copy, of in copies.items() if of == original)]) for original in dict.fromkeys(copies.values())]
+    some = "; ".join(alike[:MOST_ALIKE]) + (f"; and {len(alike) - MOST_ALIKE} more like them" if len(alike) > MOST_ALIKE else "")
     return (
         f"runs {some} hold the same numbers: a copy is no repetition, it counts once and says nothing of the noise",
         'name the files of the repetitions, or measure again; if the instrument shows no finer, state noise = "..." in the runs',
