@@ -1,7 +1,7 @@
 """Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from discrepancy import as_told
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
-from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
@@ -22,9 +22,9 @@ from discrepancy.key_figures import KeyFigure, key_figures, too_soft
 from discrepancy.model_file import ModelFile
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
-from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.physical_model import FLOATING, PhysicalModel, defined_at
 from discrepancy.repetitions import Outlying, outlying
-from discrepancy.scales import shown
+from discrepancy.scales import of_parameter, shown
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
@@ -74,13 +74,33 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     space = diagnostician.space
     every = list(range(len(space.records)))
     predictions = space.predictions(space.base.values, every)
-    runs = runs_of(space, predictions)
+    floating = floating_of(model.campaign)
+    runs = [run | {"near_no_torque": floating.get(run["run"], 0)} for run in runs_of(space, predictions)]
     found = outlying(space.records)
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
+
+
+def floating_of(campaign: Campaign) -> dict[str, int]:
+    """By run, how many of its samples are not compared, because the output floats there; runs without such samples are left out."""
+    counts = {record.name: int((~defined_at(record, campaign)).sum()) for record in campaign.records}
+    return {name: count for name, count in counts.items() if count}
+
+
+def floating_text(floating: Mapping[str, int]) -> str:
+    """What of samples near no torque is said; ``floating`` holds at least one run."""
+    runs = f"run {next(iter(floating))}" if len(floating) == 1 else f"{len(floating)} runs"
+    count = sum(floating.values())
+    return f"{count} sample{'s' * (count > 1)} of {runs} near no torque (to {100 * FLOATING:g} % of the rated) not compared: the output floats there"
+
+
+def calibrated_text(model: PhysicalModel, values: Mapping[str, float]) -> str:
+    """What of the model was calibrated to the campaign before it was held against it: ``model_error[hysteresis] = -10``; empty for nothing."""
+    units, tables = {p.name: p.unit for p in model.nuisances}, as_told.tables_of(model)
+    return ", ".join(f"{as_told.told_name(k, tables)} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in values.items())
 
 
 def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:
@@ -155,6 +175,9 @@ def incomplete(campaign: Campaign) -> list[str]:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
+    if floating := floating_of(model.campaign):
+        warnings.append(floating_text(floating))
+    warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
     warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")

@@ -1,4 +1,4 @@
-"""Runs that repeat each other, and the one among them that does not.
+"""Runs that repeat each other, the one among them that does not, and those that are copies.
 
 Repetitions of one condition are told by a few sizes of each run (how far it spans, its mean, how far it departs from the middle of
 all); one that is far from the median of the others, by their median absolute deviation, stands out.  Of three to five runs that
@@ -27,6 +27,8 @@ TWICE = 2.0
 THREEFOLD = 3.0
 # Below so many samples a run is a list of numbers.
 SERIES = 8
+# Numbers below which runs may agree to the last digit by chance.
+FEW = 3
 # Share of the samples at either end that does not count for what a run spans: single spikes are another fault.
 SPIKES = 0.005
 # Few repetitions may seem to deviate by so many times what is usual without being another kind (assumed).
@@ -86,6 +88,40 @@ def outlying(records: Sequence[Record]) -> list[Outlying]:
                         float(rest.min()), float(rest.max()), r.unit, float(times),
                     )  # fmt: skip
     return list(found.values())
+
+
+def copies(records: Sequence[Record]) -> dict[str, str]:
+    """Name of each run that holds the numbers of another one of its condition -> that one, which comes before it.
+
+    A series that agrees to the last digit is a copy of a file.  Few numbers may agree by chance, or because the instrument shows no
+    finer: they count as copies where no repetition of their signal differs and no noise is stated, for they tell nothing of it then.
+    """
+    groups: dict[Hashable, dict[Hashable, list[Record]]] = defaultdict(lambda: defaultdict(list))
+    for record in records:
+        signal = record.quantity, tuple(sorted(record.tags.items()))
+        groups[signal][record.condition].append(record)
+    found: dict[str, str] = {}
+    for conditions in groups.values():
+        same = [pair for members in conditions.values() for pair in equal_pairs(members)]
+        few = [r for members in conditions.values() if len(members) > 1 for r in members if is_few(r)]
+        chance = any(r.stated_noise for r in few) or len(few) > len({r.condition for r in few}) + sum(is_few(copy) for copy, _ in same)
+        found |= {copy.name: first.name for copy, first in same if not (chance and is_few(copy))}
+    return found
+
+
+def equal_pairs(members: Sequence[Record]) -> list[tuple[Record, Record]]:
+    """(copy, the first that holds the same numbers) of one signal and condition."""
+    first: dict[bytes, Record] = {}
+    pairs = []
+    for record in members:
+        held = b"|".join(np.ascontiguousarray(column, float).tobytes() for column in (record.values, *(record.axes[name] for name in sorted(record.axes))))
+        if (original := first.setdefault(held, record)) is not record:
+            pairs.append((record, original))
+    return pairs
+
+
+def is_few(record: Record) -> bool:
+    return len(record.values) < FEW or float(np.ptp(record.values)) == 0.0
 
 
 def sizes_of(members: Sequence[Record]) -> dict[str, Floats]:

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -9,15 +10,17 @@ import numpy as np
 from discrepancy.as_told import tables_of as tables_in
 from discrepancy.as_told import told_name
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import Comparison
+from discrepancy.compare import Comparison, calibrated_text
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
+from discrepancy.prediction.physical_model import PhysicalModel, defined_at
+from discrepancy.problem import Record
 from discrepancy.scales import largest, of_axis, of_parameter, of_signal
 from discrepancy.verdict import Answer
 from exports.tables import Column, Table, rows_table
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, Mask
 
 # Keys of a comparison's rows that are in the signal's unit.
 SCALED = ("error", "noise_floor")
@@ -42,9 +45,13 @@ def ladder_table(file: ModelFile) -> Table:
 
 
 def comparison_tables(result: Comparison) -> list[Table]:
-    """Errors and noise of runs and signals, key figures, and every sample measured and predicted."""
+    """Errors and noise of runs and signals, key figures, and every sample measured and predicted.
+
+    The notes of the curves say what was calibrated: ``predicted`` has it in it.
+    """
     space = result.diagnostician.space
-    curves = curve_tables(space, {"predicted": result.predictions}, result.model.campaign)
+    note = calibrated_note("predicted", result.model, space)
+    curves = [replace(table, note=note) for table in curve_tables(space, {"predicted": result.predictions}, result.model.campaign)]
     return [
         rows_table("runs", [in_bench_units(row) for row in result.runs], {}), rows_table("signals", [in_bench_units(row) for row in result.signals], {}),
         figure_rows(result.figures), *curves,
@@ -63,8 +70,14 @@ def answer_tables(result: Answer) -> list[Table]:
     verdict = [{"model": result.model.file.name, "campaign": result.model.campaign.name, "verdict": result.verdict, "reason": result.reason}]
     effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect, result)], {})
     named = [effects] if effects.columns else []
-    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
-            *curve_tables(space, predictions, result.model.campaign)]  # fmt: skip
+    note = calibrated_note("base_model", result.model, space)
+    curves = [replace(table, note=note) for table in curve_tables(space, predictions, result.model.campaign)]
+    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures), *curves]
+
+
+def calibrated_note(column: str, model: PhysicalModel, space: Workspace) -> str:
+    calibrated = calibrated_text(model, space.base.values)
+    return f"{column}: the base model as it was calibrated to this campaign, {calibrated}" if calibrated else ""
 
 
 def none_as_nan(value: float | None) -> float:
@@ -103,16 +116,49 @@ def figure_rows(figures: Sequence[KeyFigure]) -> Table:
 
 
 def curve_tables(space: Workspace, predictions: Mapping[str, Sequence[Floats]], campaign: Campaign) -> list[Table]:
-    """Of each signal a row a sample: run, condition, axes, measured, each prediction, noise (standard deviation); what was dropped is left out."""
+    """Of each signal a row a sample: run, condition, axes, measured, each prediction, noise (standard deviation); what was dropped is left out.
+
+    Samples near no torque, where the output floats, have neither prediction nor noise (NaN, an empty cell).
+    """
     groups: dict[str, list[int]] = defaultdict(list)
     for i, record in enumerate(space.records):
         groups[stream_of(record)].append(i)
     return [curve_table(signal, indices, space, predictions, campaign) for signal, indices in groups.items()]
 
 
+@dataclass(frozen=True)
+class Rows:
+    """Which samples of a run as it was measured are exported: ``shown`` (n,); ``compared`` (m,) of these have a prediction, of which
+    ``kept`` are the samples in the model's record."""
+
+    measured: Record
+    shown: Mask
+    compared: Mask
+    kept: Mask
+
+    def of_measured(self, values: Floats) -> Floats:
+        return np.asarray(values, float)[self.shown]
+
+    def of_model(self, values: Floats) -> Floats:
+        """NaN where there is no prediction."""
+        found = np.full(int(self.shown.sum()), np.nan)
+        found[self.compared] = np.asarray(values, float)[self.kept]
+        return found
+
+
+def rows_of(record: Record, kept: Mask, measured: Mapping[str, Record], campaign: Campaign) -> Rows:
+    whole = measured.get(record.name, record)
+    defined = defined_at(whole, campaign) if len(whole.values) > len(record.values) else np.ones(len(record.values), bool)
+    shown = ~defined
+    shown[defined] = kept
+    return Rows(whole, shown, defined[shown], kept)
+
+
 def curve_table(signal: str, indices: Sequence[int], space: Workspace, predictions: Mapping[str, Sequence[Floats]], campaign: Campaign) -> Table:
     records, whiteners = [space.records[i] for i in indices], [space.noise.whiteners[i] for i in indices]
-    counts = [int(w.kept.sum()) for w in whiteners]
+    measured = {r.name: r for r in campaign.records}
+    runs = [rows_of(r, w.kept, measured, campaign) for r, w in zip(records, whiteners)]
+    counts = [int(run.shown.sum()) for run in runs]
     scale = of_signal(signal, records[0].unit)
     columns = [
         Column(name, "", np.repeat(np.array(values), counts)) for name, values in (
@@ -125,13 +171,17 @@ def curve_table(signal: str, indices: Sequence[int], space: Workspace, predictio
         columns.append(Column(f"{name}_set", axis.unit, np.repeat(values, counts)))
     for name in dict.fromkeys(axis for r in records for axis in r.axes):
         axis = of_axis(name, campaign)
-        parts = [axis.factor * np.asarray(r.axes[name], float)[w.kept] + axis.offset if name in r.axes else np.full(n, np.nan)
-                 for r, w, n in zip(records, whiteners, counts)]  # fmt: skip
+        parts = [axis.factor * run.of_measured(run.measured.axes[name]) + axis.offset if name in run.measured.axes else np.full(n, np.nan)
+                 for run, n in zip(runs, counts)]  # fmt: skip
         columns.append(Column(name, axis.unit, np.concatenate(parts)))
-    stacks = {"measured": [r.values for r in records]} | {name: [rows[i] for i in indices] for name, rows in predictions.items()}
-    for name, rows in stacks.items():
-        joined = np.concatenate([np.asarray(row, float)[w.kept] for row, w in zip(rows, whiteners)])
-        columns.append(Column(name, scale.unit, scale.factor * joined + scale.offset))
-    between = [np.sqrt(1.0 + w.between) for w in whiteners]
-    columns.append(Column("noise", scale.unit, scale.factor * np.concatenate([np.broadcast_to(w.scale, n) * b for w, n, b in zip(whiteners, counts, between)])))
+    stacks = {"measured": [run.of_measured(run.measured.values) for run in runs]}
+    stacks |= {name: [run.of_model(rows[i]) for run, i in zip(runs, indices)] for name, rows in predictions.items()}
+    for name, parts in stacks.items():
+        columns.append(Column(name, scale.unit, scale.factor * np.concatenate(parts) + scale.offset))
+    noises = []
+    for run, w in zip(runs, whiteners):
+        noise = np.full(len(w.kept), np.nan)
+        noise[w.kept] = w.scale * np.sqrt(1.0 + w.between)
+        noises.append(run.of_model(noise))
+    columns.append(Column("noise", scale.unit, scale.factor * np.concatenate(noises)))
     return Table("_".join(part for part in signal.replace("[", "_").replace("]", "").replace("=", "_").replace(",", "_").split()), tuple(columns))

@@ -1,6 +1,7 @@
 """Plant and wear unit of one reducer, connected."""
 
 import math
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,7 +83,7 @@ def require_built_from(reducer: Reducer, fmu: "Fmu", unit: str) -> None:
     if fmu.specification() != reducer.specification(unit):
         raise InputFault(
             f"{fmu.path} was built from another reducer file than {reducer.name} ({reducer.path.name});"
-            f" build it anew: rvwear build --reducer {reducer.name} --output {fmu.path.parent}"
+            f" build it anew: rvwear build --reducer {reducer.name} --output {shlex.quote(str(fmu.path.parent))}"
         )
 
 

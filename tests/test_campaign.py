@@ -132,7 +132,7 @@ def test_noise_of_a_temperature_is_a_difference(tmp_path):
 
 def test_layout_is_shared_and_overruled(tmp_path):
     layout = '[layouts.bench]\nquantity = "input_torque"\nreplicate = 7\n' + TORQUE
-    runs = '[[runs]]\nlayout = "bench"\nid = "a"\ncondition = "warm"\n[[runs]]\nlayout = "bench"\nid = "b"\ncondition = "warm"\nreplicate = 2\n'
+    runs = '[[runs]]\nlayout = "bench"\nid = "a"\ncondition = "warm"\n[[runs]]\nlayout = "bench"\nid = "b"\ncondition = "other"\nreplicate = 2\n'
     assert [record.replicate for record in load(tmp_path, layout + runs).records] == [7, 2]
 
 

@@ -62,12 +62,12 @@ def test_poor_design(tmp_path):
 
 
 def test_good_design_of_the_transmission_error(tmp_path):
-    run = angle_file(tmp_path, "long.csv", 3.0, 12_000)
+    repeated = [angle_file(tmp_path, f"long{i}.csv", turns, 12_000) for i, turns in ((1, 3.0), (2, 3.001))]
     conditions = {
         f"{direction}{load}{mounting}": condition(15 if mounting == "1" else 10 + 5 * (load > 40), load, direction=direction, mounting=mounting, held_out=load == 70)
         for direction in ("forward", "reverse") for load in (10, 40, 70, 100, 150) for mounting in ("1", "2")
     } | {"moved": condition(direction="forward", hours=100, interventions=["ring_turned"])}  # fmt: skip
-    runs = [f'condition = "{name}"\nreplicate = {i}\n{run}' for name in conditions for i in (1, 2)]
+    runs = [f'condition = "{name}"\nreplicate = {i}\n{run}' for name in conditions for i, run in enumerate(repeated, 1)]
     check = campaign(tmp_path, conditions, runs)
     assert not check.findings
     found = status(check)
@@ -155,9 +155,9 @@ def test_template_loads_and_the_check_says_what_to_fill_in(tmp_path, kind, quant
 
 def test_template_filled_in(tmp_path):
     files = write_template(tmp_path, ("transmission_error",))
-    for path in files[1:]:
+    for k, path in enumerate(files[1:]):
         with path.open("a") as file:
-            file.writelines(f"{angle / 10},{angle % 7}\n" for angle in range(11_000))
+            file.writelines(f"{angle / 10},{angle % 7 + (angle + k) % 3 / 10}\n" for angle in range(11_000))
     check = check_campaign(load_campaign(tmp_path))
     assert not check.problems
     assert [record.name for record in check.campaign.held_out] == ["transmission_error_half_1"]
@@ -177,8 +177,8 @@ def test_commands(tmp_path, capsys):
     assert command("check", folder) == 1
     shown = capsys.readouterr().out
     assert "holds no complete row" in shown and "needle clearance / raceway wear" in shown
-    for path in (tmp_path / "new").glob("*.csv"):
-        path.write_text("torque [N.m],value [arcmin]\n" + "".join(f"{t},{t / 50}\n" for t in range(-167, 168)))
+    for k, path in enumerate((tmp_path / "new").glob("*.csv")):
+        path.write_text("torque [N.m],value [arcmin]\n" + "".join(f"{t},{t / 50 + (t + k) % 3 / 100}\n" for t in range(-167, 168)))
     assert command("check", folder, "--json") == 0
     report = json.loads(capsys.readouterr().out)
     assert report["problems"] == [] and len(report["pairs"]) == len(PAIRS)
@@ -230,3 +230,13 @@ def test_repetition_that_stands_out_is_named_with_file_and_size(tmp_path):
         )
     (found,) = [f for f in campaign(tmp_path, {"a": condition()}, runs).findings if f.code == "outlying repetition"]
     assert "run r2 (replicate 3, of 5" in found.text and "spans 111 arcmin, the others 14 to 23" in found.text and "r2.csv, column phi [arcmin]" in found.text
+
+
+def test_each_quantity_of_which_nothing_is_held_out_is_said(tmp_path):
+    conditions = {f"t{t}": condition(temperature=t, held_out=t == 30) for t in (20, 30, 40)} | {f"s{s}": condition(speed=s) for s in (5, 10, 15)}
+    runs = [value("input_torque", "1 N.m", name) for name in conditions if name[0] == "t"] + [value("efficiency", "60 %", name) for name in conditions if name[0] == "s"]
+    two = [value("torsional_stiffness", "50 N.m/arcmin", name) for name in ("s5", "s10")]
+    (said,) = [f for f in campaign(tmp_path, conditions, runs + two).findings if f.code == "no held-out condition"]
+    assert said.text == "efficiency: none of its 3 conditions is held out: an effect that shows in efficiency alone cannot be proven"
+    conditions["s10"] += "\nheld_out = true"
+    assert "no held-out condition" not in codes(campaign(tmp_path, conditions, runs + two))

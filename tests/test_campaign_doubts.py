@@ -51,7 +51,7 @@ def test_soft_drive_in_degrees_is_doubted_though_no_unit_is_near(tmp_path):
 
 
 def test_runs_that_are_off_alike_are_one_doubt(tmp_path):
-    runs = [loop_file(tmp_path, unit="deg", name=f"{k}.csv") + f"\nreplicate = {k}" for k in (1, 2, 3)]
+    runs = [loop_file(tmp_path, unit="deg", size=2.9 + 0.01 * k, name=f"{k}.csv") + f"\nreplicate = {k}" for k in (1, 2, 3)]
     campaign(tmp_path, {"a": condition()}, [*runs, loop_file(tmp_path, name="right.csv") + "\nreplicate = 4"])
     (found,) = scale_doubts(load_campaign(tmp_path))
     assert "1.csv" in found.text and found.text.endswith("alike r1, r2")

@@ -75,7 +75,7 @@ def model_of(hidden=None, held=True, extra=None):
                     values = values + extra(load)
                 records.append(replace(record, values=values + size * rng.normal(size=values.size)))
     file = SimpleNamespace(name="gearbox <7>", effects={})
-    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, speed_at="output", ratio=100.0))
+    return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, records=(), copies={}, speed_at="output", ratio=100.0))
 
 
 def compared(model):

@@ -1,11 +1,15 @@
 """The repetition that stands out is named with its size, and none where there is only noise."""
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from discrepancy.campaign.repetition_words import words
+from cli.main import main
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.problem import Record
-from discrepancy.repetitions import outlying
+from discrepancy.repetitions import copies, outlying
 
 ARCMIN = np.pi / 180.0 / 60.0
 TORQUE = 20.0 * np.concatenate([np.linspace(0.0, 1.0, 30), np.linspace(1.0, -1.0, 60), np.linspace(-1.0, 0.0, 30)])
@@ -58,3 +62,41 @@ def test_noise_is_seldom_taken_for_a_fault(count):
     rng = np.random.default_rng(count)
     groups = [numbers(10.0 + rng.standard_normal(count), "n") for _ in range(400)] + [loops(20.0 + rng.standard_normal(count), 1.0, k) for k in range(100)]
     assert np.mean([bool(outlying(g)) for g in groups]) < 0.02
+
+
+def test_a_series_that_agrees_to_the_last_digit_is_a_copy():
+    runs = loops((20.0, 21.0, 22.0), 0.1)
+    runs[2] = replace(runs[0], name="ramp_3", replicate=3)
+    assert copies(runs) == {"ramp_3": "ramp_1"}
+    # In another condition it repeats nothing; other torques are another measurement.
+    assert not copies([runs[0], runs[1], replace(runs[2], condition="free")])
+    assert not copies([runs[0], replace(runs[2], axes={"torque": runs[1].axes["torque"]})])
+
+
+def test_few_numbers_may_agree_by_chance():
+    assert not copies(numbers((1.0, 1.0, 1.2)))
+    assert not copies(numbers((1.0, 1.0), "a") + numbers((1.0, 1.1), "b"))
+    assert copies(numbers((1.0, 1.0), "a") + numbers((2.0, 2.0), "b") + numbers((3.0,), "c")) == {"a1": "a0", "b1": "b0"}
+    assert not copies([replace(r, stated_noise=1e-5) for r in numbers((1.0, 1.0))])
+
+
+def test_a_file_that_was_copied_counts_once_and_is_said(tmp_path, capsys):
+    """No noise of nothing, no warnings of numerics: check, from and compare say what it is."""
+    for k in (1, 2):
+        rows = "".join(f"{t:.3f},{t / 45 + 0.2 * np.sin(t):.4f}\n" for t in 167 * np.sin(np.linspace(0, 2.5 * np.pi, 200)))
+        (tmp_path / f"loop_{k}.csv").write_text(f"torque [N.m],twist [arcmin]\n{rows}")
+    said = "runs loop_1 and loop_2 hold the same numbers: a copy is no repetition"
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--tag", "locked=input"]) == 0
+    assert said in " ".join(capsys.readouterr().out.split())
+    assert main(["campaign", "check", str(tmp_path)]) == 1
+    shown = " ".join(capsys.readouterr().out.split())
+    assert said in shown and "no run is repeated and no noise is stated" in shown
+    assert main(["compare", "RV20E-121", str(tmp_path), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [run["run"] for run in told["runs"]] == ["loop_1"] and 0.1 < told["runs"][0]["ratio"] < 1e3
+    assert any(said in warning for warning in told["warnings"])
+
+
+def test_copies_are_named_together():
+    text, _ = copied_words({"a2": "a1", "a3": "a1"} | {f"{n}2": f"{n}1" for n in "bcdef"})
+    assert text.startswith("runs a1 and a2 and a3; b1 and b2; c1 and c2; d1 and d2; and 2 more like them hold the same numbers")

@@ -24,7 +24,7 @@ BLOCK = re.compile(r"^(?P<before>[^\n]*)\n+```(?P<kind>\w+)\n(?P<text>.*?)^```$"
 NAME = re.compile(r"`([\w./-]+\.\w+)`:$")
 # Those that run in the default tests take some seconds of one core; the others build units, live or diagnose.
 SHORT = ("your_reducer",)
-LONG = ("fmi_tool", "two_files", "your_effect", "robot_week", "five_lines", "paper_figure")
+LONG = ("fmi_tool", "two_files", "your_effect", "robot_week", "five_lines", "paper_figure", "hidden")
 
 
 @dataclass

@@ -199,7 +199,7 @@ def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) ->
     files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in built if path.is_relative_to(folder.root)]
     name = str(given["model"])
     how = (f"rvwear extend {shlex.quote(str(folder.root / name))} {shlex.quote(str(folder.root))} --fmus" if name.endswith(".toml")
-           else f"rvwear build --reducer {name} --output")  # fmt: skip
+           else f"rvwear build --reducer {shlex.quote(name)} --output")  # fmt: skip
     write_json(place / "result.json", {"files": files, "model": name, "command": f"{how} {shlex.quote(str(folder.root / 'fmus'))}"})
     return False
 

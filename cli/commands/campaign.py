@@ -1,6 +1,7 @@
 """``rvwear campaign from``, ``check``, ``template`` and ``from-rv-te``."""
 
 import argparse
+import shlex
 
 from cli.commands import campaign_from
 from cli.options import add_json, add_reducer
@@ -87,7 +88,7 @@ def run_template(options: argparse.Namespace) -> int:
     else:
         for path in files:
             print(path)
-        print(f"fill in the files, then: rvwear campaign check {options.folder}")
+        print(f"fill in the files, then: rvwear campaign check {shlex.quote(str(options.folder))}")
     return 0
 
 
@@ -107,7 +108,7 @@ def run_from_rv_te(options: argparse.Namespace) -> int:
     else:
         for path in files:
             print(path)
-        print(f"{len(runs)} runs in {conditions} conditions; rvwear campaign check {options.folder}")
+        print(f"{len(runs)} runs in {conditions} conditions; rvwear campaign check {shlex.quote(str(options.folder))}")
         for text in wrong:
             print(f"left out: {text}")
     return 1 if wrong else 0

@@ -1,6 +1,7 @@
 """``rvwear campaign from``: a campaign folder from files as a bench writes them."""
 
 import argparse
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from discrepancy.campaign.guess.propose import Proposal
     from discrepancy.campaign.guess.wishes import Wishes
 
+# The option that a remedy begins with, and what belongs to it.
+FIRST_OPTION = re.compile(r"--[a-z-]+ (?:'[^']*'|[^\s,;]+)")
+
 
 def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     command = actions.add_parser(
@@ -28,7 +32,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     command.add_argument(
         "--names", action="append", default=[], metavar="PATTERN",
         help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {direction}"
-        " {mounting} {condition} {any}; once for each kind of name",
+        " {mounting} {condition} {any}; once for each kind of name: the first that fits a file counts, and files that none fits are guessed",
     )  # fmt: skip
     for option, form, text in (
         ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),
@@ -51,6 +55,8 @@ def run_from(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.guesses import show
     from discrepancy.campaign.angle_doubts import angle_doubts
+    from discrepancy.campaign.design import Design
+    from discrepancy.campaign.findings import copied
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -60,8 +66,10 @@ def run_from(options: argparse.Namespace) -> int:
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
-        findings = angle_doubts(checked(proposal)) if proposal.reducer else []
-    command = f"rvwear {'campaign check' if proposal.needs else f'compare {proposal.reducer}'} {folder}"
+        campaign = checked(proposal) if proposal.reducer else None
+        findings = [*copied(Design(campaign)), *angle_doubts(campaign)] if campaign else []
+    step = ["campaign", "check"] if proposal.needs else ["compare", str(proposal.reducer)]
+    command = shlex.join(["rvwear", *step, str(folder)])
     text = campaign_text(proposal, folder)
     if not options.dry_run:
         write_campaign(proposal, folder, options.overwrite)
@@ -77,24 +85,21 @@ def run_from(options: argparse.Namespace) -> int:
         said = "is written, but lacks what is needed; say it in the file, or once more on the command line"
         print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal)}")
     else:
-        print(f"{folder / 'campaign.toml'} is written; next:\n  {command}")
+        print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")
     return 0
 
 
 def again(options: argparse.Namespace, proposal: "Proposal") -> str:
     """The command as it was given, to be completed by what is needed; names that could say a torque are asked to."""
-    from discrepancy.campaign.guess.file_names import suggested
-
     words = ["rvwear", "campaign", "from", *options.files]
     for option in ("output", "reducer"):
         words += [f"--{option}", given] if (given := getattr(options, option)) else []
     for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
-    pattern = suggested([run.guessed.name.pattern for run in proposal.runs], "load") if any("load_torque" in need.text for need in proposal.needs) else None
-    words += ["--names", pattern] if pattern and not options.names else []
-    rest = [need for need in proposal.needs if not (pattern and "load_torque" in need.text)]
-    asked = [need.remedy.partition(",")[0].partition(";")[0] if "--condition" in need.remedy else need.remedy for need in rest]
-    return " ".join([shlex.join([*words, "--overwrite"]), *asked])
+    if options.held_out is not None:
+        words += ["--held-out", *options.held_out]
+    needed = dict.fromkeys(match[0] for need in proposal.needs if (match := FIRST_OPTION.match(need.remedy)))
+    return " ".join([shlex.join([*words, "--overwrite"]), *needed])
 
 
 def asked(options: argparse.Namespace) -> str | None:

@@ -5,13 +5,13 @@ from rich.table import Table
 
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import Comparison
+from discrepancy.compare import Comparison, calibrated_text
 from discrepancy.extend import HELPED, Extension
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
-from discrepancy.scales import of_parameter, parameter_texts, shown
+from discrepancy.scales import parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down
@@ -42,9 +42,7 @@ def show_comparison(comparison: Comparison) -> None:
                       styled((f"{row['ratio']:.2f}", ratio_colour(row["ratio"], row["held_out"]))))
     out.print(table)
     if comparison.nuisances:
-        units = {p.name: p.unit for p in comparison.model.nuisances}
-        texts = (f"{told_name(k, tables_of(comparison.model))} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in comparison.nuisances.items())
-        out.print("calibrated  " + ", ".join(texts))
+        out.print("calibrated  " + calibrated_text(comparison.model, comparison.nuisances))
     show_figures(comparison.figures, out, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)

@@ -7,6 +7,7 @@ from rich.table import Table
 from cli.screen import WIDTH, console, styled
 from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
+from discrepancy.campaign.guess.write import WHOSE_ANGLE, over_output
 
 
 def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
@@ -25,6 +26,10 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
             out.print(f"{run.guessed.quantity.value}, as in {run.guessed.path.name} (names: {run.guessed.name.pattern}):")
             for role, entry in run.guessed.columns.items():
                 out.print(f"  {role}: column {entry.header!r}, {entry.column.reason}; unit {entry.unit.value}: {entry.unit.reason}")
+            for tag, guess in run.guessed.tags.items():
+                out.print(f"  {tag} = {guess.value}: {guess.reason}")
+            if over_output(run):
+                out.print(f'  angle_of = "output": {WHOSE_ANGLE}')
     for name, stated in proposal.conditions.items():
         kept = f"; {proposal.held_out[name].reason}" if name in proposal.held_out else ""
         out.print(f"condition {name}: {', '.join(f'{key} {value}' for key, value in stated.items()) or 'nothing is said'}{kept}")
@@ -37,5 +42,6 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
 
 
 def columns_key(run: PlacedRun) -> tuple[object, ...]:
-    """Equal for runs whose columns were taken alike."""
-    return run.guessed.quantity.value, *((role, entry.header, entry.unit.value) for role, entry in run.guessed.columns.items())
+    """Equal for runs whose columns and tags were taken alike."""
+    columns = ((role, entry.header, entry.unit.value) for role, entry in run.guessed.columns.items())
+    return run.guessed.quantity.value, *columns, *((tag, guess.value) for tag, guess in run.guessed.tags.items())

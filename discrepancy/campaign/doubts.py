@@ -42,23 +42,29 @@ def source_of(campaign: Campaign, record: Record, axis: str) -> Source:
 
 
 def torques(design: Design) -> Iterator[Finding]:
-    campaign = design.campaign
+    for record in design.campaign.records:
+        if found := impossible_torque(record, design.campaign):
+            yield found
+
+
+def impossible_torque(record: Record, campaign: Campaign) -> Finding | None:
+    """A torque or load of a run that no reducer takes, with the unit that it may be in; None where all is possible."""
     rated = campaign.rated_torque
-    if not rated:
-        return
-    for record in campaign.records:
-        torque = record.axes.get("torque", np.zeros(0))
-        largest = float(np.abs(torque).max(initial=0.0))
-        if largest <= MOST_RATED * rated:
+    for name in ("torque", "load"):
+        stated = [record.factors[name]] if name in record.factors else []
+        largest = float(np.abs(np.asarray(record.axes.get(name, stated), float)).max(initial=0.0))
+        if not rated or largest <= MOST_RATED * rated:
             continue
-        source = source_of(campaign, record, "torque")
-        fits = fitting_unit(largest, rated, source)
-        remedy = f'state unit = "{fits}" in its column if that is what it holds' if fits else "correct unit or scale of the column"
-        yield Finding(
+        source = source_of(campaign, record, name)
+        fits = fitting_unit(largest, rated, source) if name in record.axes else ""
+        wrong = "correct unit or scale of the column" if name in record.axes else f"correct load_torque in [conditions.{record.condition}]"
+        return Finding(
             WARNING, "impossible torque",
-            f"run {record.name}: the torque reaches {largest:.6g} N.m{campaign.place(record.name, 'torque')},"
-            f" {readable(largest / rated)} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times", remedy,
+            f"run {record.name}: the {name} reaches {largest:.6g} N.m{campaign.place(record.name, name)},"
+            f" {readable(largest / rated)} times the rated {rated:.4g} N.m; a reducer takes {MOST_RATED:g} times",
+            f'state unit = "{fits}" in its column if that is what it holds' if fits else wrong,
         )  # fmt: skip
+    return None
 
 
 def fitting_unit(largest: float, rated: float, source: Source) -> str:

@@ -5,6 +5,7 @@ whether they fit together, is checked where they are used.
 """
 
 import difflib
+import shlex
 from pathlib import Path
 from typing import Any, Literal
 
@@ -215,7 +216,7 @@ class CampaignFile(Strict):
 
 def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
     """The checked content of the file, and its text."""
-    remedy = f"rvwear campaign from {path.parent} --reducer ... makes one of measured files, rvwear campaign template FOLDER an empty one"
+    remedy = f"rvwear campaign from {shlex.quote(str(path.parent))} --reducer ... makes one of measured files, rvwear campaign template FOLDER an empty one"
     text = read_text(path, "campaign file", remedy)
     content = parse_toml(text, path, REMEDY)
     lay_out(content, path)

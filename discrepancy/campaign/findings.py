@@ -7,11 +7,14 @@ import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
-from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.problem import ERROR, ORDERS
 from discrepancy.repetitions import outlying
 
 PROBLEM, WARNING = "problem", "warning"
+# Of a quantity from so many on one may be held out: two are left to fit.
+LEAST_CONDITIONS = 3
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,16 @@ def held_out(design: Design) -> Iterator[Finding]:
             WARNING, "no held-out condition", f"{text}: whether an effect improves the model elsewhere stays open",
             "set held_out = true in one or two whole conditions, best inside the range of the others",
         )  # fmt: skip
+        return
+    for quantity in design.quantities:
+        alike = (ERROR, ORDERS) if quantity in (ERROR, ORDERS) else (quantity,)
+        conditions = {record.condition for record in design.campaign.records if record.quantity in alike}
+        if len(conditions) >= LEAST_CONDITIONS and not conditions & (kept - trained):
+            yield Finding(
+                WARNING, "no held-out condition",
+                f"{quantity}: none of its {len(conditions)} conditions is held out: an effect that shows in {quantity} alone cannot be proven",
+                "set held_out = true in one of them, best inside the range of the others",
+            )  # fmt: skip
 
 
 # (factor, quantities, levels wanted, what aliases with fewer)
@@ -210,6 +223,11 @@ def repetitions(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
+def copied(design: Design) -> Iterator[Finding]:
+    if design.campaign.copies:
+        yield Finding(WARNING, "copied runs", *copied_words(design.campaign.copies))
+
+
 def zeros(design: Design) -> Iterator[Finding]:
     for text, remedy in unused_means(design.campaign.records):
         yield Finding(WARNING, "means not used", text, remedy)
@@ -237,4 +255,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, zeros, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, copied, zeros, statements)

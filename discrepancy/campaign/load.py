@@ -14,6 +14,7 @@ from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
 from discrepancy.problem import WITH_ZERO, Parameter, Record
+from discrepancy.repetitions import copies
 from fmu_src.faults import InputFault
 from fmu_src.reading import reading
 from fmu_src.units import parse, registry
@@ -51,13 +52,14 @@ def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
             direction = int(DIRECTIONS[run.direction] if run.direction is not None else condition.factors["direction"])
             record = record_of(run, condition, as_asked(run, series, zero, direction, place), scales, place)
             records.append(as_stated(record, run, content, path, place))
+    copied = copies(records)
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
-        conditions, tuple(records), rows, unfilled,
+        conditions, tuple(record for record in records if record.name not in copied), rows, unfilled,
         tuple(nuisance_of(name, entry, scales, f"{path}: nuisances.{name}") for name, entry in content.nuisances.items()),
         rig_of(content.rig, scales, f"{path}: rig") if content.rig else None,
         text, content.campaign.seal, tuple(dict.fromkeys(run.quantity for run in content.runs)),
-        {name: tuple(family) for name, family in content.orders.items()}, speed_at(content), sources,
+        {name: tuple(family) for name, family in content.orders.items()}, speed_at(content), sources, copied,
     )  # fmt: skip
 
 

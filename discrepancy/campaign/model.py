@@ -72,7 +72,7 @@ class Rig:
 class Campaign:
     """A checked campaign.
 
-    ``records`` hold every run that has rows; ``unfilled`` names the runs whose file has none
+    ``records`` hold every run that has rows and is no copy of another; ``unfilled`` names the runs whose file has none
     yet, with the file.  ``rows`` counts, by run, what was selected, dropped and used.
     ``ratio`` and ``rated_torque`` [N.m] are the reducer's where the file does not state them.
     """
@@ -98,6 +98,8 @@ class Campaign:
     speed_at: str = "input"
     # By run and axis ("value" for the quantity itself) what the file says.
     sources: Mapping[str, Mapping[str, Source]] = field(default_factory=dict)
+    # Runs that hold the numbers of another one, with that one; no records, for a copy is no repetition.
+    copies: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def training(self) -> tuple[Record, ...]:

@@ -1,4 +1,6 @@
-"""A repetition that stands out, in words and in the usual unit of its quantity."""
+"""Repetitions that stand out, in words and in the usual unit of their quantity, and those that are none."""
+
+from collections.abc import Mapping
 
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.quantities import QUANTITIES
@@ -6,6 +8,8 @@ from discrepancy.repetitions import Outlying
 from fmu_src.units import conversion
 
 WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
+# Sets of equal runs that are named.
+MOST_ALIKE = 4
 
 
 def words(found: Outlying) -> str:
@@ -20,4 +24,14 @@ def words(found: Outlying) -> str:
     return (
         f"run {found.run} (replicate {found.replicate}, of {found.count} repetitions of {found.signal} at {found.condition}) "
         f"{verb.format(size + unit)}, the others {others}"
+    )
+
+
+def copied_words(copies: Mapping[str, str]) -> tuple[str, str]:
+    """What is wrong with runs that hold the numbers of others, copy -> the other, and the remedy."""
+    alike = [" and ".join([original, *(copy for copy, of in copies.items() if of == original)]) for original in dict.fromkeys(copies.values())]
+    some = "; ".join(alike[:MOST_ALIKE]) + (f"; and {len(alike) - MOST_ALIKE} more like them" if len(alike) > MOST_ALIKE else "")
+    return (
+        f"runs {some} hold the same numbers: a copy is no repetition, it counts once and says nothing of the noise",
+        'name the files of the repetitions, or measure again; if the instrument shows no finer, state noise = "..." in the runs',
     )

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction import chain, model_error
@@ -23,7 +24,7 @@ from discrepancy.prediction.model_error import LOOPS, is_loop, with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table
 from fmu_src.threads import Threads
@@ -221,9 +222,12 @@ class PhysicalModel:
         record = curve_of(measured)
         try:
             predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough)
-        except RunFault:
+        except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
-                raise
+                torque = impossible_torque(measured, self.campaign)
+                if torque is None:
+                    raise
+                raise RunFault(f"{fault}. {torque.text}; {torque.remedy}") from None
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
             signs = np.where(np.arange(len(measured.values)) % 2 == 0, 1.0, -1.0)
             return measured.values + IMPOSSIBLE * self.sizes.get(measured.quantity, 1.0) * signs
@@ -279,14 +283,20 @@ def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None)
 
 def defined(record: Record, campaign: Campaign) -> Record:
     """A loop without the samples near no torque, where the output floats in its clearances."""
-    if record.quantity != "hysteresis" or "torque" not in record.axes:
-        return record
-    torque = np.asarray(record.axes["torque"], float)
-    rated = campaign.rated_torque or float(np.abs(torque).max())
-    kept = np.abs(torque) > FLOATING * rated
+    kept = defined_at(record, campaign)
     if kept.all():
         return record
     return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
+
+
+def defined_at(record: Record, campaign: Campaign) -> Mask:
+    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes:
+        return np.ones(len(record.values), bool)
+    torque = np.asarray(record.axes["torque"], float)
+    rated = campaign.rated_torque or float(np.abs(torque).max())
+    kept: Mask = np.abs(torque) > FLOATING * rated
+    return kept
 
 
 def typical_size(records: list[Record]) -> float:

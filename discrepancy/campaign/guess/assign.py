@@ -1,7 +1,7 @@
 """Which quantity a table holds, and which column is what."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 
 from discrepancy.campaign.guess import unit_words as u
@@ -38,8 +38,8 @@ KIND_MEANT = {word: KINDS[role] for role, words in MEANT.items() for word in wor
 BY_UNIT = {u.TEMPERATURE: "temperature", u.TORQUE: "torque", u.TIME: "time", u.SPEED: "speed"}
 # Of numbers that are one column over a number of the condition.
 OVER = {"wear_depth": "hours", "lost_motion": "hours", "mass_loss": "hours", "debris_iron": "hours"}
-# What a name, a unit, the shape and the file's name weigh.
-NAME, UNIT, SHAPE, FILE_NAME = 3.0, 2.0, 2.0, 3.5
+# What a name, a unit, the shape, the file's name and a tag that is given weigh.
+NAME, UNIT, SHAPE, FILE_NAME, TAGGED = 3.0, 2.0, 2.0, 3.5, 1.5
 MARGIN = 1.0
 # And an axis that there may be.
 OPTIONAL = 1.0
@@ -136,11 +136,14 @@ class Assignment:
     roles: Mapping[str, Guess[str]]
 
 
-def assignments(columns: list[Column], named: list[str]) -> list[Assignment]:
-    """All quantities that the columns could be, the likeliest first; ``named``: those that the file's name speaks of."""
+def assignments(columns: list[Column], named: list[str], tags: Container[str] = ()) -> list[Assignment]:
+    """All quantities that the columns could be, the likeliest first; ``named``: those that the file's name speaks of; ``tags`` that are given."""
     found = [a for quantity in QUANTITIES if quantity in KINDS for a in of_quantity(quantity, columns)]
     # The file's name decides among what the columns allow.
-    weighed = [Assignment(a.quantity, a.points + (FILE_NAME - 0.5 * named.index(a.quantity) if a.quantity in named else 0.0), a.roles) for a in found]
+    points = {q: FILE_NAME - 0.5 * named.index(q) for q in named} | dict.fromkeys(QUANTITIES.keys() - {*named}, 0.0)
+    # Who says which side was locked speaks of loops.
+    points = {q: p + (TAGGED if any(tag in tags for tag in QUANTITIES[q].tags) else 0.0) for q, p in points.items()}
+    weighed = [Assignment(a.quantity, a.points + points[a.quantity], a.roles) for a in found]
     best: dict[str, Assignment] = {}
     tied = set()
     for a in sorted(weighed, key=lambda a: -a.points):

@@ -2,7 +2,7 @@
 
 import re
 
-INPUT = r"input|motor|antrieb(?!$)|eingang|drive|servo|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
+INPUT = r"input|motor|antrieb(?!$)|(?<=[ _.-])antrieb|eingang|drive|servo|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
 OUTPUT = r"output|abtrieb|ausgang|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|load side)(?:$|[ _.-])"
 
 # Meaning -> words; the first that fits counts.

@@ -1,7 +1,6 @@
 """What file names say of their conditions, by a pattern such as ``te_{load}Nm_{speed}rpm_{replicate}``."""
 
 import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,7 +21,7 @@ SENSES = {
 }  # fmt: skip
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
 NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"
-WITH_UNIT = re.compile(rf"({NUMBER})\s*([^\d\s_-]\S*)$")
+WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-]\S*)$")
 COUNTED = re.compile(
     r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
     re.IGNORECASE,
@@ -38,8 +37,15 @@ MOMENT = re.compile(r"\d{4}-\d\d-\d\d|\d\d[-.]\d\d[-.]\d{4}|\d{8}T?|\d{6}|\d\d[-
 FIELD = re.compile(r"\{(\w+)\}")
 PARTS = re.compile(r"([_\s]+|(?<=\D)-(?=\D)|(?<=\w)-(?=\D)|-(?=[A-Za-z])|[()]+)")
 # Letters before a number, as in T40 or n15: what they mostly stand for.
-LETTERS = {"t": "temperature", "n": "speed", "m": "load", "temp": "temperature", "load": "load", "torque": "load", "speed": "speed", "h": "hours"}
-LETTERED = re.compile(rf"([A-Za-z]+)=?({NUMBER})([^\d]*)$")
+LETTERS = {
+    "t": "temperature", "n": "speed", "m": "load", "temp": "temperature", "load": "load", "last": "load", "torque": "load", "speed": "speed", "h": "hours",
+}  # fmt: skip
+LETTERED = re.compile(rf"([^\W\d_]+)=?({NUMBER})([^\d]*)$")
+# The same of which letters may be missing.
+COUNTING = re.compile(rf"([^\W\d_]*)=?({NUMBER})([^\d]*)$")
+FIELDS = {u.TORQUE: "load", u.SPEED: "speed", u.TEMPERATURE: "temperature"}
+# Signs of a unit that speaks for itself behind letters or a gap: Last50Nm, 100_Nm; "Probe2h" and "2_C" may count anything.
+LEAST_UNIT = 2
 
 
 @dataclass(frozen=True)
@@ -64,7 +70,7 @@ def proposed(path: Path) -> Parsed:
     """The pattern that a name seems to follow, and what it says by it."""
     pattern, numbers, words = "", dict[str, tuple[float, str]](), list[str]()
     replicate, direction = None, None
-    parts = PARTS.split(stem(path))
+    parts = with_units(PARTS.split(stem(path)))
     last = max((k for k in range(0, len(parts), 2) if parts[k]), default=0)
     for k, part in enumerate(parts):
         if k % 2 or not part:
@@ -91,8 +97,26 @@ def proposed(path: Path) -> Parsed:
     return Parsed(pattern, numbers, replicate, direction, None, "_".join(words))
 
 
+def with_units(parts: Sequence[str]) -> list[str]:
+    """Parts of a name, those of a number and of its unit as one: 100_Nm."""
+    found: list[str] = []
+    for part in parts:
+        gap = found[-1] if len(found) > 1 else ""
+        if part and gap and re.fullmatch(r"[_\s]", gap) and re.fullmatch(rf"[^\W\d_]*{NUMBER}", found[-2]) and plain_field(part):
+            found[-2:] = [found[-2] + gap + part]
+        else:
+            found.append(part)
+    return found
+
+
+def plain_field(word: str) -> tuple[str, str] | None:
+    """(field, unit) of a word that is a unit of a condition and hardly anything else."""
+    known = unit_of(word) if len(word) >= LEAST_UNIT else None
+    return (FIELDS[known[1]], known[0]) if known and known[1] in FIELDS else None
+
+
 def suggested(patterns: Sequence[str], field: str) -> str | None:
-    """The one pattern of names that differ by a number behind letters alone (T50, T100), with ``field`` in its place; None where it is not so plain.
+    """The one pattern of names that differ by one number alone (T50, T100), with ``field`` in its place; None where it is not so plain.
 
     What such letters stand for a name does not say, so nobody takes it unasked.
     """
@@ -102,7 +126,7 @@ def suggested(patterns: Sequence[str], field: str) -> str | None:
     varying = [k for k, column in enumerate(zip(*split)) if len(set(column)) > 1]
     if len(varying) != 1:
         return None
-    matches = [LETTERED.match(parts[varying[0]]) for parts in split]
+    matches = [COUNTING.match(parts[varying[0]]) for parts in split]
     kinds = {(match[1], match[3]) if match else None for match in matches}
     if len(kinds) != 1 or None in kinds or matches[0] is None:
         return None
@@ -114,14 +138,16 @@ def number_of(part: str) -> tuple[str, float, str, str] | None:
     """(field, number, unit, part of the pattern) of a part such as 167Nm or T40."""
     if (match := WITH_UNIT.match(part)) and (known := unit_of(match[2])):
         unit, kind = known
-        name = {u.TORQUE: "load", u.SPEED: "speed", u.TEMPERATURE: "temperature"}.get(kind) or ("hours" if unit == "h" else "load" if unit == "%" else None)
+        name = FIELDS.get(kind) or ("hours" if unit == "h" else "load" if unit == "%" else None)
         if name:
-            return name, figure(match[1]), unit, f"{{{name}}}{match[2]}"
-    if (match := LETTERED.match(part)) and (name := LETTERS.get(match[1].lower())):
-        known = unit_of(match[3]) if match[3] else None
-        # A single letter without a unit may count anything.
-        if known and known[1] == NUMBERS[name][0]:
+            return name, figure(match[1]), unit, f"{{{name}}}{part[match.end(1):]}"
+    if (match := LETTERED.match(part)) and (word := match[3].strip("_ ")):
+        known, name = unit_of(word), LETTERS.get(match[1].lower())
+        # A single letter without a unit may count anything; with one of another kind that one decides: T100Nm.
+        if known and name and known[1] == NUMBERS[name][0]:
             return name, figure(match[2]), known[0], part[: match.start(2)] + f"{{{name}}}{match[3]}"
+        if plainly := plain_field(word):
+            return plainly[0], figure(match[2]), plainly[1], part[: match.start(2)] + f"{{{plainly[0]}}}{match[3]}"
     return None
 
 
@@ -146,9 +172,9 @@ def by_pattern(path: Path, pattern: str) -> Parsed | None:
     expression, place = "", 0
     for match in FIELD.finditer(pattern):
         name = match[1]
-        after = re.match(r"[^\s_\-{}()]*", pattern[match.end() :])
+        after = re.match(r"[_\s]?([^\s_\-{}()]*)", pattern[match.end() :])
         if name in NUMBERS:
-            word = after[0] if after else ""
+            word = after[1] if after else ""
             known = unit_of(word)
             units[name] = known[0] if known and (known[1] == NUMBERS[name][0] or (known[0] == "%" and "load" in name)) else NUMBERS[name][1]
         group = r"\d+" if name == "replicate" else NUMBER if name in NUMBERS else r".*?" if name == "any" else r".+?"
@@ -166,13 +192,6 @@ def by_pattern(path: Path, pattern: str) -> Parsed | None:
     return Parsed(pattern, numbers, int(said["replicate"]) if said.get("replicate") else None, sense, said.get("mounting"), said.get("condition") or "", True)
 
 
-def parsed(path: Path, patterns: list[str]) -> Parsed:
-    """By the first given pattern that fits; by a proposed one if none was given.  InputFault if none of those that were fits."""
-    for pattern in patterns:
-        if found := by_pattern(path, pattern):
-            return found
-    if patterns:
-        given = " or ".join(map(repr, patterns))
-        more = shlex.join(["--names", proposed(path).pattern])
-        raise InputFault(f"{path.name} does not fit --names {given}; give a pattern for it too, with an option of its own: {more}")
-    return proposed(path)
+def parsed(path: Path, patterns: Sequence[str]) -> Parsed:
+    """By the first given pattern that fits, else by a proposed one."""
+    return next((found for pattern in patterns if (found := by_pattern(path, pattern))), None) or proposed(path)

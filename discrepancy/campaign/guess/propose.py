@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from typing import Any
 
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
 from discrepancy.campaign.guess.counted import with_repetitions
-from discrepancy.campaign.guess.file_names import by_pattern
+from discrepancy.campaign.guess.file_names import by_pattern, suggested
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
@@ -92,9 +93,10 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     measured = defaultdict(list)
     for run in runs:
         measured[run.condition].append(run.guessed.quantity.value)
+    doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), tuple(merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))])), needs_of(runs, conditions, wishes),
+        tuple(runs), tuple(doubts), needs_of(runs, conditions, wishes),
     )  # fmt: skip
 
 
@@ -144,6 +146,16 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
         for key, text in wishes.conditions.items() if key in said and said[key].replace(" ", "") != text.replace(" ", "")
     ]
+
+
+def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
+    """Tags that are given and that no file's quantity has."""
+    found = []
+    for tag, word in wishes.tags.items():
+        if not any(tag in run.tags for run in runs):
+            having = [q.name for q in QUANTITIES.values() if tag in (*q.tags, *q.optional_tags)]
+            found.append(Doubt("campaign", f"--tag {tag}={word} says nothing: no file is taken for {' or '.join(having)}", f"--quantity 'FILES={having[0]}'"))
+    return found
 
 
 def given_for_one(conditions: dict[str, dict[str, str]], wishes: Wishes) -> None:
@@ -200,17 +212,27 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 
 def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
-    """What the quantities need to know and nobody has said."""
-    found: dict[tuple[str, str], Doubt] = {}
+    """What the quantities need to know and nobody has said.
+
+    Where names differ by a number that nobody understood, it is asked whether that is the load: one value for all would be wrong then.
+    """
+    found: dict[tuple[str, str, str], Doubt] = {}
+    patterns: dict[str, list[str]] = defaultdict(list)
+    for run in runs:
+        if not run.guessed.name.given:
+            patterns[run.guessed.quantity.value].append(run.guessed.name.pattern)
     for run in runs:
         quantity = QUANTITIES[run.guessed.quantity.value]
         for factor in (f for f in quantity.factors if f in FACTOR_NAMES):
             keys = keys_for(factor)
             if not any(key in conditions[run.condition] or key in run.guessed.columns for key in keys):
                 remedy = f"--condition '{(EXAMPLES | PIN_ON_DISC)[factor]}', or a {{{factor}}} in --names"
-                found[run.condition, factor] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
+                if factor == "load" and (asked := suggested(patterns[quantity.name], "load_torque")):
+                    remedy = f"{shlex.join(['--names', asked])} if the number in the names is the load, else {remedy}"
+                found[run.condition, factor, remedy] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
     if not wishes.reducer:
-        found["", "reducer"] = Doubt("campaign", "which reducer it is has to be said", "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
+        needed = "which reducer it is has to be said"
+        found["", "reducer", ""] = Doubt("campaign", needed, "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
     whole: dict[tuple[str, str], list[Doubt]] = {}
     for need in found.values():
         whole.setdefault((need.text, need.remedy), []).append(need)

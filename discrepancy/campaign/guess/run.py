@@ -1,5 +1,6 @@
 """One file's run: its quantity, columns, units, tags."""
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +14,9 @@ from discrepancy.campaign.guess.file_names import Parsed, parsed, stem
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
-from discrepancy.campaign.guess.unit_words import COUNTS, name_of
+from discrepancy.campaign.guess.unit_words import COUNTS, name_of, unknown_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from fmu_src.faults import InputFault
@@ -59,11 +61,15 @@ class GuessedRun:
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     """InputFault with the file's name where nothing can be made of it."""
     table = table_of(path)
-    name = parsed(path, list(wishes.names))
+    name = parsed(path, wishes.names)
     columns = columns_of(table, wishes.units_for(path.name))
     speaking = stem(path)
     wanted = wishes.quantity_for(path.name)
-    found = assignments(given_roles(columns, table, wishes), quantities_named(speaking) or quantities_named(path.parent.name))
+    text = " ".join((path.parent.name, speaking, *table.above, *table.headers.values()))
+    named = quantities_named(speaking) or quantities_named(path.parent.name)
+    if unloaded(text) and "no_load_torque" not in named:
+        named = [*named, "no_load_torque"]
+    found = assignments(given_roles(columns, table, wishes), named, wishes.tags)
     if wanted:
         found = [a for a in found if a.quantity == wanted]
     if not found:
@@ -75,7 +81,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     stated = stated_roles(table, wishes)
     found = as_stated(found, stated)
     best = found[0]
-    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *not_taken(path, best, stated)]
+    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *unfitting(path, name, wishes), *not_taken(path, best, stated)]
     if not quantity.sure:
         doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
     by_name = {c.name: c for c in columns}
@@ -87,8 +93,10 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         doubts += [Doubt(path.name, text, remedy) for text, remedy in more]
         if not guess.sure:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
-    tags, more_doubts = tags_of(quantity.value, f"{path.parent.name} {speaking} {' '.join(table.above)}", speaking, wishes, path)
+    tags, more_doubts = tags_of(quantity.value, text, speaking, wishes, path)
     factors, speed_doubts = factors_of(name, table, path)
+    if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
+        factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
     headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
     return GuessedRun(
         path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts), headers
@@ -123,6 +131,14 @@ def as_stated(found: list[Assignment], stated: Mapping[str, str]) -> list[Assign
     """What is stated wins over what looks likelier: those that follow most of it."""
     followed = [sum(role in a.roles and a.roles[role].value == name for role, name in stated.items()) for a in found]
     return [a for a, count in zip(found, followed) if count == max(followed)]
+
+
+def unfitting(path: Path, name: Parsed, wishes: Wishes) -> list[Doubt]:
+    """A name that fits none of the patterns that are given: it is guessed as without them."""
+    if not wishes.names or name.given:
+        return []
+    remedy = f"{shlex.join(['--names', name.pattern])} beside the others, corrected"
+    return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", remedy)]
 
 
 def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[Doubt]:
@@ -169,6 +185,8 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
         unit = Guess(column.stated[0], column.stated[2])
     else:
         unit = unit_by_size(what, column.shape)
+        if written := unknown_in(header):
+            unit = Guess(unit.value, f"[{written}] in its header is no unit that is known here; {unit.reason.partition('; ')[2]}", False)
         if not unit.sure:
             doubts.append((f"unit of column {header!r} taken for {unit.value}: {unit.reason}", f"--unit '{header}=UNIT'"))
     if column.shape.jumps and role in ANGLES:
@@ -193,15 +211,6 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
             if said is None:
                 doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD"))
     return found, doubts
-
-
-def locked_side(text: str) -> str | None:
-    low = text.lower()
-    words = {
-        "input": ("input locked", "input_locked", "antrieb fest", "antrieb blockiert", "输入固定"),
-        "output": ("output locked", "output_locked", "abtrieb fest", "abtrieb blockiert", "输出固定"),
-    }
-    return next((side for side, said in words.items() if any(word in low for word in said)), None)
 
 
 def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:

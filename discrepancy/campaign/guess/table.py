@@ -11,8 +11,8 @@ import pandas as pd
 from discrepancy.campaign.guess.said import Doubt
 from discrepancy.campaign.guess.sheet_layout import layout_of_sheet
 from discrepancy.campaign.guess.text_layout import layout_of
+from discrepancy.campaign.guess.thousands import Signs, signs_of
 from discrepancy.campaign.readers import ENDINGS, Options, ReadFault, contents, kind_of, read_columns
-from discrepancy.campaign.readers.csv import first_lines, scan, sniff_decimal
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest_path
 from fmu_src.reading import reading
@@ -69,10 +69,14 @@ def table_of(path: Path) -> Table:
     except InputFault as fault:
         if "may be a thousand" not in str(fault):
             raise
-        keys["thousands"] = "." if kind == "csv" and decimal_of(path, keys) == "," else ","
+        signs = signs_of(path, keys) if kind == "csv" else Signs(".", "nothing tells")
+        # Each column of a workbook has its own decimal sign.
+        keys |= {"thousands": signs.thousands} | ({"decimal": signs.decimal} if kind == "csv" else {})
         raw = together(path, once, keys)
-        sign = keys["thousands"]
-        doubts.append(Doubt(path.name, f'numbers such as 1{sign}234 are taken for thousands', f'if they are fractions: decimal = "{sign}" in campaign.toml'))
+        if signs.why:
+            text = f"numbers such as 1{signs.thousands}234 are taken for thousands, {signs.decimal!r} for the decimal sign: {signs.why}"
+            remedy = f'look at the ranges; if they are fractions: decimal = "{signs.thousands}" in campaign.toml, without thousands'
+            doubts.append(Doubt(path.name, text, remedy))
     columns, words = numeric(raw)
     for name, said in worded(raw, columns).items():
         text = f"column {once[name]!r} holds words ({', '.join(said)}): rows of several runs may stand in this file"
@@ -83,11 +87,6 @@ def table_of(path: Path) -> Table:
         doubts.append(Doubt(path.name, text, "correct missing in campaign.toml if they are something"))
     units = {name: unit for name, unit in zip(layout.names, layout.units) if name in once}
     return Table(path, columns, once, units, keys, layout.above, tuple(doubts))
-
-
-def decimal_of(path: Path, keys: Mapping[str, Any]) -> str:
-    lines = first_lines(path, scan(path)[0], int(str(keys.get("skip_lines", 0))))
-    return sniff_decimal(lines, str(keys.get("delimiter", ";")))
 
 
 def together(path: Path, names: Mapping[str, str], keys: Mapping[str, Any]) -> dict[str, np.ndarray]:

@@ -16,7 +16,9 @@ WRITTEN = {
         "turn": "turn turns rev revs U Umdr Umdrehungen 圈 転", COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB 脉冲 パルス",
     },
     TORQUE: {
-        "N.m": "N.m Nm 牛米 牛.米 Newtonmeter", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm", "N.cm": "N.cm Ncm", "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm",
+        "N.m": "N.m Nm 牛米 牛.米 Newtonmeter", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm", "N.mm": "N.mm Nmm", "N.cm": "N.cm Ncm",
+        "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
+        "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm", "ozf.inch": "ozf.in oz.in in.oz",
         "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
     },
     SPEED: {"rpm": "rpm r/min rev/min 1/min U/min Upm min^.1 min.1 /min 转/分 转每分", "turn/s": "rev/s rps U/s r/s", "rad/s": "rad/s", "deg/s": "deg/s °/s"},
@@ -62,10 +64,17 @@ def unit_in(header: str) -> tuple[str, str, str] | None:
     for found in IN_BRACKETS.findall(header):
         if known := unit_of(found):
             return *known, f"[{found}] in its header"
+    # Half of what stands in brackets is no unit: "N furlong" is none, and no furlong.
+    outside = IN_BRACKETS.sub(" ", header).strip()
     for pattern in (AFTER_WORD, AFTER_LINE):
-        if (match := pattern.match(header.strip())) and (known := unit_of(match[2])) and known[0] != "1":
+        if (match := pattern.match(outside)) and (known := unit_of(match[2])) and known[0] != "1":
             return *known, f"its header ends with {match[2]}"
     return None
+
+
+def unknown_in(header: str) -> str:
+    """What stands in a header's brackets where a unit does, and is none that is known; empty if there is nothing of that kind."""
+    return "" if unit_in(header) else next((found.strip() for found in reversed(IN_BRACKETS.findall(header)) if found.strip()), "")
 
 
 def name_of(header: str) -> str:

@@ -13,7 +13,7 @@ import pandas as pd
 
 from discrepancy.campaign.readers import MOST_UNPACKED, Options, ReadFault, missing_column
 from discrepancy.campaign.readers.encodings import encodings_of
-from discrepancy.campaign.readers.figures import plain
+from discrepancy.campaign.readers.figures import contradictions, plain
 
 # In this order: a comma may be the decimal sign, so it is tried last.
 DELIMITERS = (";", "\t", "|", ",")
@@ -123,7 +123,10 @@ def sniff_delimiter(lines: list[str]) -> str:
 
 
 def sniff_decimal(lines: list[str], delimiter: str) -> str:
+    """A comma where some field has one, unless another field can be no number then and all can with a point: 0.346 beside 4,282."""
     fields = [field for row in csv.reader(lines, delimiter=delimiter) for field in row]
     found = [field for field in fields if DECIMAL_COMMA.match(field)]
     # Between commas only quoted fields have one; and 1,234 may be a thousand.
-    return "," if any(delimiter != "," or not GROUPED.match(field) for field in found) else "."
+    if not any(delimiter != "," or not GROUPED.match(field) for field in found):
+        return "."
+    return "." if contradictions(fields, ",") and not contradictions(fields, ".") else ","

@@ -1,6 +1,7 @@
 """Numbers as benches write them, in columns that pandas left as texts: one cell is a word, or thousands are set apart."""
 
 import re
+from collections.abc import Iterable
 
 import pandas as pd
 
@@ -9,6 +10,18 @@ from discrepancy.campaign.readers import ReadFault
 # Signs that set thousands apart where the decimal sign is the other one; blanks and apostrophes do anywhere.
 OTHER = {",": ".", ".": ","}
 BLANKS = " \u00a0\u202f'\u2019"
+# A number with one sign in it, whatever that means.
+SIGNED = re.compile(r"\s*[+-]?(\d*)([.,])(\d+)(?:[eE][+-]?\d+)?\s*$")
+
+
+def contradictions(texts: Iterable[str], decimal: str) -> list[str]:
+    """Cells that are numbers and cannot be with this decimal sign: the other one sets groups of three apart, of which the first is no 0."""
+    found = []
+    for text in texts:
+        match = SIGNED.match(text)
+        if match and match[2] != decimal and not (1 <= len(match[1]) <= 3 and match[1][0] != "0" and len(match[3]) == 3 and "e" not in text.lower()):
+            found.append(text)
+    return found
 
 
 def plain(column: pd.Series, decimal: str, thousands: str | None) -> pd.Series:

@@ -1,0 +1,32 @@
+"""What names and heads of files say of the state of the reducer: which side is held, that nothing loads it."""
+
+import re
+
+SIDES = {"input": r"input|motor|antrieb|eingang|drive", "output": r"output|abtrieb|ausgang"}
+HELD = r"locked|fixed|blocked|clamped|held|gesperrt\w*|blockiert\w*|fest|festgehalten\w*|festgesetzt\w*|arretiert\w*|geklemmt\w*"
+# Between a side and what was done to it.
+BETWEEN = r"(?:shaft|side|end|seite|welle|ist|is|was|war|wurde|mechanisch)"
+CHINESE = {"input": "输入(?:轴|端|侧)?(?:固定|锁死|锁定)", "output": "输出(?:轴|端|侧)?(?:固定|锁死|锁定)"}
+IS_HELD = {
+    side: re.compile(rf"\b(?:{words})\w*? ?(?:{BETWEEN} ){{0,3}}(?:{HELD})\b|\b(?:{HELD}) (?:{words})|{CHINESE[side]}") for side, words in SIDES.items()
+}  # fmt: skip
+UNLOADED = re.compile(
+    r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
+    r"|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
+)
+
+
+def plainly(text: str) -> str:
+    """In small letters, words parted by one blank each: ``Antrieb_gesperrt`` as ``antrieb gesperrt``."""
+    apart = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", " ", text)
+    return re.sub(r"[\W_]+", " ", apart).lower().strip()
+
+
+def locked_side(text: str) -> str | None:
+    """``input`` or ``output``; None where nothing is said, or both."""
+    said = [side for side, held in IS_HELD.items() if held.search(plainly(text))]
+    return said[0] if len(said) == 1 else None
+
+
+def unloaded(text: str) -> bool:
+    return UNLOADED.search(plainly(text)) is not None

@@ -1,0 +1,79 @@
+"""What names of files say of loads, and what is asked where they do not say it; the command that is printed can be run as it stands."""
+
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
+
+from cli.main import main
+from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.wishes import Wishes
+
+
+def error_files(folder, *names):
+    folder.mkdir(exist_ok=True)
+    for name in names:
+        pd.DataFrame({"Winkel Abtrieb [°]": np.degrees(ANGLE), "Drehfehler [arcsec]": ERROR / ARCSEC}).to_csv(folder / f"{name}.csv", index=False)
+    return folder
+
+
+def loop_files(folder, *names):
+    for name in names:
+        pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN}).to_csv(folder / f"{name}.csv", index=False)
+    return folder
+
+
+@pytest.mark.parametrize("name, load, pattern", [
+    ("DGF_Last50Nm_Lauf2", 50, "DGF_Last{load}Nm_Lauf{replicate}"), ("g7_T100Nm_2", 100, "g7_T{load}Nm_{replicate}"), ("TE 100 Nm 2", 100, "TE {load} Nm {replicate}"),
+    ("TE_100_Nm_2", 100, "TE_{load}_Nm_{replicate}"), ("Last100Nm_2", 100, "Last{load}Nm_{replicate}"), ("Last_100Nm_2", 100, "Last_{load}Nm_{replicate}"),
+    ("load12,5Nm_2", 12.5, "load{load}Nm_{replicate}"), ("Pruefling_Last 1,2 kNm_2", 1.2, "Pruefling_Last {load} kNm_{replicate}"),
+])  # fmt: skip
+def test_loads_in_names(name, load, pattern):
+    said = proposed(Path(f"{name}.csv"))
+    unit = "kN.m" if "kNm" in name else "N.m"
+    assert said.pattern == pattern and said.numbers == {"load": (load, unit)} and said.replicate == 2
+    assert by_pattern(Path(f"{name}.csv"), pattern).numbers == said.numbers
+
+
+@pytest.mark.parametrize("name", ["Probe2h_1", "Probe_2_C_1", "V2K", "te_run_2"])
+def test_letters_and_single_signs_are_no_units(name):
+    assert not proposed(Path(f"{name}.csv")).numbers
+
+
+def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, capsys):
+    """One value for all files would be wrong: the pattern is proposed, once, and as printed it does what was meant."""
+    folder = error_files(tmp_path / "Prüfstand 7", "te_X50_1", "te_X100_1", "te_X167_1")
+    loop_files(folder, "loop_20C_1", "loop_20C_2")
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm"]) == 0
+    command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
+    assert command.count("--names") == 1 and "te_X{load_torque}_{replicate}" in command and not any("load_torque=" in word for word in command)
+    assert main(command[1:]) == 0
+    out = capsys.readouterr().out
+    assert "load_torque 167 N.m" in out and "load_torque 50 N.m" in out
+    assert shlex.split(out.strip().splitlines()[-1]) == ["rvwear", "compare", "RV20E-121", str(folder)]
+
+
+def test_what_two_quantities_need_is_asked_once(tmp_path, capsys):
+    folder = error_files(tmp_path / "a", "te")
+    pd.DataFrame({"input_speed [rpm]": [200.0, 600, 1000], "efficiency [%]": [60.0, 61, 62]}).to_csv(folder / "efficiency.csv", index=False)
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm", "--held-out"]) == 0
+    command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
+    assert command.count("load_torque=167 N.m") == 1 and "--held-out" in command
+
+
+def test_files_that_fit_no_pattern_are_guessed_and_said(tmp_path):
+    folder = loop_files(error_files(tmp_path / "a", "te_50_1", "te_100_1"), "Hysterese_20C_Lauf1")
+    proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}",)))
+    assert proposal.conditions["20degC"] == {"temperature": "20 degC"} and {"50 N.m", "100 N.m"} == {c["load_torque"] for c in proposal.conditions.values() if "load_torque" in c}
+    said = [doubt for doubt in proposal.doubts if "fits none of the given names" in doubt.text]
+    assert [doubt.place for doubt in said] == ["Hysterese_20C_Lauf1.csv"] and "--names 'Hysterese_{temperature}C_Lauf{replicate}'" in said[0].remedy
+
+
+def test_the_first_pattern_that_fits_counts(tmp_path):
+    folder = error_files(tmp_path / "a", "te_50_1", "te_x_1")
+    proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}", "te_{condition}_{any}")))
+    assert [run.guessed.name.pattern for run in proposal.runs] == ["te_{load}_{replicate}", "te_{condition}_{any}"]
