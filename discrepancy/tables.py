@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy.as_told import tables_of as tables_in
 from discrepancy.as_told import told_name
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import Comparison, calibrated_text
+from discrepancy.compare import Comparison
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.key_figures import KeyFigure
@@ -47,14 +47,13 @@ def ladder_table(file: ModelFile) -> Table:
 def comparison_tables(result: Comparison) -> list[Table]:
     """Errors and noise of runs and signals, key figures, and every sample measured and predicted.
 
-    The notes of the curves say what was calibrated: ``predicted`` has it in it.
+    ``predicted`` is the base model's as it was calibrated: ``calibrated`` says what was.
     """
     space = result.diagnostician.space
-    note = calibrated_note("predicted", result.model, space)
-    curves = [replace(table, note=note) for table in curve_tables(space, {"predicted": result.predictions}, result.model.campaign)]
+    curves = curve_tables(space, {"predicted": result.predictions}, result.model.campaign)
     return [
         rows_table("runs", [in_bench_units(row) for row in result.runs], {}), rows_table("signals", [in_bench_units(row) for row in result.signals], {}),
-        figure_rows(result.figures), *curves,
+        figure_rows(result.figures), *calibrated_rows(result.model, space), *curves,
     ]  # fmt: skip
 
 
@@ -70,14 +69,19 @@ def answer_tables(result: Answer) -> list[Table]:
     verdict = [{"model": result.model.file.name, "campaign": result.model.campaign.name, "verdict": result.verdict, "reason": result.reason}]
     effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect, result)], {})
     named = [effects] if effects.columns else []
-    note = calibrated_note("base_model", result.model, space)
-    curves = [replace(table, note=note) for table in curve_tables(space, predictions, result.model.campaign)]
-    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures), *curves]
+    curves = curve_tables(space, predictions, result.model.campaign)
+    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
+            *calibrated_rows(result.model, space), *curves]  # fmt: skip
 
 
-def calibrated_note(column: str, model: PhysicalModel, space: Workspace) -> str:
-    calibrated = calibrated_text(model, space.base.values)
-    return f"{column}: the base model as it was calibrated to this campaign, {calibrated}" if calibrated else ""
+def calibrated_rows(model: PhysicalModel, space: Workspace) -> list[Table]:
+    """What of the base model was calibrated to the campaign before it was held against it; no table for nothing."""
+    units, tables = {p.name: p.unit for p in model.nuisances}, tables_in(model)
+    rows = []
+    for name, value in space.base.values.items():
+        scale = of_parameter(abs(value), units.get(name, "1"))
+        rows.append({"parameter": told_name(name, tables), "value": scale.number(value), "unit": scale.unit})
+    return [rows_table("calibrated", rows, {})] if rows else []
 
 
 def none_as_nan(value: float | None) -> float:
