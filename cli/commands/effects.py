@@ -73,8 +73,22 @@ def check_files(files: list[Path], as_json: bool) -> int:
         json_text({"findings": shown})
     else:
         for name, found in findings.items():
-            print("\n".join(map(str, found)) if found else f"{name}: nothing wrong")
+            print("\n".join(map(str, found)) if found else "\n".join([f"{name}: nothing wrong", *(f"  {text}" for text in of_shapes(Path(name)))]))
     return 2 if any(findings.values()) else 0
+
+
+def of_shapes(file: Path) -> list[str]:
+    """Of each shape of a sound effect whether a diagnosis fits it."""
+    from fmu_src.effect_check import imported
+
+    module, texts = imported(file.absolute(), file.absolute().parent.name)[0], []
+    for p in module.EFFECT.parameters if module else ():
+        v, unit = p.variable, "" if p.variable.unit == "1" else f" {p.variable.unit}"
+        if p.is_held:
+            texts.append(f"{v.name} is held at {float(v.start):g}{unit}, not fitted: held=True")
+        elif p.kind == "shape":
+            texts.append(f"{v.name} is fitted within {v.minimum:g} to {v.maximum:g}{unit}, from {', '.join(f'{value:g}' for value in p.grid)}")
+    return texts
 
 
 def tried(file: Path) -> "list[Finding]":

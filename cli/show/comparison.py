@@ -7,6 +7,7 @@ from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison
 from discrepancy.extend import HELPED, Extension
+from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
@@ -114,6 +115,8 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+        if held := held_text(effect["name"], answer.model):
+            out.print(f"  {held}")
         error = "" if fitted_together(answer) else error_text(answer, effect)
         if error:
             out.print(f"  {error}")
@@ -147,6 +150,9 @@ def show_extension(extension: Extension) -> None:
         where = "held out" if row["held_out"] else "fitted"
         before, after, noise = (shown(row[k], row["unit"], row["signal"]) for k in ("before", "after", "noise_floor"))
         out.print(f"  {row['signal']} ({where}): {before} -> {after}, noise {noise}")
+    for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
+        if held := held_text(name, extension.file):
+            out.print(f"  {name}: {held}")
 
 
 def show_ladder(file: ModelFile) -> None:

@@ -36,7 +36,7 @@ def show_one(entry: Entry, found: "list[Signature]") -> None:
         table.add_column(head, justify="right" if head == "off or start" else "left", overflow="fold", no_wrap=head in ("name", "kind", "unit"))
     for p in e.parameters:
         v = p.variable
-        table.add_row(v.path, p.kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
+        table.add_row(v.path, p.told_kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
     out.print(table)
     for signature in found:
         table = Table(title=f"computed: {signature.case.title}", title_justify="left")

@@ -3,6 +3,7 @@
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
@@ -49,6 +50,7 @@ def effects(answer: Answer) -> Section:
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
+    lead += "".join(f" {words(effect['name'])}: {held}." for effect in answer.effects if (held := held_text(effect["name"], answer.model)))
     return Section("effects", "Effects", lead, [shares(answer)] if answer.verdict != SET and answer.effects[0]["share_explained"] < 0.995 else [], [table])
 
 
