@@ -47,7 +47,10 @@ class Answer:
         most, members = self.doctor.settings.most_effects, self.diagnosis.fits.members
         if members and len(members[0].candidates) >= most:
             return f"beyond the {most} effects that are looked for at once: add what is named and diagnose again"
-        return f"that no {'further ' if members else ''}effect of the catalogue explains"
+        if not members:
+            return "that no effect of the catalogue explains"
+        # Others may do so together, or with numbers that a diagnosis holds: only what was tried is said.
+        return f"that none of the effects tried beside {'it' if len(members[0].candidates) == 1 else 'them'} explains"
 
     def in_si(self) -> dict[str, Any]:
         """Everything in SI units and by the names that kernels have: what programs of this project go on with."""

@@ -89,9 +89,10 @@ def before(r):
 anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
 leading words that the effect's name has too. An effect must vanish at its amplitudes' off values.
 
-A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without: start, a third and
-three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that these measurements cannot show, or that
-is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` says of each shape which of the two it is.
+A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without:
+start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
+measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` says
+of each shape which of the two it is.
 
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
