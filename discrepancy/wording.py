@@ -119,6 +119,13 @@ def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:
     return before is not None and by_unused_runs(answer, effect) and not below_noise(answer, effect) and before > WITHIN_NOISE and after < BETTER * before
 
 
+def not_judged_text(answer: Answer) -> str:
+    """Why an error is that of conditions left out in turn, and not of runs that were held out."""
+    if not answer.diagnosis.fits.space.held_out:
+        return "no run is held out"
+    return f"the runs that are held out are not judged{' yet' if answer.verdict == STOPPED else ''}"
+
+
 def error_text(answer: Answer, effect: dict[str, Any]) -> str:
     """The error on what was not fitted, before and after, and what it is measured in; empty without one."""
     before, after = effect["held_out_error_before"], effect["held_out_error_after"]
@@ -126,7 +133,7 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
         return ""
     change = f"{before:.2f} -> {after:.2f}"
     if not by_unused_runs(answer, effect):
-        return f"no run is held out; leaving out one condition at a time: error {change} times the noise"
+        return f"{not_judged_text(answer)}; leaving out one condition at a time: error {change} times the noise"
     if not below_noise(answer, effect):
         return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit"
     units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}

@@ -11,7 +11,7 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, percent, together_text, turned_down
+from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -94,7 +94,7 @@ def held_out(answer: Answer) -> Section:
     rows = answer.diagnosis.held_out
     left_out = any(v.get("kind") for v in rows.values())
     lead = (
-        "No run was held out: each condition was left out in turn."
+        f"{not_judged_text(answer).capitalize()}: each {'other ' if answer.diagnosis.fits.space.held_out else ''}condition was left out in turn."
         if left_out
         else (
             "Runs that no parameter was fitted to. 1 is what replicates differ by; the error is taken over the "
