@@ -6,6 +6,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.other_places import place_of
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
@@ -13,6 +14,12 @@ from discrepancy.verdict import Answer
 NEARLY_ALL = 0.95
 MOST_NAMED = 3
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+
+
+def variant_text(effect: dict[str, Any]) -> str:
+    """Which form of an effect it is, and at which part; empty where there is but one."""
+    forms = str(effect.get("variant", "")).replace("_", " ")
+    return str(effect.get("place") or "") if " + " not in forms and effect.get("place") else forms
 
 
 def share_text(answer: Answer, share: float) -> str:
@@ -57,13 +64,14 @@ def stand_ins(answer: Answer) -> dict[str, str]:
 
 
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
-    """The rivals that are no stand-ins; beside several effects a rival alone is held against all of them."""
+    """The rivals that are no stand-ins, with the part at which they were tried; beside several effects a rival alone is held against all of them."""
+    rejected = [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
     if not fitted_together(answer):
-        return answer.diagnosis.rejected
+        return rejected
     standing = {name for others in answer.diagnosis.alternatives.values() for name in others}
     return [
         r | ({"reason": f"alone {r['reason']} than all that is named"} if r["chi2_difference"] is not None else {})
-        for r in answer.diagnosis.rejected
+        for r in rejected
         if r["name"] not in standing
     ]
 

@@ -49,6 +49,7 @@ class EffectParameter:
     sign: int = 0
     grid: tuple[float, ...] = ()
     group: str = ""
+    part: str = ""
 
     @property
     def is_held(self) -> bool:
@@ -139,11 +140,12 @@ def usual_grid(unit: str, start: float, low: float, high: float) -> tuple[float,
     return tuple(v for v in values if low <= v <= high)
 
 
-def choice(name: str, text: str, start: int = 1, low: int = 1, high: int = 400) -> EffectParameter:
-    """Which part an effect sits on, counted from 1."""
+def choice(name: str, text: str, start: int = 1, low: int = 1, high: int = 400, part: str = "", group: str = "") -> EffectParameter:
+    """Which part an effect sits on, counted from 1: a ``part``, ``disc`` or ``crank``, if a diagnosis is to say it; of the groups of amplitudes
+    that begin with ``group``."""
     variable = Variable(name, "parameter", "1", text, start, minimum=low, maximum=high, integer=True,
                         source="assumed: the first")
-    return EffectParameter(variable, "choice")
+    return EffectParameter(variable, "choice", group=group, part=part)
 
 
 def effect_modules(package: str) -> dict[str, ModuleType]:

@@ -15,7 +15,7 @@ from discrepancy.next_run import NextRun
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down
+from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down, variant_text
 
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
@@ -104,7 +104,7 @@ def show_answer(answer: Answer) -> None:
     for text in base_texts(answer):
         out.print(f"\nbase off: {text}")
     for effect in answer.effects:
-        variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
+        variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
         # Waves by their size, largest first: of ten numbers that is what one asks for.
         for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):

@@ -11,7 +11,7 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down
+from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -22,7 +22,8 @@ SHARES = "Share of the misfit explained"
 
 
 def named(effect: dict[str, Any]) -> str:
-    return words(effect["name"]) + (f" ({effect['variant'].replace('_', ' ')})" if effect.get("variant") else "")
+    variant = variant_text(effect)
+    return words(effect["name"]) + (f" ({variant})" if variant else "")
 
 
 def listed(names: list[str]) -> str:
