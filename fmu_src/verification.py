@@ -184,7 +184,9 @@ def needed(files: dict[str, bytes], maker: str) -> str:
     have |= {file.stem for package in KERNEL_PACKAGES for _, file in user_effect_files(package)}
     carried = {name.decode() for name in re.findall(rb'name="effects\.(\w+)\.', files.get("modelDescription.xml", b""))}
     own = sorted(carried - have)
-    return f"{USER_EFFECTS}=DIR, the folder of its own effect{'s' if len(own) > 1 else ''} {', '.join(own)}" if own else f"those (version {maker}, {USER_EFFECTS} if there were own effects)"
+    if not own:
+        return f"those (version {maker}, {USER_EFFECTS} if there were own effects)"
+    return f"{USER_EFFECTS}=DIR, the folder of its own effect{'s' if len(own) > 1 else ''} {', '.join(own)}"
 
 
 def is_reference(name: str) -> bool:

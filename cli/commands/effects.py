@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
     effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number, or a word to look for: friction (default: list all)")
-    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER})", IDEAL_REDUCER)
+    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER}: rigid, without losses; other commands: RV20E-121)", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
     effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own, or folders of them: what is wrong, and where")
@@ -39,10 +39,10 @@ def run_effects(options: argparse.Namespace) -> int:
     if page:
         computed = write_page(chosen, options.reducer, page)
     if options.json:
-        found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
+        found = [e.as_json() | {"reducer": options.reducer, "computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
         json_text(found[0] if one else {"effects": found})
     elif one and not page:
-        show_one(chosen[0], computed[chosen[0].name])
+        show_one(chosen[0], computed[chosen[0].name], options.reducer)
     elif not page:
         show_list(chosen, options.name)
     if page and not options.json:
@@ -123,7 +123,7 @@ def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, li
         for e in chosen:
             shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
             drawing.advance()
-    written(page_of(shown), path)
+    written(page_of(shown, reducer), path)
     return {e.name: found for e, found, _ in shown}
 
 
