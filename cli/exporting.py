@@ -46,8 +46,8 @@ def check_exports(options: argparse.Namespace) -> None:
             missing.setdefault(fault.package, fault)
     if len(missing) > 1:
         raise MissingParts(missing.values())
-    for fault in missing.values():
-        raise fault
+    for one in missing.values():
+        raise one
 
 
 def write_exports(options: argparse.Namespace, tables: "Callable[[], Sequence[Table]]", figures: "Callable[[], Sequence[Figure]]") -> None:

@@ -10,7 +10,6 @@ from benchmarks.blind_trial.generator.reducer import HOUR, Setting
 from benchmarks.blind_trial.generator.truth import Truth
 from fmu_src.arrays import Floats
 
-
 # Mean line load [N/m] of carrying contacts of the RV20E-121 at 167 N m, each weighed with itself, as wear weighs it.
 LINE_LOAD = {"flank": 2.3e4, "race": 7.5e4}
 # Film after Hamrock and Dowson over that of a flank: rollers of 1.5 mm on races of 10.25 mm (1.31 mm reduced) turn at half of 0.72 m/s; flanks
