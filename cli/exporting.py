@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, MissingPart, MissingParts
 
 if TYPE_CHECKING:
     from exports.tables import Table
@@ -25,20 +25,29 @@ def add_exports(command: argparse.ArgumentParser, pictures: bool = True) -> None
 
 
 def check_exports(options: argparse.Namespace) -> None:
-    """Before the work: InputFault or MissingPart for what could not be written after it."""
+    """Before the work: InputFault for what could not be written after it, MissingPart or MissingParts for all packages that are not there."""
+    if options.width and not options.picture:
+        raise InputFault(f"--width {options.width} without --picture FILE: a width is one of pictures; say --picture figure.svg, too")
+    checks: list[tuple[Callable[[Path], None], str]] = []
     if options.export:
         from exports.write import require_writable
 
-        for name in options.export:
-            require_writable(Path(name))
-    if options.width and not options.picture:
-        raise InputFault(f"--width {options.width} without --picture FILE: a width is one of pictures; say --picture figure.svg, too")
+        checks += [(require_writable, name) for name in options.export]
     if options.picture:
         from pages.paper import require_drawable, width_of
 
         width_of(options.width or "single")
-        for name in options.picture:
-            require_drawable(Path(name))
+        checks += [(require_drawable, name) for name in options.picture]
+    missing: dict[str, MissingPart] = {}
+    for check, name in checks:
+        try:
+            check(Path(name))
+        except MissingPart as fault:
+            missing.setdefault(fault.package, fault)
+    if len(missing) > 1:
+        raise MissingParts(missing.values())
+    for one in missing.values():
+        raise one
 
 
 def write_exports(options: argparse.Namespace, tables: "Callable[[], Sequence[Table]]", figures: "Callable[[], Sequence[Figure]]") -> None:

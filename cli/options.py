@@ -107,8 +107,12 @@ def number_in(unit: str) -> "Callable[[str], float]":
 
     def parsed(text: str) -> float:
         from discrepancy.campaign.amount import amount
-        from orchestrator.settings import NUMBER
+        from orchestrator.settings import NUMBER, require_point
 
+        try:
+            require_point(text)
+        except InputFault as fault:
+            raise argparse.ArgumentTypeError(str(fault)) from None
         if not NUMBER.match(text):
             raise argparse.ArgumentTypeError(f"{text!r} is no number; give one in {unit}, or with another unit of its kind, for instance 15{unit}")
         try:

@@ -30,7 +30,7 @@ HEADS = {
     "model": (
         "A model: a reducer with settings and effects that are on. `rvwear extend` writes it; one may write it oneself.",
         '[model]\nname = "warm"\nreducer = "RV20E-121"\n[settings]\noutput.load_torque = "150 N.m"\n'
-        '[effects.thermal_expansion]\nexpansion = { value = 5.4e-7, unit = "1/K" }',
+        '[effects.thermal_expansion]\nexpansion = "5.4e-7 1/K"',
     ),
     "campaign": (
         "What was measured: files, columns, conditions. [Campaigns](../campaigns.md) explains it by examples; `rvwear campaign from FILES...` writes it.",

@@ -28,7 +28,8 @@ ENSEMBLE = {
 }  # fmt: skip
 MODEL = {
     "Content.model": "name and reducer", "Content.settings": "parameters and inputs that differ from the reducer file",
-    "Content.effects": "effects that are on, by name", "Content.steps": "the ladder so far; rvwear extend writes it",
+    "Content.effects": "effects that are on, by name; a value as \"0.07 N.m\" or as a table of number and unit",
+    "Content.steps": "the ladder so far; rvwear extend writes it",
     "Head.name": "name of the model, part of file names", "Head.reducer": "name of the library, or a reducer file beside this one",
     "Number.value": "value of the effect's parameter", "Number.unit": "its unit; SI without", "Number.low": "lower end of the 95 % interval",
     "Number.high": "upper end of the 95 % interval", "StepEntry.campaign": "on which campaign", "StepEntry.effects": "effects that were added",

@@ -99,10 +99,12 @@ def model_schema() -> Schema:
     found = of_model(ModelContent, "model")
     found.setdefault("$defs", {})["Number"] = of_model(Number, "model")
     found["properties"]["settings"] |= nested(settable(every_table()), setting)
+    # A number with its unit, as one text or as a table.
+    either: Schema = {"anyOf": [{"type": "string"}, {"$ref": "#/$defs/Number"}]}
     effects: Schema = {}
     for name, effect in every_effect().items():
-        parameters = {p.variable.path.rpartition(".")[2]: referred("Number", explained(p.variable)) for p in effect.parameters}
-        arrays = {rf"^{key}\[[0-9, ]+\]$": {"$ref": "#/$defs/Number"} for key, p in zip(parameters, effect.parameters) if p.variable.shape}
+        parameters = {p.variable.path.rpartition(".")[2]: {**either, "description": explained(p.variable)} for p in effect.parameters}
+        arrays = {rf"^{key}\[[0-9, ]+\]$": either for key, p in zip(parameters, effect.parameters) if p.variable.shape}
         effects[name] = {"type": "object", "description": effect.title, "properties": parameters, "additionalProperties": False}
         effects[name] |= {"patternProperties": arrays} if arrays else {}
     # One's own effects are there, too.

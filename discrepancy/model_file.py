@@ -8,7 +8,7 @@
     bearing.clearance = "3 um"
 
     [effects.needle_clearance]
-    added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }
+    added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }    # or "2.1 um"
 
     [[steps]]                       # the ladder, one entry per attempt
 """
@@ -21,6 +21,7 @@ import tomlkit
 from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable
 
+from discrepancy.campaign.amount import split
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
@@ -185,8 +186,11 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
 def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any]:
     """A parameter's value and interval in its own unit, within its bounds; ``key`` is what kernels call it."""
     variable = next(p.variable for p in effect.parameters if p.variable.name == key.partition("[")[0])
+    if isinstance(entry, str):
+        value, unit = split(entry, variable.unit, place)
+        entry = {"value": value, "unit": unit}
     if not isinstance(entry, dict) or "value" not in entry:
-        raise InputFault(f'{place} = {quoted(entry)}: write {{ value = ..., unit = "..." }}')
+        raise InputFault(f'{place} = {quoted(entry)}: write "0.07 {variable.unit}", or {{ value = 0.07, unit = "{variable.unit}" }}')
     unknown = sorted(entry.keys() - set(Number.model_fields))
     if unknown:
         raise InputFault(f"{place}.{shown(unknown[0])}: there is no such key{nearest(unknown[0], Number.model_fields, 1)}")

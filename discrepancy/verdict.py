@@ -18,6 +18,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.model_file import ModelFile
+from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
@@ -47,7 +48,10 @@ class Answer:
         most, members = self.doctor.settings.most_effects, self.diagnosis.fits.members
         if members and len(members[0].candidates) >= most:
             return f"beyond the {most} effects that are looked for at once: add what is named and diagnose again"
-        return f"that no {'further ' if members else ''}effect of the catalogue explains"
+        if not members:
+            return "that no effect of the catalogue explains"
+        # Others may do so together, or with numbers that a diagnosis holds: only what was tried is said.
+        return f"that none of the effects tried beside {'it' if len(members[0].candidates) == 1 else 'them'} explains"
 
     def in_si(self) -> dict[str, Any]:
         """Everything in SI units and by the names that kernels have: what programs of this project go on with."""
@@ -118,7 +122,7 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
 
 def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, figures: list[KeyFigure]) -> Answer:
     """A diagnosis with its effects by name, and the law where none is named."""
-    effects = effects_of(found, doctor)
+    effects = placed(effects_of(found, doctor), model, found)
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
     beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"

@@ -6,6 +6,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.other_places import place_of
 from discrepancy.scales import of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
@@ -13,6 +14,12 @@ from discrepancy.verdict import Answer
 NEARLY_ALL = 0.95
 MOST_NAMED = 3
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+
+
+def variant_text(effect: dict[str, Any]) -> str:
+    """Which form of an effect it is, and at which part; empty where there is but one."""
+    forms = str(effect.get("variant", "")).replace("_", " ")
+    return str(effect.get("place") or "") if " + " not in forms and effect.get("place") else forms
 
 
 def share_text(answer: Answer, share: float) -> str:
@@ -57,13 +64,14 @@ def stand_ins(answer: Answer) -> dict[str, str]:
 
 
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
-    """The rivals that are no stand-ins; beside several effects a rival alone is held against all of them."""
+    """The rivals that are no stand-ins, with the part at which they were tried; beside several effects a rival alone is held against all of them."""
+    rejected = [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
     if not fitted_together(answer):
-        return answer.diagnosis.rejected
+        return rejected
     standing = {name for others in answer.diagnosis.alternatives.values() for name in others}
     return [
         r | ({"reason": f"alone {r['reason']} than all that is named"} if r["chi2_difference"] is not None else {})
-        for r in answer.diagnosis.rejected
+        for r in rejected
         if r["name"] not in standing
     ]
 
@@ -119,6 +127,13 @@ def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:
     return before is not None and by_unused_runs(answer, effect) and not below_noise(answer, effect) and before > WITHIN_NOISE and after < BETTER * before
 
 
+def not_judged_text(answer: Answer) -> str:
+    """Why an error is that of conditions left out in turn, and not of runs that were held out."""
+    if not answer.diagnosis.fits.space.held_out:
+        return "no run is held out"
+    return f"the runs that are held out are not judged{' yet' if answer.verdict == STOPPED else ''}"
+
+
 def error_text(answer: Answer, effect: dict[str, Any]) -> str:
     """The error on what was not fitted, before and after, and what it is measured in; empty without one."""
     before, after = effect["held_out_error_before"], effect["held_out_error_after"]
@@ -126,7 +141,7 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
         return ""
     change = f"{before:.2f} -> {after:.2f}"
     if not by_unused_runs(answer, effect):
-        return f"no run is held out; leaving out one condition at a time: error {change} times the noise"
+        return f"{not_judged_text(answer)}; leaving out one condition at a time: error {change} times the noise"
     if not below_noise(answer, effect):
         return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit"
     units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}

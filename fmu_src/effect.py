@@ -13,6 +13,7 @@ All effects of a unit are composed into one module, so that the compiler sees pl
 
 import importlib
 import linecache
+import math
 import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
@@ -27,6 +28,7 @@ from fmu_src.variables import Variable
 
 # In a unit's ``ALLOWED``, for hooks that may set the effect's own states.
 OWN_STATES = {OWN: "="}
+TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,8 @@ class EffectParameter:
     ``kind`` is ``amplitude`` (the effect vanishes when all of them stand at their start
     value), ``shape`` (says how it acts, nothing by itself) or ``choice`` (which part it
     sits on; not estimated).  ``scale`` is a typical size, ``sign`` +1 or -1 where only one
-    side of the start value makes sense, ``grid`` the values at which a search looks.
+    side of the start value makes sense, ``grid`` the values at which a search looks and from which
+    it goes on; a shape without is held at its start.
     Amplitudes of one ``group`` are looked for together, with the shapes of that group and those of none.
     """
 
@@ -46,6 +49,16 @@ class EffectParameter:
     sign: int = 0
     grid: tuple[float, ...] = ()
     group: str = ""
+    part: str = ""
+
+    @property
+    def is_held(self) -> bool:
+        """Whether no search changes it, although it says how the effect acts."""
+        return self.kind == "shape" and not self.grid
+
+    @property
+    def told_kind(self) -> str:
+        return f"{self.kind}, held" if self.is_held else self.kind
 
 
 @dataclass(frozen=True)
@@ -99,21 +112,40 @@ def amplitude(
 
 def shape(
     name: str, unit: str, text: str, start: float, low: float, high: float, source: str, grid: Iterable[float] = (), group: str = "",
-    display: str = "",
+    display: str = "", held: bool = False,
 ) -> EffectParameter:  # fmt: skip
-    """A parameter that says how an effect acts once it is on; ``group`` names one group or several."""
+    """A parameter that says how an effect acts once it is on; ``group`` names one group or several.
+
+    It is fitted with the amplitudes, from the value of ``grid`` that explains most (without: ``usual_grid``), unless it is ``held``.
+    """
     variable = Variable(name, "parameter", unit, text, start, minimum=low, maximum=high, nominal=abs(start) or 1.0,
                         source=source, display=display)
     # A phase of 0 has no size of its own.
     scale = abs(start) or (0.3 if unit == "rad" else 0.1 * (high - low))
-    return EffectParameter(variable, "shape", scale, 0, tuple(grid), group)
+    values = () if held else tuple(grid) or usual_grid(unit, start, low, high)
+    return EffectParameter(variable, "shape", scale, 0, values, group)
 
 
-def choice(name: str, text: str, start: int = 1, low: int = 1, high: int = 400) -> EffectParameter:
-    """Which part an effect sits on, counted from 1."""
+def usual_grid(unit: str, start: float, low: float, high: float) -> tuple[float, ...]:
+    """Where a search looks for a shape of which nothing more is said, within its bounds.
+
+    An angle that may go all round: quarters of a turn; else the start, a third and three times of it; about 0 a tenth of the bounds to
+    either side.
+    """
+    if unit == "rad" and high - low > 0.99 * TURN:
+        values = [start + quarter * TURN / 4.0 for quarter in range(-3, 4)]
+        return tuple(v for v in values if low <= v <= high)[:4]
+    step = 0.1 * (high - low)
+    values = [start / 3.0, start, 3.0 * start] if start else [-step, 0.0, step]
+    return tuple(v for v in values if low <= v <= high)
+
+
+def choice(name: str, text: str, start: int = 1, low: int = 1, high: int = 400, part: str = "", group: str = "") -> EffectParameter:
+    """Which part an effect sits on, counted from 1: a ``part``, ``disc`` or ``crank``, if a diagnosis is to say it; of the groups of amplitudes
+    that begin with ``group``."""
     variable = Variable(name, "parameter", "1", text, start, minimum=low, maximum=high, integer=True,
                         source="assumed: the first")
-    return EffectParameter(variable, "choice")
+    return EffectParameter(variable, "choice", group=group, part=part)
 
 
 def effect_modules(package: str) -> dict[str, ModuleType]:

@@ -18,6 +18,16 @@ class MissingPart(InputFault):
 
     def __init__(self, what: str, package: str, part: str):
         super().__init__(f'{what} needs {package}, which is not installed: pip install "rvwear[{part}]"')
+        self.what, self.package, self.part = what, package, part
+
+
+class MissingParts(InputFault):
+    """Several of them, so that one installation brings them all."""
+
+    def __init__(self, missing: Iterable[MissingPart]):
+        missing = list(missing)
+        needs = ", ".join(f"{one.what} needs {one.package}" for one in missing)
+        super().__init__(f'{needs}, which are not installed: pip install "rvwear[{",".join(dict.fromkeys(one.part for one in missing))}]"')
 
 
 class RunFault(RuntimeError):

@@ -65,7 +65,7 @@ def variable_table(variables: list[Variable]) -> str:
     for v in variables:
         shape = f"[{', '.join(f'{a} 1..{n}' for a, n in v.seen_axes)}]" if v.shape else ""
         start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
-        bounds = ", ".join(v.choices) if v.choices else f"{v.minimum:.4g} to {v.maximum:.4g}"
+        bounds = v.numbered_choices if v.choices else f"{v.minimum:.4g} to {v.maximum:.4g}"
         cells = (v.unit, display_unit(v), start, bounds, v.description, v.source)
         rows.append(f"<tr><td><code>{escape(v.path)}</code>{escape(shape)}" + "".join(f"<td>{escape(c)}" for c in cells))
     return "<table>" + "\n".join(rows) + "</table>"

@@ -86,6 +86,11 @@ class Variable:
                 object.__setattr__(self, name, value)
 
     @property
+    def numbered_choices(self) -> str:
+        """What an importer sets by number and people by word: ``0 quasi-static, 1 dynamic``."""
+        return ", ".join(f"{number} {name}" for number, name in enumerate(self.choices))
+
+    @property
     def is_integer(self) -> bool:
         return self.integer or bool(self.choices)
 

@@ -21,7 +21,7 @@ from fmu_src import references
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.manifest import FORMAT, MANIFEST, hashes, made_with
 from fmu_src.package import build_fmu, build_native, build_source
-from fmu_src.source_hash import STAMP, source_hash
+from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, source_hash, user_effect_files
 
 # Of OpenSSH's signatures: any file.
 NAMESPACE = "file"
@@ -155,7 +155,7 @@ def check_rebuild(path: Path, files: dict[str, bytes], findings: Findings, compl
         maker = stamp.get("made_by", {}).get("version", "unknown")
         findings.problems.append((
             "sources", f"it cannot be built anew here: it was made from sources {stamp['source_hash'][:16]} (version {maker}),"
-            f" installed are {source_hash()[:16]}; verify with those (RVWEAR_EFFECTS included), or leave it out: --no-rebuild",
+            f" installed are {source_hash()[:16]}; verify with {needed(files, maker)}, or leave the rebuild out: --no-rebuild",
         ))  # fmt: skip
         return
     with tempfile.TemporaryDirectory() as temporary:
@@ -176,6 +176,17 @@ def check_rebuild(path: Path, files: dict[str, bytes], findings: Findings, compl
         findings.notes.append("a rebuild gives the same members; the archive around them was packed otherwise")
     elif differing := tools_that_differ(files):
         findings.notes.append(f"tools differ: {differing}; bytes are those of a build with the same ones")
+
+
+def needed(files: dict[str, bytes], maker: str) -> str:
+    """What a rebuild lacks here: effects of somebody's own that the unit has, or else the version that built it."""
+    have = {file.stem for package in KERNEL_PACKAGES for file in (ROOT / package / "effects").glob("*.py")}
+    have |= {file.stem for package in KERNEL_PACKAGES for _, file in user_effect_files(package)}
+    carried = {name.decode() for name in re.findall(rb'name="effects\.(\w+)\.', files.get("modelDescription.xml", b""))}
+    own = sorted(carried - have)
+    if not own:
+        return f"those (version {maker}, {USER_EFFECTS} if there were own effects)"
+    return f"{USER_EFFECTS}=DIR, the folder of its own effect{'s' if len(own) > 1 else ''} {', '.join(own)}"
 
 
 def is_reference(name: str) -> bool:

@@ -20,6 +20,8 @@ from orchestrator.component import Component, Signal
 # Signs of a setting (assumed: names and units have a fraction of it).
 LONGEST = 500
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
+# A decimal comma, or a thousands sign.
+COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(.*?)\s*$")
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,7 @@ def parse_value(text: str, variable: Variable | Signal) -> float | int:
         if text not in variable.choices:
             raise InputFault(f"{variable_name(variable)} takes one of: {', '.join(variable.choices)}")
         return variable.choices.index(text)
+    require_point(text)
     match = NUMBER.match(text)
     if not match:
         raise InputFault(f"{text!r} is not a number with a unit; {variable_name(variable)} is in {variable.unit}")
@@ -84,6 +87,14 @@ def parse_value(text: str, variable: Variable | Signal) -> float | int:
             raise InputFault(f"{variable_name(variable)} = {text} must be a whole number")
         return int(number)
     return number
+
+
+def require_point(text: str) -> None:
+    """InputFault for a number with a comma in it, with what is to be written."""
+    if found := COMMA.match(text):
+        whole, rest, unit = found.groups()
+        meant = f"{whole}.{rest}{unit}" if len(rest) != 3 else f"{whole}{rest}{unit}, or {whole}.{rest}{unit}"
+        raise InputFault(f"{text.strip()!r} has a comma in its number; write {meant}")
 
 
 def variable_name(variable: Variable | Signal) -> str:

@@ -11,6 +11,7 @@ from fmu_src.units import conversion
 from reducers.completion.complete import UNITS, ring_doubt
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import Given
+from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
 from reducers.reducer import Reducer, numbers_of
 from reducers.usual import DERIVED, USUAL, stale
 from rv_plant.gear_stage import total_ratio
@@ -64,12 +65,18 @@ class Check:
     faults: list[str]
     doubts: list[str]
     figures: dict[str, float]
-    # The command that completes what is rigid; empty where nothing is.
+    # The command that completes what is rigid or does not rub; empty where nothing is missing.
     completing: str = ""
 
 
 # Compliances that are zero unless somebody states them.
 RIGID = ("crank.support_compliance", "carrier.bearing_compliance", "carrier.compliance", "housing.compliance", "first_stage.compliance")
+
+# Friction and drag that are zero unless somebody states them, each with the dial of the completion: the number itself, or its share of the rated
+# torque at the input.
+RUBBING = {
+    "mesh.friction": "mesh.friction", "roller.friction": "roller.friction", "input.seal_torque": "seal_share", "input.churning_torque": "churning_share",
+}  # fmt: skip
 
 
 def check(reducer: Reducer) -> Check:
@@ -94,7 +101,19 @@ def check(reducer: Reducer) -> Check:
     rigid = [name for name in RIGID if n.get(name, 0.0) == 0.0] if not faults else []
     if rigid:
         doubts.append(f"{', '.join(rigid)}: not stated, and so rigid: a real reducer is several times softer, and looser")
-    return Check(reducer, numbers(reducer), faults, doubts, figures, completing(reducer, n, figures["ratio"]) if rigid else "")
+    smooth = [name for name in RUBBING if n.get(name, 0.0) == 0.0] if not faults else []
+    if smooth:
+        usual = ", ".join(usual_losses(name, abs(n["output.load_torque"]) / max(figures["ratio"], 1.0)) for name in smooth)
+        names = ", ".join(smooth)
+        doubts.append(f"{names}: not stated, and so without losses there: efficiency is too high, loops are too narrow; usual are {usual}")
+    return Check(reducer, numbers(reducer), faults, doubts, figures, completing(reducer, n, figures["ratio"]) if rigid or smooth else "")
+
+
+def usual_losses(name: str, at_input: float) -> str:
+    """A number of ``RUBBING`` with its usual range; ``at_input`` is the rated torque at the input [N m]."""
+    dial = next(d for d in (*SUPPORT_DIALS, *SUPPORT_ASSUMED) if d.name == RUBBING[name])
+    of, unit = (1.0, "") if dial.name == name else (at_input, " N.m")
+    return f"{name} {of * dial.low:.2g} to {of * dial.high:.2g}{unit}"
 
 
 def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:

@@ -12,7 +12,8 @@ HEAD = """# Variables of the units
 Each stands beside the kernels that need it; `rv_plant/variables.py`, `wear_fmu/variables.py` and `rv_reducer/variables.py`
 gather them. With the numbers of RV20E-121: `python -m reducers.documentation > docs/variables.md`. Arrays are scalars named `mesh.force[1,7]` in FMI 2.0,
 counted from 1; a scalar given for an array fills it. Tools show a value in the unit of the column "shown in", which stands in the
-description as its displayUnit; it is exchanged in its own. Locals may be looked at and recorded; nothing is connected to them.
+description as its displayUnit; it is exchanged in its own. Of a choice files and settings take the word, importers the number before it.
+Locals may be looked at and recorded; nothing is connected to them.
 
 The last column is what kernels call a variable, what result files (NetCDF) call what they keep of it, and what `component.get` and `set` take in
 Python. Up to version 0.2 files and tools had these names too; in files and settings they go on working through version 0.3, with a
@@ -35,7 +36,7 @@ def markdown(variables: list[Variable]) -> str:
             continue
         shape = f"[{', '.join(f'{a} 1..{n}' for a, n in v.seen_axes)}]" if v.shape else ""
         start = v.choices[int(v.start)] if v.choices else f"{v.start:.6g}"
-        text = v.description + (f" ({', '.join(v.choices)})" if v.choices else "")
+        text = v.description + (f" ({v.numbered_choices})" if v.choices else "")
         cells = (f"`{v.path}`{shape}", "local" if v.profile else v.role, v.unit, display_unit(v), start, text, v.source, f"`{v.name}`")
         rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows) + "\n"

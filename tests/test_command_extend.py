@@ -11,7 +11,7 @@ from cli.main import main, parser
 from discrepancy import extend as extension
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
-from discrepancy.inference.verdict import INCOMPLETE, NONE, SET
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, UNKNOWN
 from discrepancy.model_file import load_model
 from discrepancy.problem import Candidate
 from fmu_src.faults import InputFault
@@ -21,10 +21,11 @@ def options(*arguments: str) -> argparse.Namespace:
     return parser().parse_args(["extend", "RV20E-121", "my bench", *arguments])
 
 
-def answer_of(verdict, names, rejected=(), laws=()):
+def answer_of(verdict, names, rejected=(), laws=(), off=()):
     effects = [{"name": n.partition(".")[0], "candidates": [n]} for n in names]
-    diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected])
-    return SimpleNamespace(verdict=verdict, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws)
+    diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected], base_off=[SimpleNamespace(name=n, explains=e) for n, e in off])
+    model = SimpleNamespace(campaign=SimpleNamespace(reducer=None))
+    return SimpleNamespace(verdict=verdict, model=model, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws)
 
 
 def lines(text: str) -> list[str]:
@@ -55,6 +56,25 @@ def test_a_recovered_law_has_the_line_that_drafts_it():
     *_, line = lines(commands.refusal(options("--output", "better.toml"), answer_of(INCOMPLETE, ["drag"], laws=[law])))
     again = parser().parse_args(shlex.split(line)[1:])
     assert (again.draft, again.output, again.effect) == ("effects", "better.toml", None)
+
+
+@pytest.mark.parametrize(("verdict", "names", "off", "asked"), [
+    (INCOMPLETE, ["drag", "backlash"], [("mesh_friction", 9.0)], ["drag", "backlash", "base.mesh_friction"]),
+    (BASE_OFF, [], [("mesh_friction", 9.0), ("declared", None)], ["base.mesh_friction"]), (ONE, ["drag"], [], None),
+])  # fmt: skip
+def test_the_line_after_a_diagnosis_is_not_refused(verdict, names, off, asked):
+    given = parser().parse_args(["diagnose", "RV20E-121", "my bench", "--data", "d"])
+    line = commands.line_after(given, answer_of(verdict, names, off=off)).partition(" #")[0]
+    again = parser().parse_args(shlex.split(line)[1:])
+    # Without names ``extend`` adds what is sure, and nothing else.
+    assert (again.effect, again.output, again.data, again.campaign) == (asked, "better.toml", "d", "my bench")
+
+
+def test_where_nothing_can_be_added_no_line_says_so():
+    given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
+    assert commands.line_after(given, answer_of(BASE_OFF, [], off=[("declared", None)])) == ""
+    assert commands.line_after(given, answer_of(UNKNOWN, [])).startswith("rvwear next RV20E-121 'my bench'")
+    assert "--draft effects" in commands.line_after(given, answer_of(UNKNOWN, [], laws=[SimpleNamespace(forms=["linear"])]))
 
 
 def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):

@@ -36,6 +36,8 @@ def said(capsys, *arguments):
     (["life", "--hours", "-3"], "rvwear life: --hours: hours = -3.0: a positive finite number is needed"),
     (["life", "--hours", "2kg"], "rvwear life: argument --hours: the number = 2 kg: unit 'kg' does not fit"),
     (["run", "x.ssp", "--duration", "long"], "rvwear run: argument --duration: 'long' is no number; give one in s, or with another unit of its kind"),
+    (["solve", "--torque", "1,5"], "rvwear solve: --torque 1,5: setting 'output.load_torque=1,5': '1,5' has a comma in its number; write 1.5"),
+    (["life", "--hours", "1,000"], "rvwear life: argument --hours: '1,000' has a comma in its number; write 1000, or 1.000"),
     (["reducer", "new", "--pins", "39.5"], "rvwear reducer new: argument --pins: '39.5': a whole number is needed"),
     (["dynamics-wear", "--limit", "3%"], "rvwear dynamics-wear: argument --limit: '3%': a number is needed, without a unit"),
     (["effects", "fricton"], "rvwear effects: no effect 'fricton'; did you mean drive_friction"),

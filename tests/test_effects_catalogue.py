@@ -65,7 +65,10 @@ def test_list(capsys):
 
 def test_one_effect_by_number_and_by_name(capsys):
     assert run("21") == 0
-    assert "housing force order 39" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "housing force order 39" in shown and "Figures are those of RV20E-121-rigid (rigid supports" in shown
+    assert run("unbalance", "--reducer", "BX-40E", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["reducer"] == "BX-40E"
     assert run("unbalance", "--json") == 0
     rows = json.loads(capsys.readouterr().out)["computed"][0]["rows"]
     row = next(r for r in rows if r["figure"] == "housing force order 39" and r["condition"] == "speed 200 %")

@@ -351,3 +351,30 @@ def test_an_effect_of_ones_own_goes_into_the_fmus(tmp_path):
     assert done.returncode == 0, done.stderr
     in_process, *as_fmus = done.stdout.split()
     assert as_fmus and set(as_fmus) == {in_process}
+
+
+LAW = """import math
+from fmu_src.effect import Effect, amplitude, shape
+from fmu_src.kernel import kernel
+
+EFFECT = Effect(
+    0, "lip", "T = a exp(-n/n0)", "own bench", "falls with speed",
+    (amplitude("lip_torque", "N.m", "a", 0.1, 0.0, 5.0, sign=1), shape("lip_speed", "rad/s", "n0", 30.0, 12.0, 300.0, "assumed"),
+     shape("lip_power", "1", "p", 1.0, 0.5, 2.0, "known", held=True)),
+    signals=("input_torque",),
+)
+
+
+@kernel
+def after(r):
+    speed = abs(r.input_speed)
+    r.friction_power += r.lip_torque * math.exp(-((speed / r.lip_speed) ** r.lip_power)) * speed
+"""
+
+
+def test_check_says_which_shapes_a_diagnosis_fits(tmp_path, capsys):
+    assert main(["effects", "--check", str(written(tmp_path, LAW, name="lip"))]) == 0
+    said = capsys.readouterr().out
+    # A third of the start lies below the bounds.
+    assert "lip_speed is fitted within 12 to 300 rad/s, from 30, 90" in said
+    assert "lip_power is held at 1 1, not fitted: held=True" not in said and "lip_power is held at 1, not fitted: held=True" in said

@@ -80,6 +80,7 @@ def found(tmp_path_factory):
     commands["platforms"] = ["build", "--all-platforms"]
     commands["sheet"] = ["hysteresis", "--export", "a.xlsx"]
     commands["picture"] = ["hysteresis", "--picture", "a.svg"]
+    commands["both"] = ["hysteresis", "--picture", "a.svg", "--export", "a.parquet", "--export", "a.xlsx", "--export", "b.xlsx"]
     commands["solve"] = ["solve", "--positions", "8"]
     commands["effects"] = ["effects"]
     return dict(zip(commands, without_parts(folder, *commands.values()), strict=True)) | {"folder": folder}
@@ -96,6 +97,12 @@ def test_a_missing_part_is_asked_for_by_name(found, command, package, part):
     assert code == 2
     assert package in text and f'pip install "rvwear[{part}]"' in text
     assert "Traceback" not in text
+
+
+def test_all_that_a_command_lacks_is_named_at_once(found):
+    code, text = found["both"]
+    assert code == 2 and 'pip install "rvwear[measurements,pictures]"' in text
+    assert "--export a.parquet needs pyarrow, --export a.xlsx needs openpyxl, --picture a.svg needs matplotlib" in " ".join(text.split())
 
 
 def test_nothing_is_written_before_the_part_is_missed(found):

@@ -11,11 +11,12 @@ from cli.show.comparison import show_asked
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun, describe, possible, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.verdict import Answer
 from reducers.reducer import load_reducer
 
 RIG = Rig({"speed": (52.36, 314.2), "load": (0.0, 167.0), "temperature": (293.15, 333.15), "hours": (3.6e5, 3.6e7)}, (1,), (), (), 100.0, 1.0, 0.0, "EUR")
@@ -106,6 +107,17 @@ def test_after_incomplete_or_unknown_something_is_left(verdict, members, capsys)
     told = " ".join(capsys.readouterr().out.split())
     assert all(text in told for text in ("mass_loss[part=disc] at 94 N.m", "all else as test; cost 200 EUR; expected misfit 30 in chi-square"))
     assert proposal_for(answer_of(verdict, members), CAMPAIGN).open
+
+
+@pytest.mark.parametrize(("names", "said"), [
+    ([], "that no effect of the catalogue explains"), (["drag"], "that none of the effects tried beside it explains"),
+    (["drag", "play"], "that none of the effects tried beside them explains"),
+    (["drag", "play", "gain"], "beyond the 3 effects that are looked for at once: add what is named and diagnose again"),
+])  # fmt: skip
+def test_of_what_is_left_only_what_was_tried_is_said(names, said):
+    members = [SimpleNamespace(candidates=names)] if names else []
+    answer = SimpleNamespace(doctor=SimpleNamespace(settings=Settings()), diagnosis=SimpleNamespace(fits=SimpleNamespace(members=members)))
+    assert Answer.left_over.fget(answer) == said
 
 
 def test_nothing_is_left_after_one_effect_or_none():

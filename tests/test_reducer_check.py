@@ -101,6 +101,18 @@ def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
         assert numbers_of(completed.reducer)[name] == pytest.approx(stated[name], rel=1e-6)
 
 
+def test_friction_and_drag_that_nobody_stated_are_doubted(capsys):
+    smooth = check(load_reducer("RV20E-121-rigid"))
+    (said,) = [text for text in smooth.doubts if "without losses" in text]
+    # 3.5 % of 1.38 N m at the input is what RV20E-121 has of each.
+    assert said.startswith("mesh.friction, roller.friction, input.seal_torque, input.churning_torque: not stated")
+    assert "mesh.friction 0.04 to 0.1, roller.friction 0.002 to 0.005, input.seal_torque 0.028 to 0.083 N.m" in said and smooth.completing
+    real = load_reducer("RV20E-121")
+    assert not any("without losses" in text for text in check(real).doubts)
+    dry = check(replace(real, starts={**real.starts, "input_seal_torque": 0.0}))
+    assert [text.partition(":")[0] for text in dry.doubts] == ["input.seal_torque"] and dry.completing
+
+
 def test_what_is_usual_is_what_the_completion_takes():
     assert set(usual()) < FILLED and all(one.source.startswith("usual: ") for one in usual().values())
 

@@ -12,7 +12,7 @@ from cli.screen import console, figures, styled
 from cli.show import comparison as shows
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
 from discrepancy.next_run import NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
 from discrepancy.wording import error_text, is_shown, left_text, share_text, tone
@@ -108,6 +108,13 @@ def test_only_what_unused_runs_show_is_good():
     alone = answer_of(ONE, False, kind="leave one condition out")
     assert tone(alone) == "fair" and "no run is held out" in error_text(alone, alone.effects[0])
     assert tone(answer_of(ONE, True, rms, after=27.9)) == "fair"
+
+
+def test_a_stopped_diagnosis_does_not_deny_that_runs_are_held_out():
+    stopped = answer_of(STOPPED, True, kind="leave one condition out")
+    assert error_text(stopped, stopped.effects[0]) == (
+        "the runs that are held out are not judged yet; leaving out one condition at a time: error 28.00 -> 1.20 times the noise"
+    )
     assert tone(answer_of(NONE, True)) == "good" and tone(answer_of(NONE, False)) == "plain"
 
 

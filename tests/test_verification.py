@@ -7,10 +7,11 @@ import zipfile
 
 import pytest
 
+from cli.commands.fmu import verdict
 from cli.main import main
 from fmu_src.manifest import MANIFEST
 from fmu_src.package import build_source, write_archive
-from fmu_src.verification import verify
+from fmu_src.verification import Findings, needed, verify
 from studies.reference_material import add_references
 
 ssh = pytest.mark.skipif(shutil.which("ssh-keygen") is None, reason="no ssh-keygen")
@@ -122,6 +123,14 @@ def test_of_other_sources_is_not_built_anew(fmu, capsys):
     write_archive(files | {"resources/unit.json": json.dumps(stamp).encode()}, fmu)
     code, _, problems = verified(capsys, fmu)
     assert code == 1 and "made from sources ffffffffffffffff" in problems["sources"] and "--no-rebuild" in problems["sources"]
+    assert "RVWEAR_EFFECTS if there were own effects" in problems["sources"]
+    # The last line frightens nobody, and of one's own effects says which.
+    description = files["modelDescription.xml"].replace(b'name="effects.edge_loading.', b'name="effects.my_own.')
+    assert description != files["modelDescription.xml"] and needed({"modelDescription.xml": description}, "0").endswith("effect my_own")
+    assert main(["fmu", "verify", str(fmu)]) == 1
+    said = capsys.readouterr().out
+    assert said.splitlines()[-1].endswith("could not be built anew here; verify again as said above") and "not looked at (sources)" in said
+    assert verdict(Findings(problems=[("sources", "text"), ("changed", "text")])) == "NOT VERIFIED"
 
 
 def test_strangers_fmu_and_no_fmu(tmp_path, spring, capsys):

@@ -182,20 +182,24 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 
 def line_after(options: argparse.Namespace, answer: "Answer") -> str:
-    """The command with which one goes on from a diagnosis; empty where nothing is missing."""
+    """The command with which one goes on from a diagnosis; empty where nothing is missing, or nothing that a command could add."""
     from discrepancy.compare import another_reducer
-    from discrepancy.inference.verdict import BASE_OFF, NONE, SET, UNKNOWN
+    from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
-    if answer.verdict == NONE:
+    if answer.verdict == NONE or (answer.verdict == BASE_OFF and not numbers_of(answer)):
         return ""
     data = ["--data", options.data] if options.data else []
     if named := another_reducer(answer.model):
         words = ["rvwear", "diagnose", named.name if named.is_of_library else str(named.path), options.campaign, *data]
         return f"{shlex.join(words)}    # the reducer that the campaign names"
+    # What is not sure is added by name alone.
+    by_name = [word for name in named_in(answer) for word in ("--effect", name)]
+    drafted = "extend", ["--draft", "effects"], "makes an effect of what is recovered"
     command, more, what = {
         SET: ("next", [], "the measurement that tells them apart"),
-        UNKNOWN: ("extend", ["--draft", "effects"], "makes an effect of what is recovered"),
-        BASE_OFF: ("extend", ["--output", "better.toml"], "corrects the base model"),
+        UNKNOWN: drafted if law_with_a_form(answer) else ("next", [], "where to measure more of it"),
+        BASE_OFF: ("extend", [*by_name, "--output", "better.toml"], "corrects the base model"),
+        INCOMPLETE: ("extend", [*by_name, "--output", "better.toml"], "adds what is named, and judges it on runs that were not used"),
     }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
@@ -225,7 +229,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             answer = diagnosed(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             raise InputFault(refusal(options, answer))
-        names = [candidate for effect in answer.effects for candidate in effect["candidates"]] + numbers_of(answer)
+        names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
         try:
             extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=remembered(file, campaign, jobs=all_cores()))
@@ -273,6 +277,11 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         return f"{start}; no effect of the catalogue shows in what was measured{drafted}"
     what = "what is named all the same" if named else "what comes nearest all the same"
     return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}{drafted}"
+
+
+def named_in(answer: "Answer") -> list[str]:
+    """Candidates of all that a diagnosis names: effects, and numbers of the base model beside them."""
+    return [candidate for effect in answer.effects for candidate in effect["candidates"]] + numbers_of(answer)
 
 
 def numbers_of(answer: "Answer") -> list[str]:
@@ -329,8 +338,11 @@ def run_next(options: argparse.Namespace) -> int:
         json_text(run.as_json())
     else:
         show_next(run)
-        if run.answer.verdict != SET and (run.asked or not run.result) and (line := line_after(options, run.answer)):
-            print(f"\nnext  {line}")
+        line = line_after(options, run.answer) if run.asked or not run.result else ""
+        # What asks for this command again is no way on.
+        if run.answer.verdict != SET and (line or run.asked):
+            if line and not line.startswith("rvwear next "):
+                print(f"\nnext  {line}")
             if run.asked:
                 print(f"then  {shlex.join(['rvwear', 'next', options.model, options.campaign])}    # with the new runs in it: it diagnoses anew")
     say_page(options)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     effects = sub.add_parser("effects", help="what a real reducer may do beyond the ideal one, and how it shows")
     effects.add_argument("name", nargs="?", metavar="NAME", help="effect to explain, by name or number, or a word to look for: friction (default: list all)")
-    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER})", IDEAL_REDUCER)
+    add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER}: rigid, without losses; other commands: RV20E-121)", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
     effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own, or folders of them: what is wrong, and where")
@@ -39,10 +39,10 @@ def run_effects(options: argparse.Namespace) -> int:
     if page:
         computed = write_page(chosen, options.reducer, page)
     if options.json:
-        found = [e.as_json() | {"computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
+        found = [e.as_json() | {"reducer": options.reducer, "computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
         json_text(found[0] if one else {"effects": found})
     elif one and not page:
-        show_one(chosen[0], computed[chosen[0].name])
+        show_one(chosen[0], computed[chosen[0].name], options.reducer)
     elif not page:
         show_list(chosen, options.name)
     if page and not options.json:
@@ -73,8 +73,22 @@ def check_files(files: list[Path], as_json: bool) -> int:
         json_text({"findings": shown})
     else:
         for name, found in findings.items():
-            print("\n".join(map(str, found)) if found else f"{name}: nothing wrong")
+            print("\n".join(map(str, found)) if found else "\n".join([f"{name}: nothing wrong", *(f"  {text}" for text in of_shapes(Path(name)))]))
     return 2 if any(findings.values()) else 0
+
+
+def of_shapes(file: Path) -> list[str]:
+    """Of each shape of a sound effect whether a diagnosis fits it."""
+    from fmu_src.effect_check import imported
+
+    module, texts = imported(file.absolute(), file.absolute().parent.name)[0], []
+    for p in module.EFFECT.parameters if module else ():
+        v, unit = p.variable, "" if p.variable.unit == "1" else f" {p.variable.unit}"
+        if p.is_held:
+            texts.append(f"{v.name} is held at {float(v.start):g}{unit}, not fitted: held=True")
+        elif p.kind == "shape":
+            texts.append(f"{v.name} is fitted within {v.minimum:g} to {v.maximum:g}{unit}, from {', '.join(f'{value:g}' for value in p.grid)}")
+    return texts
 
 
 def tried(file: Path) -> "list[Finding]":
@@ -109,7 +123,7 @@ def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, li
         for e in chosen:
             shown.append((e, [signature(bench, e.name, case) for case in e.cases], figure(bench, e.name, e.cases)))
             drawing.advance()
-    written(page_of(shown), path)
+    written(page_of(shown, reducer), path)
     return {e.name: found for e, found, _ in shown}
 
 

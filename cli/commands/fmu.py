@@ -2,8 +2,12 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from cli.options import add_json
+
+if TYPE_CHECKING:
+    from fmu_src.verification import Findings
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -47,9 +51,18 @@ def run_verify(options: argparse.Namespace) -> int:
     for text in findings.notes:
         print(f"note: {text}")
     for kind, text in findings.problems:
-        print(f"differs ({kind}): {text}")
-    print(f"{options.file}: {'NOT VERIFIED' if findings.problems else 'verified'}")
+        print(f"{'not looked at' if kind == 'sources' else 'differs'} ({kind}): {text}")
+    print(f"{options.file}: {verdict(findings)}")
     return 1 if findings.problems else 0
+
+
+def verdict(findings: "Findings") -> str:
+    """The last line: what differs, what could not be looked at, or that all holds."""
+    if not findings.problems:
+        return "verified"
+    if {kind for kind, _ in findings.problems} == {"sources"}:
+        return "nothing was found changed, but it could not be built anew here; verify again as said above"
+    return "NOT VERIFIED"
 
 
 def run_sign(options: argparse.Namespace) -> int:

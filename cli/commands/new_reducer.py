@@ -32,7 +32,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--speed", type=number_in("rpm"), default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues)")
     new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
-    new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN", help="lost motion of the catalogue [arcmin] (default 1)")
+    new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN",
+                     help="lost motion of the catalogue [arcmin]: bounds the flanks' gaps, not the whole (default 1)")
     new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
         help="a number that was measured, with its unit: --known pin.radius=3mm; what hangs on it follows",

@@ -1,15 +1,18 @@
 """A checked reducer file on the screen."""
 
+from collections.abc import Mapping
+
 from cli.screen import WIDTH, console, dense, styled
 from reducers.checking import STATED, Check
 from reducers.completion.complete import COMPLETED
+from reducers.completion.known import FROM_OPTIONS
 
 
 def show(found: Check) -> None:
     """What nobody stated first, for it is what one may want to; then what does not fit."""
     out = console(WIDTH)
     filled = [n for n in found.numbers if n.kind != STATED]
-    out.print(f"{found.reducer.name}: {stated_words([n.source for n in found.numbers if n.kind == STATED])}, {len(filled)} filled in")
+    out.print(f"{found.reducer.name}: {stated_words({n.name: n.source for n in found.numbers if n.kind == STATED})}, {len(filled)} filled in")
     if filled:
         table = dense("not stated in the file")
         for head in ("number", "value", "unit", "range", "from"):
@@ -30,9 +33,11 @@ def show(found: Check) -> None:
         out.print("its parts fit each other" + (", but look at what is doubtful" if found.doubts else ""))
 
 
-def stated_words(sources: list[str]) -> str:
-    """How many numbers a file states, and how many of them by what else than a source of their own."""
-    assumed = sum("assumed" in source for source in sources)
-    by_rule = sum(source.startswith(COMPLETED) for source in sources) - sum(source.startswith(COMPLETED) and "assumed" in source for source in sources)
+def stated_words(sources: Mapping[str, str]) -> str:
+    """How many numbers a file states, by name, and how many of them by what else than a source of their own; what ratio, torque and speed say
+    of a completed file counts as given, as it does where it is completed."""
+    own = [source for name, source in sources.items() if name not in FROM_OPTIONS]
+    assumed = sum("assumed" in source for source in own)
+    by_rule = sum(source.startswith(COMPLETED) and "assumed" not in source for source in own)
     parts = [f"{count} {words}" for count, words in ((len(sources) - assumed - by_rule, "given"), (by_rule, "by rule"), (assumed, "assumed")) if count]
     return f"{len(sources)} numbers stated" + (f" ({', '.join(parts)})" if assumed or by_rule else "")

@@ -7,6 +7,7 @@ from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison, calibrated_text
 from discrepancy.extend import HELPED, Extension
+from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
@@ -14,7 +15,7 @@ from discrepancy.next_run import NextRun
 from discrepancy.scales import parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down
+from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down, variant_text
 
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
@@ -101,7 +102,7 @@ def show_answer(answer: Answer) -> None:
     for text in base_texts(answer):
         out.print(f"\nbase off: {text}")
     for effect in answer.effects:
-        variant = f" ({effect['variant'].replace('_', ' ')})" if effect["variant"] else ""
+        variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
         # Waves by their size, largest first: of ten numbers that is what one asks for.
         for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):
@@ -112,6 +113,8 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+        if held := held_text(effect["name"], answer.model):
+            out.print(f"  {held}")
         error = "" if fitted_together(answer) else error_text(answer, effect)
         if error:
             out.print(f"  {error}")
@@ -145,6 +148,9 @@ def show_extension(extension: Extension) -> None:
         where = "held out" if row["held_out"] else "fitted"
         before, after, noise = (shown(row[k], row["unit"], row["signal"]) for k in ("before", "after", "noise_floor"))
         out.print(f"  {row['signal']} ({where}): {before} -> {after}, noise {noise}")
+    for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
+        if held := held_text(name, extension.file):
+            out.print(f"  {name}: {held}")
 
 
 def show_ladder(file: ModelFile) -> None:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from cli.options import IDEAL_REDUCER
 from cli.screen import WIDTH, console, dense, styled
 from discrepancy.catalogue.catalogue import Entry
 
@@ -23,8 +24,8 @@ def show_list(entries: list[Entry], word: str | None = None) -> None:
     out.print("rvwear effects NAME explains one and computes its signature; --html FILE shows all in pictures")
 
 
-def show_one(entry: Entry, found: "list[Signature]") -> None:
-    """The explanation, its parameters, and what the bench shows."""
+def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
+    """The explanation, its parameters, and what the bench shows with a reducer."""
     from discrepancy.catalogue.signature import number
 
     out, e = console(WIDTH), entry.effect
@@ -36,14 +37,15 @@ def show_one(entry: Entry, found: "list[Signature]") -> None:
         table.add_column(head, justify="right" if head == "off or start" else "left", overflow="fold", no_wrap=head in ("name", "kind", "unit"))
     for p in e.parameters:
         v = p.variable
-        table.add_row(v.path, p.kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
+        table.add_row(v.path, p.told_kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
     out.print(table)
     for signature in found:
-        table = Table(title=f"computed: {signature.case.title}", title_justify="left")
+        table = Table(title=f"computed for {reducer}: {signature.case.title}", title_justify="left")
         for head in ("figure", "condition", "without", "with", "unit"):
             table.add_column(head, justify="right" if head.startswith("with") else "left")
         for row in signature.rows:
             if row.is_visible():
                 table.add_row(row.figure, row.condition, number(row.without), number(row.present), "" if row.unit == "1" else row.unit)
         out.print(table)
-    out.print("Figures that are not listed do not change.")
+    ideal = " (rigid supports, no losses, so that an effect shows by itself); --reducer RV20E-121 for one as soft and lossy as a real one"
+    out.print(f"Figures are those of {reducer}{ideal if reducer == IDEAL_REDUCER else ''}. Those that are not listed do not change.")

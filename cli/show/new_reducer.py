@@ -12,6 +12,7 @@ from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
 RULE = 19
+GAP = "disc.equidistant_modification"
 
 
 def show(completion: Completion, name: str, file: Path) -> None:
@@ -33,6 +34,13 @@ def show(completion: Completion, name: str, file: Path) -> None:
         f"given: {completion.given.in_words}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
         f" {assumed} are assumed; each stands in the file with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
     )
+    if not completion.numbers[GAP].is_given:
+        told = completion.given.lost_motion
+        console().print(
+            f"a lost motion of {told:g} arcmin bounds the gaps of the flanks alone (0 to {0.5 * told:g} arcmin each; {0.25 * told:g} and none are taken):"
+            f" clearance of the bearings, play of the first stage and friction come on top."
+            f" rvwear hysteresis --reducer {shlex.quote(str(file))} says the whole, --known {GAP}=... sets the gap"
+        )
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 

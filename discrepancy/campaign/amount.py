@@ -4,7 +4,7 @@ from typing import TypeGuard
 
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
-from orchestrator.settings import NUMBER
+from orchestrator.settings import NUMBER, require_point
 
 # Ways of writing that benches use and pint reads otherwise ("Nm" would be a count times a metre).
 SPELLINGS = {
@@ -27,6 +27,11 @@ def split(given: object, target: str, place: str) -> tuple[float, str]:
         return float(given["value"]), str(given["unit"])
     if target == "1" and is_number(given):
         return float(given), "1"
+    if isinstance(given, str):
+        try:
+            require_point(given)
+        except InputFault as fault:
+            raise InputFault(f"{place}: {fault}") from None
     match = NUMBER.match(given) if isinstance(given, str) else None
     if match and (match[2] or target == "1"):
         return float(match[1]), match[2] or "1"

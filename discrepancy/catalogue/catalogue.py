@@ -43,7 +43,7 @@ class Entry:
 def parameter_json(p: EffectParameter) -> dict[str, Any]:
     v = p.variable
     return {
-        "name": v.path, "kind": p.kind, "unit": v.unit, "off": float(v.start), "minimum": v.minimum, "maximum": v.maximum,
+        "name": v.path, "kind": p.kind, "held": p.is_held, "unit": v.unit, "off": float(v.start), "minimum": v.minimum, "maximum": v.maximum,
         "description": v.description, "source": v.source,
     }  # fmt: skip
 

@@ -68,7 +68,7 @@ EFFECT = Effect(
     0, "soft ring", "turning = c M", "own measurement", "linear in torque, both ways",
     (
         amplitude("seat_compliance", "rad/(N.m)", "c", 1e-7, 0.0, 1e-2, sign=1),
-        shape("seat_growth", "1/K", "growth of the pin circle with it", 1e-6, 0.0, 1e-4, "assumed"),
+        shape("seat_growth", "1/K", "growth of the pin circle with it", 1e-6, 0.0, 1e-4, "assumed", held=True),
     ),
     signals=("hysteresis", "lost_motion"),
 )
@@ -87,7 +87,14 @@ def before(r):
 
 `rvwear effects --check FILE` says what is wrong with it, with file and line; every command that uses it says the same before
 anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
-leading words that the effect's name has too. An effect must vanish at its amplitudes' off values. Its hooks, kernels of these names, are called
+leading words that the effect's name has too. An effect must vanish at its amplitudes' off values.
+
+A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without:
+start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
+measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` says
+of each shape which of the two it is.
+
+The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
 
 STAGES
@@ -152,7 +159,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.path}`", p.kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
+        (f"`{p.variable.path}`", p.told_kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((

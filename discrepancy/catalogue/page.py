@@ -10,6 +10,6 @@ from pages.render import rendered
 TEMPLATE = Path(__file__).with_name("catalogue.html")
 
 
-def page_of(effects: list[tuple[Entry, list[Signature], Figure]]) -> str:
-    """The whole page as HTML; equal content gives equal bytes."""
-    return rendered(TEMPLATE, [figure for _, _, figure in effects], effects=effects, words=words)
+def page_of(effects: list[tuple[Entry, list[Signature], Figure]], reducer: str) -> str:
+    """The whole page as HTML, with the figures of a reducer; equal content gives equal bytes."""
+    return rendered(TEMPLATE, [figure for _, _, figure in effects], effects=effects, words=words, reducer=reducer)

@@ -22,7 +22,7 @@ EFFECT = Effect(
     "one order of the output, locked to the encoder; independent of load, speed, temperature and time",
     (
         *(amplitude(f"distortion_{part}", "rad", f"{part} part", 1e-5, -1e-2, 1e-2) for part in ("cos", "sin")),
-        shape("distortion_order", "1", "m: screws round the encoder", 3.0, 1.0, 64.0, "assumed"),
+        shape("distortion_order", "1", "m: screws round the encoder", 3.0, 1.0, 64.0, "assumed", held=True),
     ),
     signals=("transmission_error",),
 )  # fmt: skip

@@ -26,10 +26,10 @@ EFFECT = Effect(
     (
         *(amplitude(f"ripple_{part}", "rad/(N.m)", f"slow turning per load torque, {part} of its order", 1e-9, -1e-5, 1e-5) for part in ("cos", "sin")),
         shape("ripple_order", "1", "k: its order of the output's turn", 156.0, 1.0, 1e4,
-              "assumed: four times a turn of the cranks that have 39 to one of the output"),
+              "assumed: four times a turn of the cranks that have 39 to one of the output", held=True),
         shape("ripple_frequency", "Hz", "f_0: frequency of the load on the drive's spring", 54.0, 0.5, 5000.0, "assumed: 10 to 100 Hz",
               grid=(28.0, 42.0, 54.0, 63.0, 95.0)),
-        shape("ripple_damping", "1", "z: its damping ratio", 0.01, 1e-3, 2.0, "assumed: 0.005 to 0.05"),
+        shape("ripple_damping", "1", "z: its damping ratio", 0.01, 1e-3, 2.0, "assumed: 0.005 to 0.05", held=True),
     ),
     signals=("transmission_error",),
 )  # fmt: skip

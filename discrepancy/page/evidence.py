@@ -3,6 +3,7 @@
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
@@ -10,7 +11,7 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, percent, together_text, turned_down
+from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -21,7 +22,8 @@ SHARES = "Share of the misfit explained"
 
 
 def named(effect: dict[str, Any]) -> str:
-    return words(effect["name"]) + (f" ({effect['variant'].replace('_', ' ')})" if effect.get("variant") else "")
+    variant = variant_text(effect)
+    return words(effect["name"]) + (f" ({variant})" if variant else "")
 
 
 def listed(names: list[str]) -> str:
@@ -49,6 +51,7 @@ def effects(answer: Answer) -> Section:
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
+    lead += "".join(f" {words(effect['name'])}: {held}." for effect in answer.effects if (held := held_text(effect["name"], answer.model)))
     return Section("effects", "Effects", lead, [shares(answer)] if answer.verdict != SET and answer.effects[0]["share_explained"] < 0.995 else [], [table])
 
 
@@ -92,7 +95,7 @@ def held_out(answer: Answer) -> Section:
     rows = answer.diagnosis.held_out
     left_out = any(v.get("kind") for v in rows.values())
     lead = (
-        "No run was held out: each condition was left out in turn."
+        f"{not_judged_text(answer).capitalize()}: each {'other ' if answer.diagnosis.fits.space.held_out else ''}condition was left out in turn."
         if left_out
         else (
             "Runs that no parameter was fitted to. 1 is what replicates differ by; the error is taken over the "

@@ -28,7 +28,7 @@ EFFECT = Effect(
                           group=f"crank {k}", needs=("cranks", k)),
             )
         ),
-        choice("lobe_error_disc", "disc at which the cranks' lobes have errors", 1, 1, 3),
+        choice("lobe_error_disc", "disc at which the cranks' lobes have errors", 1, 1, 3, part="disc", group="crank"),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

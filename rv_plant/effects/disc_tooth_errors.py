@@ -30,7 +30,7 @@ EFFECT = Effect(
         shape("disc_ovality_angle", "rad", "direction of the long axis of the oval discs", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
         amplitude("lobe_pitch_scatter", "m", "scatter of the pitch, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
-        shape("disc_pairing", "1", "0: both discs carry the same error, 1: opposed ones", 1.0, 0.0, 1.0, "assumed: unpaired"),
+        shape("disc_pairing", "1", "0: both discs carry the same error, 1: opposed ones", 1.0, 0.0, 1.0, "assumed: unpaired", held=True),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

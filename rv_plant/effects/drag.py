@@ -19,10 +19,10 @@ EFFECT = Effect(
     (
         amplitude("seal_torque", "N.m", "seals: constant torque at the input beyond the file's", 0.1, 0.0, 100.0, sign=1),
         amplitude("churning_torque", "N.m", "churning beyond the file's, at the reference speed and temperature", 0.1, 0.0, 100.0, sign=1),
-        shape("churning_speed", "rad/s", "input speed n_0 that the churning torque holds for", 209.44, 1e-3, 1e5, "2000 rpm"),
+        shape("churning_speed", "rad/s", "input speed n_0 that the churning torque holds for", 209.44, 1e-3, 1e5, "2000 rpm", held=True),
         shape("viscosity_slope", "1/K", "beta: relative fall of viscosity with temperature", 0.035, 0.0, 0.2,
               "assumed: mineral oil, halves in 20 K", grid=(0.02, 0.035, 0.05)),
-        shape("viscosity_reference", "K", "temperature T_0 that the churning torque holds for", 293.15, 200.0, 500.0, "assumed: room temperature"),
+        shape("viscosity_reference", "K", "temperature T_0 that the churning torque holds for", 293.15, 200.0, 500.0, "assumed: room temperature", held=True),
     ),
     signals=("input_torque", "efficiency", "no_load_torque", "temperature"),
 )

@@ -20,8 +20,8 @@ EFFECT = Effect(
     "slow change of friction, temperature and film with the hours run; restored when grease is changed",
     (
         amplitude("grease_ageing", "1", "g: log of the viscosity's change in the time t_a", 0.3, -5.0, 5.0),
-        shape("grease_life", "s", "t_a: time in which the grease ages", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h"),
-        shape("grease_age", "s", "hours since the grease was filled", 0.0, 0.0, 1e6 * HOUR, "new grease", display="h"),
+        shape("grease_life", "s", "t_a: time in which the grease ages", 10_000 * HOUR, 10 * HOUR, 1e6 * HOUR, "assumed: 2,000 to 20,000 h", held=True),
+        shape("grease_age", "s", "hours since the grease was filled", 0.0, 0.0, 1e6 * HOUR, "new grease", display="h", held=True),
     ),
     signals=("input_torque", "no_load_torque", "efficiency", "temperature"),
     also_in="wear_fmu",

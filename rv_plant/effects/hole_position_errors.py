@@ -27,10 +27,10 @@ EFFECT = Effect(
                           group=f"hole {k}", needs=("cranks", k)),
             )
         ),
-        choice("disc_hole_disc", "disc whose holes are out of place", 1, 1, 3),
+        choice("disc_hole_disc", "disc whose holes are out of place", 1, 1, 3, part="disc", group="hole"),
         amplitude("carrier_seat_shift", "m", "one crank's seat in the carrier along its circle", 3 * UM, -30 * UM, 30 * UM, group="carrier"),
         amplitude("carrier_seat_radial", "m", "one crank's seat in the carrier outwards", 3 * UM, -30 * UM, 30 * UM, group="carrier"),
-        choice("carrier_seat_crank", "crank whose seat is out of place", 1, 1, 3),
+        choice("carrier_seat_crank", "crank whose seat is out of place", 1, 1, 3, part="crank", group="carrier"),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

@@ -23,8 +23,8 @@ EFFECT = Effect(
         shape("spall_angle", "rad", "place of the pit, from the lobe's eccentric direction or the hole's outward radial",
               4.7124, -20.0, 20.0, "assumed: in the zone that positive load loads", grid=(1.5708, 4.7124)),
         shape("spall_race", "1", "0: inner race (crank), 1: outer race (disc)", 0.0, 0.0, 1.0, "assumed", grid=(0.0, 1.0)),
-        choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3),
-        choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3),
+        choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3, part="disc"),
+        choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3, part="crank"),
     ),
     signals=("vibration", "transmission_error"),
 )

@@ -24,7 +24,7 @@ from rv_plant.supports import sliding_friction, sticking_friction
 ELEMENTS = 6
 EFFECT = Effect(
     4, "Stribeck friction",
-    "mu = mu_c + mu_s exp(-v/v_s) + c v, loss = sum mu F v; held: Iwan elements up to T_s",
+    "mu = mu_c + mu_s exp(-v/v_s) + c v, loss = sum mu F v; held: Iwan elements between carrier and ring up to T_s",
     "Armstrong-Helouvry 1991, Iwan 1966; mu 0.04 to 0.12, v_s 5 to 50 mm/s",
     "input torque against speed has a minimum; a part in proportion to load; hysteresis at reversal with the"
     " input held, its width in proportion to load",

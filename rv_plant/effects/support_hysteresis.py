@@ -29,7 +29,7 @@ MOST_STEPS, CLOSE = 60, 1e-13
 
 EFFECT = Effect(
     0, "support with memory (Dahl)",
-    "M = psi/c + F, dF/dpsi = rho/c (1 - F/F_s sign(dpsi))",
+    "M = psi/c + F, dF/dpsi = rho/c (1 - F/F_s sign(dpsi)); in series with what else yields under the ring",
     "Dahl 1968; bolted joints: 1 to 30 % of the torque held by friction",
     "loops whose width does not grow with the torque once the joint slips, with steep beginnings after each reversal; narrow ones"
     " for small torques; independent of speed",

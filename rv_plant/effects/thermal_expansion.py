@@ -25,9 +25,9 @@ EFFECT = Effect(
     (
         amplitude("thermal_expansion", "1/K", "growth of the pin circle over the discs per kelvin", 2e-6, -1e-4, 1e-4, group="expansion"),
         amplitude("thermal_resistance", "K/W", "warming of the reducer per watt lost", 0.1, 0.0, 100.0, sign=1, group="heating"),
-        shape("thermal_time", "s", "time constant of warming; 0: steady state at once", 0.0, 0.0, 1e6, "assumed: steady", display="h"),
+        shape("thermal_time", "s", "time constant of warming; 0: steady state at once", 0.0, 0.0, 1e6, "assumed: steady", display="h", held=True),
         shape("thermal_reference", "K", "temperature at which the gaps are those of the file", 293.15, 200.0, 500.0,
-              "assumed: room temperature"),
+              "assumed: room temperature", held=True),
     ),
     states=(Variable("housing_temperature", "state", "K", "temperature reached with the time constant of warming"),),
     signals=("lost_motion", "hysteresis", "transmission_error", "torsional_stiffness", "temperature"),

@@ -22,7 +22,7 @@ EFFECT = Effect(
     (
         amplitude("activation_energy", "J/mol", "E: energy that activates wear (negative: less wear when warm)", 1e4, -1e5, 2e5),
         shape("activation_reference", "K", "T_0: temperature at which the coefficient is that of the wear law", 293.15, 200.0, 500.0,
-              "assumed: room temperature, as the wear law's"),
+              "assumed: room temperature, as the wear law's", held=True),
     ),
     signals=WEAR,
 )  # fmt: skip

@@ -23,9 +23,9 @@ EFFECT = Effect(
     "wear accelerates late (positive curvature of depth over time) and drops when the grease is changed",
     (
         amplitude("debris_gain", "1", "g: growth of the wear coefficient at 0.1 % of iron", 1.0, 0.0, 100.0, sign=1),
-        shape("grease_mass", "kg", "grease in the reducer", 0.1, 1e-3, 10.0, "assumed: RV-20E"),
-        shape("debris_settling", "s", "time constant tau_c with which debris settles", 1e4 * HOUR, HOUR, 1e6 * HOUR, "assumed: slow"),
-        shape("grease_change", "s", "time between changes of the grease; 0: never", 0.0, 0.0, 1e6 * HOUR, "assumed: never", display="h"),
+        shape("grease_mass", "kg", "grease in the reducer", 0.1, 1e-3, 10.0, "assumed: RV-20E", held=True),
+        shape("debris_settling", "s", "time constant tau_c with which debris settles", 1e4 * HOUR, HOUR, 1e6 * HOUR, "assumed: slow", held=True),
+        shape("grease_change", "s", "time between changes of the grease; 0: never", 0.0, 0.0, 1e6 * HOUR, "assumed: never", display="h", held=True),
     ),
     states=(
         Variable("debris", "state", "1", "iron in the grease, share of mass"),

@@ -22,8 +22,9 @@ EFFECT = Effect(
         amplitude("film_share", "1", "a: share of wear that a thick film spares", 0.3, 0.0, 1.0, sign=1),
         shape("film_lambda", "1", "lambda_0: film over roughness at which half of that wear is spared", 0.5, 0.01, 10.0, "assumed",
               grid=(0.1, 0.5, 2.0)),
-        shape("oil_viscosity", "Pa.s", "viscosity of the grease's oil at 40 C", 0.1, 1e-4, 100.0, "assumed: VG 100"),
-        shape("oil_viscosity_slope", "1/K", "beta: relative fall of the oil's viscosity with temperature", 0.035, 0.0, 0.2, "assumed: halves in 20 K"),
+        shape("oil_viscosity", "Pa.s", "viscosity of the grease's oil at 40 C", 0.1, 1e-4, 100.0, "assumed: VG 100", held=True),
+        shape("oil_viscosity_slope", "1/K", "beta: relative fall of the oil's viscosity with temperature", 0.035, 0.0, 0.2,
+              "assumed: halves in 20 K", held=True),
     ),
     signals=WEAR,
 )

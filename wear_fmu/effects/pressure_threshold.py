@@ -24,7 +24,7 @@ EFFECT = Effect(
         amplitude("threshold_share", "1", "a: share of wear that is missing far below the threshold", 0.5, 0.0, 1.0, sign=1),
         shape("threshold_pressure", "Pa", "p_t: pressure at which half of that share is missing", 600 * MPA, 10 * MPA, 5000 * MPA,
               "assumed: about a tenth of the hardness", grid=(400 * MPA, 600 * MPA, 900 * MPA)),
-        shape("threshold_sharpness", "1", "n: how sharp the threshold is", 8.0, 1.0, 60.0, "assumed: done within a factor of 1.6"),
+        shape("threshold_sharpness", "1", "n: how sharp the threshold is", 8.0, 1.0, 60.0, "assumed: done within a factor of 1.6", held=True),
     ),
     signals=WEAR,
 )  # fmt: skip

@@ -21,7 +21,7 @@ EFFECT = Effect(
     "depth over time bends upwards by the same factor at every load and speed; a change of grease makes no difference",
     (
         amplitude("wear_growth", "1", "g: growth of the wear coefficient in the time t_0", 0.5, -0.95, 100.0, sign=1),
-        shape("wear_growth_time", "s", "t_0: time in which the wear coefficient grows by g", 1000 * HOUR, HOUR, 1e6 * HOUR, "by definition of g"),
+        shape("wear_growth_time", "s", "t_0: time in which the wear coefficient grows by g", 1000 * HOUR, HOUR, 1e6 * HOUR, "by definition of g", held=True),
         shape("wear_growth_power", "1", "p: 1 in proportion to time", 1.0, 0.2, 5.0, "assumed: linear", grid=(1.0,)),
     ),
     signals=WEAR,

@@ -1,0 +1,18 @@
+"""Numbers of an effect that no fit changes, which is to be said wherever its amplitudes are told."""
+
+from discrepancy.as_told import effect_name
+from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.scales import of_parameter
+
+
+def held_text(effect: str, model: object) -> str:
+    """Shapes of an effect that a diagnosis holds, with the values that they have in a model, or a model file; empty if there are none."""
+    file = model.file if isinstance(model, PhysicalModel) else model
+    known, values = every_effect().get(effect), file.values() if isinstance(file, ModelFile) else {}
+    found = []
+    for p in known.parameters if known else ():
+        if p.is_held:
+            value = values.get(p.variable.name, float(p.variable.start))
+            found.append(f"{effect_name(effect, p.variable.name)} = {of_parameter(abs(value), p.variable.unit).text(value, 4)}")
+    return f"held, not fitted: {', '.join(found)}" if found else ""

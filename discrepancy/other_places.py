@@ -1,0 +1,107 @@
+"""Where an effect sits that one of several parts can have, and which other place would look like it.
+
+A diagnosis fits such an effect at the part that its choices name, the first.  With two cranks an error of one's lobe at one disc shows as that of the
+other's lobe at the other disc, in every signal of the reducer as a whole: then no fit says which of both is to be opened.
+"""
+
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.separable import APART
+from discrepancy.inference.verdict import STOPPED, Diagnosis
+from discrepancy.model_file import every_effect
+from discrepancy.prediction.candidates import groups
+from discrepancy.prediction.physical_model import PhysicalModel
+from fmu_src.effect import Effect, EffectParameter
+
+# Of what an effect shows, what another place may leave: cages of rollers are placed anew for each fit, and sizes take up some (assumed).
+LEFT = 0.02
+
+
+def placed(effects: list[dict[str, Any]], model: PhysicalModel, found: Diagnosis) -> list[dict[str, Any]]:
+    """Named effects with their ``place``, in words; empty where an effect has none."""
+    return [effect | {"place": place_text(effect["candidates"][0], model, found)} for effect in effects]
+
+
+def place_text(candidate: str, model: PhysicalModel, found: Diagnosis) -> str:
+    here = place_of(candidate, model)
+    alone = [m for m in found.fits.members if [c.name for c in m.candidates if effect_of(c.name) == effect_of(candidate)] == [candidate]]
+    if not here or not alone or found.verdict == STOPPED:
+        return here
+    others = look_alikes(candidate, model, alone[0], found)
+    return f"{' or '.join([here, *others])}, which look alike" if others else here
+
+
+def place_of(candidate: str, model: object) -> str:
+    """The part at which a candidate (``effect.variant``) was looked for: "crank 2 at disc 1"; empty for one that has no choice of parts."""
+    effect = every_effect().get(effect_of(candidate))
+    group = group_of(candidate)
+    chosen = choices(effect, group) if effect else []
+    return words(group, chosen, current(chosen, model)) if chosen else ""
+
+
+def look_alikes(candidate: str, model: PhysicalModel, member: Refit, found: Diagnosis) -> list[str]:
+    """Other places, at which no candidate was fitted, where the effect with the same amplitudes, or their opposites, shows the same: what it
+    predicts of the fitted runs differs by less than the best test sees, or than ``LEFT`` of what it changes there.  A few predictions each.
+    """
+    effect, group, space = every_effect()[effect_of(candidate)], group_of(candidate), found.fits.space
+    chosen, topology = choices(effect, group), model.file.reducer.topology
+    own = [p.variable.name for p in groups(effect)[group][0]]
+    fitted = dict(member.fit.values)
+    rest = {name: value for name, value in fitted.items() if name not in own}
+    shown = space.predictions(fitted, space.training)
+
+    def apart(values: dict[str, float]) -> float:
+        predicted = space.predictions(values, space.training)
+        return float(np.linalg.norm(space.whiten({i: a - b for i, a, b in zip(space.training, predicted, shown)})))
+
+    enough = max(APART, LEFT * apart(rest))
+    here, alike = current(chosen, model), []
+    for sibling, numbers in product(siblings(effect, group, topology.cranks), product(*(range(1, parts(p, model) + 1) for p in chosen))):
+        if numbers == here:
+            continue
+        names = [p.variable.name for p in groups(effect)[sibling][0]]
+        for sign in (1.0, -1.0):
+            there = {new: sign * fitted[old] for old, new in zip(own, names)} | {p.variable.name: float(n) for p, n in zip(chosen, numbers)}
+            if apart({**rest, **there}) < enough:
+                alike.append(words(sibling, chosen, numbers))
+                break
+    return alike
+
+
+def effect_of(candidate: str) -> str:
+    return candidate.partition(".")[0]
+
+
+def group_of(candidate: str) -> str:
+    return candidate.partition(".")[2].replace("_", " ")
+
+
+def choices(effect: Effect, group: str) -> list[EffectParameter]:
+    """Choices of the part at which the amplitudes of a group act."""
+    return [p for p in effect.parameters if p.part and group.startswith(p.group)]
+
+
+def current(chosen: list[EffectParameter], model: object) -> tuple[int, ...]:
+    """What the model's file chooses, or the first."""
+    values = model.file.values() if isinstance(model, PhysicalModel) else {}
+    return tuple(int(values.get(p.variable.name, float(p.variable.start))) for p in chosen)
+
+
+def parts(p: EffectParameter, model: PhysicalModel) -> int:
+    """How many of them the reducer has."""
+    return int({"disc": model.file.reducer.topology.discs, "crank": model.file.reducer.topology.cranks}[p.part])
+
+
+def siblings(effect: Effect, group: str, cranks: int) -> list[str]:
+    """Groups of the same amplitudes for the other cranks, or their holes, with this one."""
+    word, _, number = group.rpartition(" ")
+    return [name for k in range(1, cranks + 1) if (name := f"{word} {k}") in groups(effect)] if number.isdigit() else [group]
+
+
+def words(group: str, chosen: list[EffectParameter], numbers: tuple[int, ...]) -> str:
+    """A crank stands before the disc."""
+    return " at ".join([*filter(None, [group]), *sorted(f"{p.part} {n}" for p, n in zip(chosen, numbers))])
