@@ -31,9 +31,10 @@ export function show(root, context) {
 
   function bar() {
     const job = context.state?.jobs.life,
-      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+      busy = context.busy();
     const paused = job?.state === "stopped" || job?.state === "gone";
-    const given = () => ({ hours, torque });
+    const given = () => ({ hours, torque }),
+      lacks = busy || (context.model() ? "" : "a model or reducer has to be chosen first");
     clear(
       top,
       h(
@@ -73,9 +74,10 @@ export function show(root, context) {
         ),
         h(
           "button",
-          { type: "button", class: "main", id: "live", disabled: busy || !context.model(), onclick: () => context.start("life", given()) },
+          { type: "button", class: "main", id: "live", disabled: !!lacks, title: lacks || undefined, onclick: () => context.start("life", given()) },
           paused ? "Go on" : "Run",
         ),
+        lacks && job?.state !== "running" ? h("span", { class: "fair", id: "lacks" }, lacks) : null,
         result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null,
       ),
       job?.fault && job.state !== "running" ? note(job.fault, "bad") : null,
