@@ -5,7 +5,8 @@ import { ensemble } from "./ensemble.js";
 import { get } from "./net.js";
 import { Plot } from "./plot.js";
 
-const COLOURS = ["--predicted", "--measured", "--tried", "--residual"];
+// One for each line of all panes, which share a legend.
+const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--a"];
 
 export function show(root, context) {
   let live = null,
@@ -112,17 +113,19 @@ export function show(root, context) {
       plot = new Plot({ height: window.innerWidth < 640 ? 560 : 640, label: "wear, lag, transmission error and stiffness over the hours" });
       chart.append(plot.element);
     }
-    const x = Float32Array.from(now.hours);
+    const x = Float32Array.from(now.hours),
+      before = now.panes.map((_, k) => now.panes.slice(0, k).reduce((n, p) => n + p.lines.length, 0)),
+      colour = (k, i) => COLOURS[(before[k] + i) % COLOURS.length];
     const panes = now.panes.map((p, k) => ({
       title: `${p.title} [${p.unit}]`,
       weight: k ? 1 : 1.6,
-      lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1.8, dots: x.length < 40 })),
+      lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: colour(k, i), width: 1.8, dots: x.length < 40 })),
     }));
     if (!result && live?.before?.hours) {
       const old = Float32Array.from(live.before.hours);
       live.before.panes.forEach((p, k) =>
         p.lines.forEach((l, i) =>
-          panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1, dash: [4, 4], opacity: 0.6 }),
+          panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: colour(k, i), width: 1, dash: [4, 4], opacity: 0.6 }),
         ),
       );
     }
