@@ -1,5 +1,6 @@
 """What may be said of a diagnosis, in words that its numbers bear; for screen and page."""
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
@@ -13,6 +14,11 @@ from discrepancy.verdict import Answer
 NEARLY_ALL = 0.95
 MOST_NAMED = 3
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
+
+
+def signals_left(left: Mapping[str, float], title: Callable[[str], str] = str) -> str:
+    """What a step leaves of the signals, ``left`` by signal in times its noise; empty where nothing stands out."""
+    return f"left: {', '.join(f'{title(signal)} {ratio:.3g} times its noise' for signal, ratio in left.items())}" if left else ""
 
 
 def share_text(answer: Answer, share: float) -> str:

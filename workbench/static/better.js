@@ -125,6 +125,7 @@ export function addPart(bag) {
               { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
               `${extension.effects.map(effectName).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
             ),
+            extension.left ? h("p", { class: "fair", id: "left" }, extension.left) : null,
             cards(extension.page.cards),
             sections(extension.page.sections),
             command(extension.command),
@@ -167,6 +168,7 @@ export function ladder(bag) {
           `${s.verdict}${s.kept === false ? ", not kept" : ""}`,
         ]),
       ),
+      extension.left ? h("p", { class: "fair" }, extension.left) : null,
       h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
       h(
         "div",
