@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from cli.completion import completed_by, reducer_completions
 from fmu_src.faults import InputFault
+from fmu_src.file_name import file_name
 from orchestrator.schemes import SCHEMES
 from reducers.library import available
 
@@ -125,12 +126,6 @@ def number_in(unit: str) -> "Callable[[str], float]":
 
 def folder(text: str | None) -> Path | None:
     return Path(text) if text else None
-
-
-def file_name(name: str) -> str:
-    """A name out of a file as the name of a file: no path, no sign that a system takes for another."""
-    plain = re.sub(r"[^A-Za-z0-9 ._-]", "_", name).strip(" .")[:100]
-    return plain or "unnamed"
 
 
 def result_path(text: str | None, name: str, endings: tuple[str, ...] = (".nc",)) -> Path:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
+from discrepancy.calibrated_doubts import calibrated_doubts
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
@@ -80,6 +81,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
+    doubts += calibrated_doubts(space.base, as_told.tables_of(model))
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
 

@@ -1,4 +1,4 @@
-"""What every test engineer reads first: stiffness by branch, lost motion, width of the loop, run-outs, transmission error by order.
+"""What every test engineer reads first: stiffness by branch, lost motion, width of the loop, run-outs, transmission error by order, drag torque.
 
 Each figure is read in one way from what was measured and from what the model predicts at the same samples; its noise is what
 repetitions differ by, or what the noise of the samples makes of it where there are none.
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.drag_figures import DRAG, DRAG_UNITS, of_drag
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, stream_of
 from discrepancy.prediction.support import reversals
@@ -82,14 +83,14 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
         if not names:
             continue
         # Noise widens a span and lengthens an amplitude, whatever is measured: drawn about the model.  A stiffness errs as the measured one does.
-        about = np.asarray(space.records[indices[0]].values, float) if LOOP_UNITS.keys() & set(names) else predictions[indices[0]]
+        about = np.asarray(space.records[indices[0]].values, float) if PLAIN.keys() & set(names) else predictions[indices[0]]
         drawn = with_noise(space, indices[0], about, reading[0])
         for name in names:
             values = [run[name] for run in own]
             by_samples = np.array([d.get(name, np.nan) for d in drawn])
             noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples)))
-            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in LOOP_UNITS else by_samples
-            found.append(KeyFigure(signal, condition, name, LOOP_UNITS.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
+            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in PLAIN else by_samples
+            found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
                                    noise / np.sqrt(len(values)), len(values), (signal, name) in spread))  # fmt: skip
     return found
 
@@ -175,6 +176,8 @@ def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: flo
     if record.quantity == "hysteresis" and "torque" in record.axes:
         by_branches = of_loop(np.asarray(record.axes["torque"], float)[good], rated)
         return lambda values: by_branches(values[good])
+    if record.quantity in DRAG:
+        return of_drag(record)
     if record.quantity == "transmission_error" and "angle" in record.axes:
         by_orders = orders_over(np.asarray(record.axes["angle"], float)[good], orders)
         return lambda values: by_orders(values[good])
@@ -192,6 +195,8 @@ LOADING = [name for (_, loading), name in BRANCHES.items() if loading]
 LOOP_UNITS = {
     STIFFNESS: "N.m/rad", **{f"{STIFFNESS}, {branch}": "N.m/rad" for branch in BRANCHES.values()}, LOST_MOTION: "rad", WIDTH: "rad",
 }  # fmt: skip
+# Figures that noise makes neither larger nor smaller in the mean, and their units.
+PLAIN = LOOP_UNITS | DRAG_UNITS
 
 
 def of_loop(torque: Floats, rated: float) -> Reading:

@@ -6,6 +6,9 @@ from typing import Any
 
 from discrepancy.model_file import SignalEntry
 
+# A signal that errs by more than so many times its noise is left to explain, as a comparison has it.
+ABOVE = 1.5
+
 
 @dataclass(frozen=True)
 class Change:
@@ -31,6 +34,16 @@ class Step:
     @property
     def label(self) -> str:
         return " + ".join(name.replace("_", " ").replace(".", ": ") for name in self.effects)
+
+    @property
+    def left(self) -> dict[str, float]:
+        """Signals that the model does not explain after this step, the worst first, by how many times their noise they err."""
+        found: dict[str, float] = {}
+        for s in self.signals:
+            ratio = (s.after if self.kept else s.before) / s.noise_floor if s.noise_floor > 0.0 else 0.0
+            if ratio > ABOVE:
+                found[s.signal] = max(ratio, found.get(s.signal, 0.0))
+        return dict(sorted(found.items(), key=lambda entry: -entry[1]))
 
     def change(self, kind: str) -> Change | None:
         """Of the ``training`` or the ``held_out`` runs."""

@@ -27,6 +27,7 @@ from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault, nearest
+from fmu_src.file_name import FILE_NAME
 from fmu_src.names import dotted, last_part, warn_of_old_name
 from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
@@ -39,9 +40,6 @@ from rv_plant.effects import EFFECTS as PLANT_EFFECTS
 from wear_fmu.effects import EFFECTS as WEAR_EFFECTS
 
 REMEDY = "docs/diagnosis.md shows a model file"
-
-# Goes into names of files, in whatever language: no folder, nothing that a system refuses there.
-FILE_NAME = r'^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$'
 
 
 class Head(Strict):

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy import as_told
+from discrepancy.calibrated_doubts import calibrated_doubts
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
@@ -138,7 +139,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
-    warnings = beforehand(model, figures) + warnings_of(model, list(found.warnings))
+    doubts = calibrated_doubts(doctor.space.base, as_told.tables_of(model))
+    warnings = beforehand(model, figures) + doubts + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 

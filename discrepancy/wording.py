@@ -1,5 +1,6 @@
 """What may be said of a diagnosis, in words that its numbers bear; for screen and page."""
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
@@ -20,6 +21,11 @@ def variant_text(effect: dict[str, Any]) -> str:
     """Which form of an effect it is, and at which part; empty where there is but one."""
     forms = str(effect.get("variant", "")).replace("_", " ")
     return str(effect.get("place") or "") if " + " not in forms and effect.get("place") else forms
+
+
+def signals_left(left: Mapping[str, float], title: Callable[[str], str] = str) -> str:
+    """What a step leaves of the signals, ``left`` by signal in times its noise; empty where nothing stands out."""
+    return f"left: {', '.join(f'{title(signal)} {ratio:.3g} times its noise' for signal, ratio in left.items())}" if left else ""
 
 
 def share_text(answer: Answer, share: float) -> str:

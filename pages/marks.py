@@ -106,42 +106,6 @@ def bars(axes: Any, trace: Trace, alike: Sequence[Trace]) -> None:
         getattr(axes, "set_yticks" if lying else "set_xticks")(np.arange(len(words)), [spelled(word) for word in words])
 
 
-def heat(picture: Any, axes: Any, trace: Trace) -> None:
-    """Cells with their colours, texts and scale; what was not measured stays white."""
-    from matplotlib.colors import LinearSegmentedColormap
-
-    z = np.array([numbers(row) for row in trace["z"]], float)
-    scale = trace.get("colorscale")
-    shades = LinearSegmentedColormap.from_list("page", [(float(at), colour_of(c)) for at, c in scale]) if isinstance(scale, list) else "Blues"
-    x, y = trace.get("x") or range(z.shape[1]), trace.get("y") or range(z.shape[0])
-    worded = any(isinstance(v, str) for v in (*x, *y))
-    if worded:
-        found = axes.pcolormesh(z, cmap=shades, vmin=trace.get("zmin"), vmax=trace.get("zmax"), edgecolor="white", linewidth=1.0)
-        heads = [spelled(v) for v in x]
-        crowded = len(heads) * max(len(line) for head in heads for line in head.split("\n")) * SIGN_WIDTH > 0.6 * 25.4 * picture.get_figwidth()
-        axes.set_xticks(np.arange(z.shape[1]) + 0.5, heads, **({"rotation": 40, "ha": "right", "rotation_mode": "anchor"} if crowded else {}))
-        axes.set_yticks(np.arange(z.shape[0]) + 0.5, [spelled(v) for v in y])
-        axes.invert_yaxis()
-    else:
-        found = axes.pcolormesh(np.array(x, float), np.array(y, float), z, cmap=shades, vmin=trace.get("zmin"), vmax=trace.get("zmax"), shading="nearest")
-    axes.tick_params(length=0)
-    axes.spines[:].set_visible(False)
-    if worded and isinstance(trace.get("text"), list):
-        low, high = found.get_clim()
-        for i, row in enumerate(trace["text"]):
-            for k, text in enumerate(row):
-                dark = np.isfinite(z[i, k]) and z[i, k] > low + 0.55 * (high - low)
-                axes.text(k + 0.5, i + 0.5, spelled(text or ""), ha="center", va="center", fontsize=6.5, color="white" if dark else "#1d2733")
-    bar = trace.get("colorbar", {})
-    if trace.get("showscale", True):
-        shown = picture.colorbar(found, ax=axes, pad=0.01, aspect=12)
-        shown.outline.set_visible(False)
-        if bar.get("tickvals"):
-            shown.set_ticks(bar["tickvals"], labels=[spelled(text) for text in bar.get("ticktext", bar["tickvals"])])
-        title = bar.get("title", "")
-        shown.set_label(spelled(title.get("text", "") if isinstance(title, dict) else title))
-
-
 def polar_curve(axes: Any, trace: Trace) -> None:
     """A closed row over the angle."""
     stroke = trace.get("line", {})

@@ -12,8 +12,9 @@ from typing import Any
 
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart
+from pages.cells import heat, is_worded, least_height
 from pages.look import Figure, Layout, Trace
-from pages.marks import SIGN_WIDTH, bars, heat, line_of, polar_curve, spelled
+from pages.marks import SIGN_WIDTH, bars, line_of, polar_curve, spelled
 
 ENDINGS = (".svg", ".pdf", ".png")
 # Widths of a paper's columns [mm]: one, one and a half, both (Elsevier's; IEEE's are 88 and 181).
@@ -25,6 +26,8 @@ INCH = 25.4
 # What is left of a plot's height when labels and legend have theirs.
 SHARE_OF_AXES = 0.75
 DOTS = 300
+# Signs of a line of an axis' title at least.
+SHORTEST = 10
 # What the line beside a name of the legend takes [mm].
 KEY_WIDTH = 9.0
 # What a further line of the legend takes [mm]: the plot keeps its height.
@@ -93,6 +96,7 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
     if figure.aspect:
         across, _, along = figure.aspect.partition("/")
         height = width * float(along or 1.0) / float(across)
+    height = max([height, *(least_height(trace, width) for trace in figure.data if trace.get("type") == "heatmap" and is_worded(trace))])
     with mpl.rc_context(STYLE):
         picture = Picture(figsize=(width / INCH, height / INCH), layout="constrained")
         traces = [trace for trace in figure.data if trace.get("visible", True) is True]
@@ -118,7 +122,7 @@ def cartesian(picture: Any, layout: Layout, traces: Sequence[Trace]) -> dict[str
         for trace in own:
             match trace.get("type"):
                 case "heatmap":
-                    heat(picture, here, trace)
+                    heat(picture, here, trace, INCH * picture.get_figwidth())
                 case "bar":
                     bars(here, trace, categories)
                 case _:
@@ -178,10 +182,13 @@ def title_of(axis: Layout) -> str:
 
 
 def folded(title: str, axes: Any) -> str:
-    """A title on two lines, the unit on the second, where it is longer than its axis."""
+    """A title on lines that are no longer than its axis, the unit on the last, where it is longer itself."""
     room = INCH * axes.figure.get_figheight() * axes.get_position().height * SHARE_OF_AXES
     words, unit = title.rpartition(" [")[::2]
-    return f"{words}\n[{unit}" if words and len(title) * SIGN_WIDTH > room else title
+    if len(title) * SIGN_WIDTH <= room:
+        return title
+    lines = fill(words or title, max(SHORTEST, int(room / SIGN_WIDTH)), break_long_words=False)
+    return f"{lines}\n[{unit}" if words else lines
 
 
 def rule(axes: Any, shape: Layout, name: str) -> None:

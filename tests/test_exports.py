@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,7 @@ from cli.altered import note_of, noted_figure, noted_tables
 from cli.main import main
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.page import maps
 from discrepancy.tables import tables_of as measured_tables
 from exports.plain import plain, plain_json
 from exports.tables import Column, Table, tables_of
@@ -21,7 +23,7 @@ from fmu_src.faults import InputFault
 from pages import look
 from pages.charts import Curve, chart, polar
 from pages.look import Figure
-from pages.paper import drawn, width_of, write_pictures
+from pages.paper import drawn, save, width_of, write_pictures
 from studies.ensemble.tables import tables_of as ensemble_tables
 from tests.test_discrepancy_page import compared, model_of
 
@@ -175,6 +177,41 @@ def test_what_is_altered_says_so_wherever_it_goes(tmp_path):
     assert "instead of the sources'" in drawn(flat).axes[0].get_xlabel() and drawn(flat).axes[0].get_xlabel().startswith("x [m]")
     assert any("instead of the" in text.get_text() for legend in drawn(round_).legends for text in legend.get_texts())
     assert not note_of([]) and noted_figure(flat, "") is flat
+
+
+def worded(rows, columns):
+    """A map with names as pages have them."""
+    z = [[float(i + k) for k in range(columns)] for i in range(rows)]
+    trace = maps.heat(z, [f"130N.m_15rpm_{k}degC" + ("<br>(held out)" if k else "") for k in range(columns)],
+                      [f"transmission error · orders: sun (order {i} also 3 x crank against carrier)" for i in range(rows)],
+                      [["< 1 %"] * columns] * rows, z, "error / noise", 0.0, 5.0, {0.0: "≤ 1e−12", 5.0: "1"})  # fmt: skip
+    return Figure("map", "t", "", [trace], maps.layout([]), 12, 90 + 20 * rows)
+
+
+@pytest.mark.parametrize("rows, columns", [(1, 1), (3, 8), (12, 3), (4, 14), (30, 6)])
+def test_a_map_keeps_its_names_and_numbers_in_the_width_of_a_column(rows, columns, tmp_path):
+    picture = drawn(worded(rows, columns), 90.0)
+    # Warnings are errors: the layout has found room.
+    save(picture, tmp_path / "a.svg")
+    cells, scale = picture.get_axes()
+    whole, inside = picture.bbox, cells.get_window_extent()
+    texts = [*cells.get_xticklabels(), *cells.get_yticklabels(), *scale.get_yticklabels(), scale.yaxis.label]
+    for box in (text.get_window_extent() for text in texts):
+        assert box.x0 >= whole.x0 - 1 and box.x1 <= whole.x1 + 1 and box.y0 >= whole.y0 - 1 and box.y1 <= whole.y1 + 1
+    names = sorted((text.get_window_extent() for text in cells.get_yticklabels()), key=lambda box: box.y0)
+    assert all(low.y1 <= high.y0 + 1 for low, high in pairwise(names))
+    assert inside.width > 0.1 * whole.width and all(text.get_window_extent().height < inside.height / rows for text in cells.texts)
+    assert columns > 8 or all(text.get_window_extent().width < inside.width / columns + 1 for text in cells.texts)
+
+
+def test_a_title_is_no_longer_than_its_axis(tmp_path):
+    long = "a title of many words that would not stand beside it, were it one line [arcsec]"
+    picture = drawn(Figure("a", "t", "", [look.line([0, 1], [0, 1], "#000000"), look.line([0, 1], [0, 1], "#000000", yaxis="y2")],
+                           look.layout(xaxis=look.axis("x"), yaxis=look.axis(long, domain=[0.4, 1.0]), yaxis2=look.axis(long, domain=[0.0, 0.3]))), 90.0)  # fmt: skip
+    save(picture, tmp_path / "a.svg")
+    for axes in picture.get_axes():
+        box = axes.yaxis.label.get_window_extent()
+        assert box.y0 >= picture.bbox.y0 and box.y1 <= picture.bbox.y1
 
 
 def test_a_legend_is_never_wider_than_its_picture():

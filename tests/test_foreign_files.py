@@ -9,13 +9,14 @@ import pytest
 from test_ssp import NAMES, NESTED, package
 
 from cli.main import main
-from cli.options import file_name
+from discrepancy.campaign import file_format
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.readers import csv as csv_reader
 from discrepancy.campaign.readers.formula import FormulaFault, computed
 from discrepancy.model_file import load_model
 from fmu_src import reading
 from fmu_src.faults import InputFault
+from fmu_src.file_name import file_name, name_of_folder
 from fmu_src.reading import unpack_archive
 from orchestrator.fmu import Fmu
 from orchestrator.regression import parse_tolerance
@@ -79,6 +80,15 @@ def test_csv_that_grows_without_end_is_left(tmp_path, monkeypatch):
                                             ("x" * 500, "x" * 100)])  # fmt: skip
 def test_name_of_a_system_is_no_path(name, expected):
     assert file_name(name) == expected
+
+
+@pytest.mark.parametrize("folder, expected", [("Messung Prüfstand 7", None), ("Mu\u0308ller", "Müller"), ("測定 7", None), ("Łódź (2) & Ø", None), ("-.x", "x"), ("a\ud800b", "a_b"),
+                                              ("...", "unnamed"), ("測" * 300, "測" * 66), ("7: a?", "7_ a_")])  # fmt: skip
+def test_name_of_a_folder_keeps_letters_of_any_alphabet(folder, expected):
+    """As the name of its campaign, which campaign.toml takes."""
+    name = name_of_folder(folder)
+    assert name == (expected or folder)
+    assert file_format.Head(name=name).name == name
 
 
 def test_result_of_a_system_stays_in_the_folder_of_results(tmp_path, spring, monkeypatch, capsys):

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from discrepancy.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, too_soft, ways
@@ -23,6 +24,16 @@ def loop(way, compliance=2e-6, play=0.0, width=0.0):
     """Turning of a spring beside play, open by ``width`` between falling and rising torque."""
     rising = ways(way)
     return compliance * way + 0.5 * play * np.sign(way) - np.where(rising, 0.5, -0.5) * width
+
+
+def test_drag_torque_is_read_in_the_mean_and_at_both_ends_of_the_speeds():
+    speed = np.array([10.0, 20.0, 30.0, 40.0])
+    sweep = Record("a", "no_load_torque", "N.m", "20degC", 1, np.array([0.1, np.nan, 0.2, 0.3]), {"speed": speed}, {})
+    assert of_drag(sweep)(sweep.values) == pytest.approx({MEAN: 0.2, SLOWEST: 0.1, FASTEST: 0.3})
+    # Where nothing was measured the model is not read either.
+    assert of_drag(sweep)(np.array([1.0, 100.0, 2.0, 3.0]))[MEAN] == pytest.approx(2.0)
+    single = Record("b", "input_torque", "N.m", "20degC", 1, np.array([0.5]), {}, {"speed": 10.0})
+    assert of_drag(single)(single.values) == {MEAN: 0.5}
 
 
 @dataclass

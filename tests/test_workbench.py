@@ -63,6 +63,27 @@ def test_the_printed_command_writes_what_the_page_saves(tmp_path, capsys):
     assert folder.campaign.read_text(encoding="utf-8") == found["text"] and len(found["proposal"]["runs"]) == 2
 
 
+def test_a_file_that_cannot_be_read_takes_nothing_from_the_others(tmp_path, capsys):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    for k in (1, 2):
+        folder.new_file(f"loop_20degC_{k}.csv", CSV.encode())
+    folder.new_file("loop_1.csv", b"nothing\n")
+    (folder.root / "cold").mkdir()
+    (folder.root / "cold" / "words.csv").write_text("a,b\nx,y\n")
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "output"}})
+    found = view(folder)
+    assert [run["file"] for run in found["proposal"]["runs"]] == ["loop_20degC_1.csv", "loop_20degC_2.csv"]
+    assert found["unread"].keys() == {"loop_1.csv", "cold/words.csv"} and "no table of numbers" in found["unread"]["loop_1.csv"]
+    # A correction that would lose a file that can be read is refused still.
+    with pytest.raises(InputFault, match=r"loop_20degC_2\.csv.*no quantity"):
+        wish(folder, {"reducer": "RV20E-121", "quantities": {"loop_20degC_2.csv": "efficiency"}})
+    save(folder)
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+
+
 def test_no_folder_is_made_of_a_mistyped_path(tmp_path):
     (tmp_path / "bench").mkdir()
     (tmp_path / "c.csv").write_text(CSV)

@@ -109,6 +109,29 @@ def test_files_are_dropped_guessed_and_corrected(bench, tmp_path):
     assert drawn["calls"] < 25_000
 
 
+def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    (tmp_path / "loop_1.csv").write_text("nothing\n")
+    page.set_input_files("#files", str(tmp_path / "loop_1.csv"))
+    row = page.locator("#unread tr", has_text="loop_1.csv")
+    row.get_by_text("no table of numbers").wait_for()
+    assert page.get_by_label("column of value").input_value() == "Verdrehung [arcmin]"
+    assert "reducer has to be chosen" in (page.get_attribute("#save:disabled", "title") or "")
+    row.get_by_role("button", name="Remove").click()
+    page.locator("#unread").wait_for(state="detached")
+    assert not (bench.folder / "loop_1.csv").exists()
+    bench.kill()
+    gone = page.locator("#gone", has_text=f'rvwear workbench "{bench.folder}"')
+    gone.wait_for()
+    # A view that was never opened cannot be had: nothing is thrown, and what is seen stays.
+    page.click("#tab-try")
+    page.locator("#tab-in[aria-selected=true]").wait_for()
+    assert gone.is_visible() and page.locator("#work").is_hidden() and page.url.endswith("#in")
+    bench.start()
+    page.goto(bench.address)
+    page.get_by_text("2 runs in 2 files, 1 condition").wait_for()
+
+
 def first_paint(page, address):
     """When a new tab shows something [ms]; it is closed."""
     page.goto(address)

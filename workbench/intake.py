@@ -2,8 +2,8 @@
 
 import hashlib
 import re
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.file_names import by_pattern
 from discrepancy.campaign.guess.propose import Proposal, propose
+from discrepancy.campaign.guess.run import guessed_run
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
@@ -75,8 +76,18 @@ def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     return value
 
 
-def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, Wishes, list[str]]:
-    """The proposal, the corrections that it follows, and those that no longer fit anything.
+@dataclass(frozen=True)
+class Proposed:
+    """A proposal, the corrections that it follows, those that no longer fit anything, and why a file has no part in it."""
+
+    proposal: Proposal
+    wishes: Wishes
+    gone: list[str]
+    unread: dict[Path, str]
+
+
+def proposed(folder: Folder, given: Mapping[str, Any]) -> Proposed:
+    """What is made of the files that can be read; InputFault where that is nothing.
 
     Conditions are named anew where the pattern of names changes; what was once remembered of names may fit no file any more.
     """
@@ -87,8 +98,16 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, Wishes
     wishes = replace(wishes, names=tuple(n for n in wishes.names if n not in old))
     left_out = [f"names {n}: no file fits any more; it is left out" for n in old]
     name = name_of(folder.root)
+    # One bad file takes nothing from the others: first those that are no tables, which is known from drawing them.
+    unread = unread_of(folder, [file for file in files if not columns_of(file, file.stat().st_mtime_ns)], wishes)
+    files = [file for file in files if file not in unread] or files
     try:
-        return propose(files, wishes, name), wishes, left_out
+        return Proposed(propose(files, wishes, name), wishes, left_out, unread)
+    except InputFault:
+        unread |= unread_of(folder, files, wishes)
+        files = [file for file in files if file not in unread] or files
+    try:
+        return Proposed(propose(files, wishes, name), wishes, left_out, unread)
     except InputFault as fault:
         if "there is no condition" not in str(fault) and "there is no such condition" not in str(fault):
             raise
@@ -99,17 +118,32 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> tuple[Proposal, Wishes
     gone = sorted({k.rpartition(":")[0] for k in wishes.conditions.keys() - kept.keys()} | set(wishes.held_out or ()) - set(held or ()))
     fitting = replace(wishes, conditions=kept, held_out=held)
     left_out += [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
-    return propose(files, fitting, name), fitting, left_out
+    return Proposed(propose(files, fitting, name), fitting, left_out, unread)
+
+
+def unread_of(folder: Folder, files: Sequence[Path], wishes: Wishes) -> dict[Path, str]:
+    """Files that nothing can be made of, whatever names mean, and why."""
+    found = {}
+    for file in files:
+        try:
+            guessed_run(file, replace(wishes, names=()))
+        except InputFault as fault:
+            found[file] = in_words(folder, fault)
+    return found
 
 
 def wish(folder: Folder, given: dict[str, Any]) -> None:
-    """Remember what was corrected; InputFault where nothing could be made of the files any more, and all stays as it was.
+    """Remember what was corrected; InputFault where nothing could be made of a file any more, and all stays as it was.
 
     Where nothing can be made of them as it is, every step counts.
     """
     wishes_of(given)
     try:
-        proposed(folder, given)
+        unread = {file: why for file, why in proposed(folder, given).unread.items() if columns_of(file, file.stat().st_mtime_ns)}
+        if unread:
+            before = proposed(folder, folder.recall(WISHES)).unread
+            for file in unread.keys() - before.keys():
+                raise InputFault(unread[file])
     except InputFault as fault:
         if folder.measurements() and not fault_of(folder):
             raise InputFault(in_words(folder, fault)) from None
@@ -137,16 +171,19 @@ def view(folder: Folder) -> dict[str, Any]:
     found: dict[str, Any] = {
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
+        "unread": {},
     }  # fmt: skip
     if found["saved"]:
         found |= checked_campaign(folder) | cells_of(folder)
     if not files or (found["saved"] and not found["own"]):
         return found
     try:
-        proposal, followed, found["gone"] = proposed(folder, given)
+        made = proposed(folder, given)
     except InputFault as fault:
         found["fault"] = in_words(folder, fault)
         return found
+    proposal, found["gone"] = made.proposal, made.gone
+    found["unread"] = {path.relative_to(folder.root).as_posix(): reason for path, reason in made.unread.items()}
     found["proposal"] = proposal.as_json()
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
@@ -154,7 +191,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
     used = {run.guessed.name.pattern for run in proposal.runs}
-    found["command"] = command(folder, replace(followed, names=tuple(n for n in followed.names if n in used)))
+    found["command"] = command(folder, made, replace(made.wishes, names=tuple(n for n in made.wishes.names if n in used)))
     return found
 
 
@@ -210,7 +247,7 @@ def sha256(content: bytes) -> str:
 
 def save(folder: Folder) -> dict[str, Any]:
     """Write campaign.toml as ``rvwear campaign from`` does; one that was edited by hand stays."""
-    proposal, _, _ = proposed(folder, folder.recall(WISHES))
+    proposal = proposed(folder, folder.recall(WISHES)).proposal
     if not proposal.reducer:
         raise InputFault("which reducer was measured has to be said first: choose it above the table")
     checked(proposal)
@@ -221,11 +258,12 @@ def save(folder: Folder) -> dict[str, Any]:
     return {"saved": True, "needs": [need.as_json() for need in proposal.needs]}
 
 
-def command(folder: Folder, wishes: Wishes) -> str:
-    """The command line that proposes the same."""
+def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
+    """The command line that proposes the same: of a folder that holds a file which cannot be read, the others by name."""
     import shlex
 
-    words = ["rvwear", "campaign", "from", str(folder.root)]
+    named = [str(run.guessed.path) for run in made.proposal.runs] if made.unread else []
+    words = ["rvwear", "campaign", "from", *(dict.fromkeys(named) or [str(folder.root)]), *(["--output", str(folder.root)] if named else [])]
     words += ["--reducer", wishes.reducer] if wishes.reducer else []
     for pattern in wishes.names:
         words += ["--names", pattern]

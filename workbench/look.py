@@ -132,6 +132,7 @@ def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -
         "samples": int(run.measured.size), "dots": run.measured.size < FEW,
         "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
         "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
+        "zero": factor * run.zero,
     }  # fmt: skip
 
 

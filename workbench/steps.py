@@ -139,9 +139,12 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
 def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """The extended model is ``model.toml`` of the folder; the ladder stands in it."""
     from discrepancy.extend import extend
+    from discrepancy.ladder_step import step_of
     from discrepancy.model_file import save_model
+    from discrepancy.page.amounts import signal_title
     from discrepancy.page.write import page_of
     from discrepancy.remembered import remembered
+    from discrepancy.wording import signals_left
     from fmu_src.held_file import held
 
     names = [str(name) for name in given.get("effects", [])]
@@ -156,7 +159,8 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)
     write_json(place / "result.json", {
         "verdict": extension.verdict, "kept": bool(extension.step["kept"]), "reason": extension.step["reason"], "effects": names,
-        "steps": list(extension.file.steps), "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
+        "steps": list(extension.file.steps), "left": signals_left(step_of(extension.step).left, signal_title),
+        "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
         "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
     })  # fmt: skip
     return False

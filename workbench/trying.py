@@ -105,14 +105,16 @@ class Trial:
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
             x = amounts.axis_values(name, np.asarray(record.axes[name]), speed) if name else np.arange(len(record.values), dtype=float)
-            curves = [np.asarray(record.values, np.float64), base, tried, other]
+            # As the prediction's mean is fitted where a zero is free, all count from it.
+            zero = float(base.mean()) if record.free_zero and name else 0.0
+            curves = [curve - zero for curve in (np.asarray(record.values, np.float64), base, tried, other)]
             if record.quantity == ORDERS:
                 every = np.asarray(record.axes["order"], np.float64)
                 x, curves = np.unique(every), [amplitudes_of(every, values) for values in curves]
             axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
             words = {
                 "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
-                "condition": record.condition, "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
+                "condition": record.condition, "free": record.free_zero, "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
             }  # fmt: skip
             return words, np.array([x, *(factor * curve for curve in curves)])
 

@@ -1,5 +1,8 @@
 """What the commands of the loop show on the screen."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from rich.console import Console
 from rich.table import Table
 
@@ -10,12 +13,24 @@ from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.ladder_step import step_of
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, turned_down, variant_text
+from discrepancy.wording import (
+    base_texts,
+    error_text,
+    fitted_together,
+    left_text,
+    shares_text,
+    signals_left,
+    stand_ins,
+    together_text,
+    turned_down,
+    variant_text,
+)
 
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
@@ -151,6 +166,7 @@ def show_extension(extension: Extension) -> None:
     for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
         if held := held_text(name, extension.file):
             out.print(f"  {name}: {held}")
+    show_left(step, out)
 
 
 def show_ladder(file: ModelFile) -> None:
@@ -169,6 +185,13 @@ def show_ladder(file: ModelFile) -> None:
         verdict = step.get("verdict", "") + ("" if step.get("kept", True) else ", not kept")
         table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), fitted, unused, verdict)
     out.print(table)
+    show_left(file.steps[-1], out)
+
+
+def show_left(step: Mapping[str, Any], out: Console) -> None:
+    """An error that fell is not yet all of it."""
+    if text := signals_left(step_of(step).left):
+        out.print(styled((text, "yellow")))
 
 
 def show_next(run: NextRun) -> None:

@@ -14,9 +14,10 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 from discrepancy.campaign.quantities import INTERVENTIONS, QUANTITIES
 from discrepancy.problem import WITH_ZERO
 from fmu_src.faults import InputFault
+from fmu_src.file_name import FILE_NAME
 from fmu_src.names import dotted
 from fmu_src.reading import parse_toml, quoted, read_text
-from fmu_src.strict_file import NAME, Strict, validated
+from fmu_src.strict_file import Strict, validated
 
 FILE, REMEDY = "campaign.toml", "see docs/campaigns.md"
 
@@ -25,7 +26,7 @@ Stated = str | float | dict[str, Any]
 
 
 class Head(Strict):
-    name: str = Field(pattern=NAME)
+    name: str = Field(pattern=FILE_NAME)
     description: str = ""
     reducer: str | None = None
     ratio: float | None = Field(default=None, gt=0.0)
@@ -93,7 +94,7 @@ class Convention(Strict):
 
 
 class Run(Strict):
-    id: str = Field(pattern=NAME)
+    id: str = Field(pattern=FILE_NAME)
     quantity: str
     condition: str
     replicate: int = Field(default=1, ge=1)

@@ -9,6 +9,7 @@ from discrepancy.campaign.file_format import FILE
 from discrepancy.campaign.quantities import AXES, QUANTITIES, TAGS, USUAL, VALUE, Quantity, roles_of
 from fmu_src.checked_file import replacing, write_text
 from fmu_src.faults import InputFault, MissingPart
+from fmu_src.file_name import name_of_folder
 
 FORMATS = ("csv", "parquet")
 
@@ -101,8 +102,7 @@ def write_template(
 
 def campaign_text(name: str, quantities: tuple[str, ...], runs: list[tuple[Quantity, str, int]], kind: str, reducer: str) -> str:
     tribology = any("normal_force" in QUANTITIES[q].factors for q in quantities)
-    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in name).lstrip(" ._-") or "campaign"
-    parts = [HEAD.format(name=name, reducer=reducer, pin_on_disc=PIN_ON_DISC if tribology else "")]
+    parts = [HEAD.format(name=name_of_folder(name), reducer=reducer, pin_on_disc=PIN_ON_DISC if tribology else "")]
     parts += [layout_text(QUANTITIES[quantity]) for quantity in quantities]
     parts += [run_text(*run, kind) for run in runs]
     parts.append(TAIL.format(quantities=", ".join(f'"{q}"' for q in quantities)))

@@ -6,6 +6,7 @@ from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
+from discrepancy.wording import signals_left
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import number
@@ -20,6 +21,7 @@ def extension_page(result: Extension) -> Page:
         f"{step.label.capitalize()}: {result.verdict}. "
         f"{step.reason[:1].upper() + step.reason[1:]}.{kept if 'stays' not in step.reason else ''}"
     )
+    finding += left_sentence(step)
     warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
     return Page(
         "An effect added to a model",
@@ -49,6 +51,7 @@ def model_page(file: ModelFile) -> Page:
         )
     else:
         finding += " None of them was judged on unused runs."
+    finding += left_sentence(steps[-1])
     failed = [s.label for s in steps if s.verdict == DID_NOT_HELP]
     if failed:
         finding += f" Did not help: {', '.join(failed)}."
@@ -63,6 +66,12 @@ def model_page(file: ModelFile) -> Page:
         parameters(file),
     ]
     return Page("Ladder of a model", file.name, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+
+
+def left_sentence(step: Step) -> str:
+    """What is left after a step, for the end of a finding."""
+    text = signals_left(step.left, amounts.signal_title)
+    return f" {text[:1].upper()}{text[1:]}." if text else ""
 
 
 def conditions(file: ModelFile) -> str:

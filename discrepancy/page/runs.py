@@ -15,7 +15,10 @@ from fmu_src.arrays import Floats, Mask
 
 @dataclass(frozen=True)
 class Run:
-    """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included."""
+    """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included.
+
+    Where a quantity's zero is free, both curves count from ``zero`` of what was written: repetitions lie over each other then.
+    """
 
     record: Record
     kept: Mask
@@ -24,6 +27,7 @@ class Run:
     noise: Floats
     # How the campaign tells a speed.
     speed: Scale = AXES["speed"]
+    zero: float = 0.0
 
     @property
     def series(self) -> bool:
@@ -52,8 +56,10 @@ def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
         kept = whitener.kept
-        measured = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0)
-        found.append(Run(record, kept, measured[kept], np.asarray(y, float)[kept], whitener.scale * np.sqrt(1.0 + whitener.between), speed))
+        measured, y = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0), np.asarray(y, float)
+        # The mean of a prediction with a free zero is fitted: it is that of the run.
+        zero = float(y.mean()) if record.free_zero and axis_name(record) else 0.0
+        found.append(Run(record, kept, measured[kept] - zero, y[kept] - zero, whitener.scale * np.sqrt(1.0 + whitener.between), speed, zero))
     return found
 
 

@@ -15,6 +15,8 @@ from pages.look import Figure, short
 # Samples drawn of one series: fewer where there are many conditions, so that the page stays small.
 SAMPLES, FEWEST, MOST = 40_000, 800, 3_000
 MOST_REPLICATES = 4
+# Where runs were written at several heights.
+FREE = " The zero of this quantity is free: every run is drawn at its fitted zero."
 EMPTY: dict[str, list[float]] = {"x": [], "y": []}
 
 
@@ -36,6 +38,7 @@ def figure(
     step = max(stride(run, most) for run in runs)
     longest = max(len(members) for members in cells.values())
     text = caption or "The band is two standard deviations of the noise between replicates around the blue line."
+    text += FREE if any(run.zero for run in runs) else ""
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
     text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=panels.x_axis(title))

@@ -30,12 +30,14 @@ const KEYS = [
   ["Alt + click", "in a chart: set cursor B"],
 ];
 
-export const context = { state: null, go, act, start, modelChooser, model: () => context.state?.view?.model || "" };
+export const context = { state: null, go, act, start, busy, modelChooser, model: () => context.state?.view?.model || "" };
 const main = document.getElementById("view"),
   work = document.getElementById("work"),
   gone = document.getElementById("gone");
 let current = null,
-  opening = 0;
+  opening = 0,
+  shown = "";
+const loaded = new Set();
 
 // colours ---------------------------------------------------------------------------------
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -75,13 +77,29 @@ export function go(name) {
   else location.hash = name;
 }
 
-async function open(name) {
-  const mine = ++opening;
+function select(name) {
   for (const other of NAMES) document.getElementById(`tab-${other}`).setAttribute("aria-selected", String(other === name));
   document.getElementById(`tab-${name}`).scrollIntoView({ block: "nearest", inline: "nearest" });
   document.title = `${VIEWS[name]} · ${context.state?.name ?? ""} · rvwear`;
-  const module = await import(`./${name}.js`);
+}
+
+async function open(name) {
+  const mine = ++opening;
+  // A view that was never opened cannot be had from a server that is gone: the one that is seen stays.
+  if (!gone.hidden && !loaded.has(name)) {
+    if (shown) history.replaceState(null, "", `#${shown}`);
+    return;
+  }
+  select(name);
+  const module = await import(`./${name}.js`).catch(() => null);
   if (mine !== opening) return;
+  if (!module) {
+    lost();
+    if (shown) select(shown);
+    return;
+  }
+  loaded.add(name);
+  shown = name;
   current?.close?.();
   clear(main);
   current = module.show(main, context);
@@ -106,6 +124,12 @@ export async function act(promise, place = null) {
     if (fault.constructor.name !== "Fault") console.error(fault);
     return undefined;
   }
+}
+
+// Why nothing else can be started now; empty while nothing is computed.
+function busy() {
+  const running = Object.entries(context.state?.jobs ?? {}).find(([, job]) => job.state === "running");
+  return running ? `${WORK[running[0]]}: one thing is computed at a time; wait for its end, or stop it above` : "";
 }
 
 export async function start(kind, given = {}) {
@@ -163,10 +187,30 @@ events.onmessage = (event) => {
   gone.hidden = true;
   heard(JSON.parse(event.data));
 };
-events.onerror = () => {
+events.onerror = lost;
+
+function lost() {
   gone.hidden = false;
-  gone.textContent = "The server does not answer. What was found is in the folder: start rvwear workbench there again, and open the address that it prints.";
-};
+  clear(
+    gone,
+    "The server is gone. What was found is in the folder. Start it again with ",
+    h("code", {}, `rvwear workbench ${JSON.stringify(context.state?.folder ?? "FOLDER")}`),
+    " and open the address that it prints: every start has a new one.",
+  );
+  // Nobody tells any more how far it is.
+  work.hidden = true;
+}
+
+// Whatever is clicked then, the word is seen that says why nothing happens.
+addEventListener(
+  "click",
+  () => {
+    if (gone.hidden) return;
+    gone.classList.remove("again");
+    requestAnimationFrame(() => gone.classList.add("again"));
+  },
+  true,
+);
 
 // keys ----------------------------------------------------------------------------------------
 const help = document.getElementById("help");

@@ -5,7 +5,7 @@ import { cards, sections } from "./page.js";
 
 export function nextPart(bag) {
   const { next, context } = bag;
-  const busy = Object.values(context.state.jobs).some((j) => j.state === "running");
+  const busy = context.busy();
   const sheet = next
     ? [
         h("p", { class: "lead" }, next.verdict),
@@ -59,7 +59,7 @@ export function nextPart(bag) {
       "div",
       { class: "panel" },
       sheet,
-      h("button", { type: "button", id: "next", disabled: busy, onclick: () => context.start("next") }, next ? "Ask again" : "Propose the next experiment"),
+      h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next") }, next ? "Ask again" : "Propose the next experiment"),
     ),
   );
 }
@@ -67,7 +67,7 @@ export function nextPart(bag) {
 export function addPart(bag) {
   const { answer, extension, context } = bag;
   let anyway = false;
-  const busy = Object.values(context.state.jobs).some((j) => j.state === "running");
+  const busy = context.busy();
   const named = answer.effects.flatMap((e) => e.candidates),
     numbersOff = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
   const one = answer.confusable.length ? answer.effects.map((e) => e.candidates[0]) : null;
@@ -110,7 +110,8 @@ export function addPart(bag) {
             type: "button",
             class: "main",
             id: "extend",
-            disabled: busy,
+            disabled: !!busy,
+            title: busy || undefined,
             onclick: () => context.start("extend", { model: answer.model, effects: choice.split(" + "), anyway }),
           },
           "Add it",
@@ -124,6 +125,7 @@ export function addPart(bag) {
               { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
               `${extension.effects.map(effectName).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
             ),
+            extension.left ? h("p", { class: "fair", id: "left" }, extension.left) : null,
             cards(extension.page.cards),
             sections(extension.page.sections),
             command(extension.command),
@@ -136,7 +138,7 @@ export function addPart(bag) {
 export function ladder(bag) {
   const { extension, built, context } = bag;
   if (!extension) return null;
-  const busy = Object.values(context.state.jobs).some((j) => j.state === "running"),
+  const busy = context.busy(),
     steps = extension.steps;
   const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.training_before ?? 0]), 1);
   const bar = (value, tone) =>
@@ -166,6 +168,7 @@ export function ladder(bag) {
           `${s.verdict}${s.kept === false ? ", not kept" : ""}`,
         ]),
       ),
+      extension.left ? h("p", { class: "fair" }, extension.left) : null,
       h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
       h(
         "div",
@@ -182,7 +185,7 @@ export function ladder(bag) {
           "Look at the better model",
         ),
         h("button", { type: "button", onclick: () => context.start("diagnose", { model: "model.toml" }) }, "Is anything else missing?"),
-        h("button", { type: "button", id: "build", disabled: busy, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
+        h("button", { type: "button", id: "build", disabled: !!busy, title: busy || undefined, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
       ),
       built
         ? [

@@ -26,7 +26,7 @@ export function show(root, context) {
 
   function bar() {
     const job = context.state?.jobs.diagnose,
-      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+      busy = context.busy();
     clear(
       top,
       h(
@@ -35,7 +35,7 @@ export function show(root, context) {
         context.modelChooser("model"),
         h(
           "button",
-          { type: "button", id: "diagnose", class: answer ? "" : "main", disabled: busy, onclick: () => context.start("diagnose") },
+          { type: "button", id: "diagnose", class: answer ? "" : "main", disabled: !!busy, title: busy || undefined, onclick: () => context.start("diagnose") },
           answer ? (answer.verdict === "stopped" ? "Go on" : "Diagnose again") : "Diagnose",
         ),
         answer ? h("a", { class: "button", href: "results/diagnose/report?download", download: "" }, "Save as one file") : null,

@@ -65,7 +65,7 @@ export function ensemble(root, context, hours) {
 
   function draw() {
     const job = context.state?.jobs.ensemble,
-      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+      busy = context.busy();
     const field = (row, key) =>
       h("input", {
         type: "text",
@@ -77,7 +77,8 @@ export function ensemble(root, context, hours) {
           row[key] = e.target.value;
         },
       });
-    const lives = (rows?.length ?? 0) + 2;
+    const lives = (rows?.length ?? 0) + 2,
+      lacks = busy || (rows?.length ? "" : model ? "a number that scatters has to be added first" : "a model has to be chosen first");
     clear(
       form,
       model ? null : h("p", { class: "quiet" }, "Choose a model first."),
@@ -155,7 +156,8 @@ export function ensemble(root, context, hours) {
             type: "button",
             class: "main",
             id: "ensemble-run",
-            disabled: busy || !rows?.length,
+            disabled: !!lacks,
+            title: lacks || undefined,
             onclick: () => context.start("ensemble", { hours: hours(), samples, limits, scatters: rows }),
           },
           job?.state === "stopped" ? "Go on" : "Run",

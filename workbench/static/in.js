@@ -3,7 +3,7 @@
 import { choose, clear, command, h, note, table, words } from "./dom.js";
 import { cells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
-import { runs } from "./in_runs.js";
+import { runs, unread } from "./in_runs.js";
 import { drop, get, post, put } from "./net.js";
 
 export function show(root, context) {
@@ -140,7 +140,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, correct) : null, findings(), textOf()] : files(),
     );
     if (held) document.getElementById(held)?.focus();
   }
@@ -241,25 +241,22 @@ export function show(root, context) {
   }
 
   function saved() {
-    const ready = data.proposal.reducer && !data.saved,
-      needs = data.proposal.needs.length;
+    const lacks = data.proposal.reducer ? (data.proposal.needs.length ? "what is needed above has to be answered first" : "") : "the reducer has to be chosen first";
     const save = async () => {
       const found = await context.act(post("in/save"), faults);
       if (!found) return;
       await context.act(post("state", { model: context.state.view.model || data.proposal.reducer }), faults);
       await load();
-      if (!found.needs.length) {
-        context.go("look");
-        context.start("compare", { model: data.proposal.reducer });
-      }
+      context.go("look");
+      context.start("compare", { model: data.proposal.reducer });
     };
     return h(
       "div",
       { class: "row" },
       h(
         "button",
-        { type: "button", class: "main", id: "save", disabled: !data.proposal.reducer, onclick: save },
-        data.saved ? "Save anew and compare" : needs ? "Save" : "Save and compare",
+        { type: "button", class: "main", id: "save", disabled: !!lacks, title: lacks || undefined, onclick: save },
+        data.saved ? "Save anew and compare" : "Save and compare",
       ),
       data.saved
         ? h(
@@ -281,7 +278,7 @@ export function show(root, context) {
             "Compare",
           )
         : null,
-      ready ? null : data.proposal.reducer ? null : h("span", { class: "fair" }, "the reducer has to be chosen first"),
+      lacks ? h("span", { class: "fair" }, lacks) : null,
     );
   }
 

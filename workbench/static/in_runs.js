@@ -5,6 +5,32 @@ import { drop } from "./net.js";
 
 const COLUMNS = ["role", "column", "curve", "unit", "why"];
 
+// Files that nothing could be made of: each with the reason, and a way out.
+export function unread({ data, context, faults, load }) {
+  const found = Object.entries(data.unread);
+  if (!found.length) return null;
+  return h(
+    "div",
+    { class: "panel", id: "unread" },
+    h("h2", { style: { "margin-top": 0 } }, found.length === 1 ? "A file that cannot be read" : `${found.length} files that cannot be read`),
+    h("p", { class: "quiet" }, "It has no part in the campaign; all others stay."),
+    table(
+      ["file", "why", ""],
+      found.map(([name, why]) => [
+        h("b", {}, name),
+        h("span", { class: "bad" }, why),
+        h(
+          "button",
+          { type: "button", title: "put the file aside (.workbench/aside)", onclick: () => context.act(drop(`files/${encodeURIComponent(name)}`).then(load), faults) },
+          "Remove",
+        ),
+      ]),
+      [],
+      { class: "rows" },
+    ),
+  );
+}
+
 export function runs(bag) {
   const { data } = bag;
   const groups = new Map();

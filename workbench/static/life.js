@@ -5,7 +5,8 @@ import { ensemble } from "./ensemble.js";
 import { get } from "./net.js";
 import { Plot } from "./plot.js";
 
-const COLOURS = ["--predicted", "--measured", "--tried", "--residual"];
+// One for each line of all panes, which share a legend.
+const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--a"];
 
 export function show(root, context) {
   let live = null,
@@ -31,9 +32,10 @@ export function show(root, context) {
 
   function bar() {
     const job = context.state?.jobs.life,
-      busy = Object.values(context.state?.jobs ?? {}).some((j) => j.state === "running");
+      busy = context.busy();
     const paused = job?.state === "stopped" || job?.state === "gone";
-    const given = () => ({ hours, torque });
+    const given = () => ({ hours, torque }),
+      lacks = busy || (context.model() ? "" : "a model or reducer has to be chosen first");
     clear(
       top,
       h(
@@ -73,9 +75,10 @@ export function show(root, context) {
         ),
         h(
           "button",
-          { type: "button", class: "main", id: "live", disabled: busy || !context.model(), onclick: () => context.start("life", given()) },
+          { type: "button", class: "main", id: "live", disabled: !!lacks, title: lacks || undefined, onclick: () => context.start("life", given()) },
           paused ? "Go on" : "Run",
         ),
+        lacks && job?.state !== "running" ? h("span", { class: "fair", id: "lacks" }, lacks) : null,
         result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null,
       ),
       job?.fault && job.state !== "running" ? note(job.fault, "bad") : null,
@@ -110,17 +113,19 @@ export function show(root, context) {
       plot = new Plot({ height: window.innerWidth < 640 ? 560 : 640, label: "wear, lag, transmission error and stiffness over the hours" });
       chart.append(plot.element);
     }
-    const x = Float32Array.from(now.hours);
+    const x = Float32Array.from(now.hours),
+      before = now.panes.map((_, k) => now.panes.slice(0, k).reduce((n, p) => n + p.lines.length, 0)),
+      colour = (k, i) => COLOURS[(before[k] + i) % COLOURS.length];
     const panes = now.panes.map((p, k) => ({
       title: `${p.title} [${p.unit}]`,
       weight: k ? 1 : 1.6,
-      lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1.8, dots: x.length < 40 })),
+      lines: p.lines.map((l, i) => ({ name: l.name, x, y: Float32Array.from(l.values), colour: colour(k, i), width: 1.8, dots: x.length < 40 })),
     }));
     if (!result && live?.before?.hours) {
       const old = Float32Array.from(live.before.hours);
       live.before.panes.forEach((p, k) =>
         p.lines.forEach((l, i) =>
-          panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: COLOURS[i], width: 1, dash: [4, 4], opacity: 0.6 }),
+          panes[k].lines.push({ name: "", x: old, y: Float32Array.from(l.values), colour: colour(k, i), width: 1, dash: [4, 4], opacity: 0.6 }),
         ),
       );
     }

@@ -16,6 +16,7 @@ export function show(root, context) {
     chosen = null,
     condition = null,
     shift = 0,
+    asMeasured = false,
     all = false,
     text = "",
     loading = false;
@@ -224,7 +225,7 @@ export function show(root, context) {
       label: `${signal.title}, measured and predicted over ${signal.axis.title}, residual in units of the noise below`,
     });
     plots.push(plot);
-    const fill = () => plot.set(spec({ part, shift, several: condition === "*" }, signal, members));
+    const fill = () => plot.set(spec({ part, shift, asMeasured, several: condition === "*" }, signal, members));
     fill();
     const shifted = h("input", {
       type: "number",
@@ -245,6 +246,22 @@ export function show(root, context) {
       h(
         "div",
         { class: "row small" },
+        members.some((run) => run.zero)
+          ? h(
+              "label",
+              { class: "inline", title: "Its zero says nothing: runs are drawn at their fitted zero, or at the heights at which they were written." },
+              h("input", {
+                type: "checkbox",
+                id: "as-measured",
+                checked: asMeasured,
+                onchange: (e) => {
+                  asMeasured = e.target.checked;
+                  fill();
+                },
+              }),
+              "the zero is free: draw it as measured",
+            )
+          : null,
         h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
         h(
           "span",

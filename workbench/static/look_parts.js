@@ -80,7 +80,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
   );
 }
 
-export function spec({ part, shift, several }, signal, members) {
+export function spec({ part, shift, asMeasured, several }, signal, members) {
   const upper = [],
     lower = [],
     bands = [];
@@ -93,7 +93,9 @@ export function spec({ part, shift, several }, signal, members) {
       x = shift ? raw.map((v) => v + shift) : raw,
       p = raw,
       opacity = several ? 0.55 : Math.max(0.35, 0.95 - 0.2 * k),
-      predicted = part(run.predicted),
+      zero = asMeasured ? (run.zero ?? 0) : 0,
+      at = (values) => (zero ? values.map((v) => v + zero) : values),
+      predicted = at(part(run.predicted)),
       name = several ? ` · ${run.condition}` : "";
     if (k === 0 && !run.stems) {
       const noise = 2 * run.noise;
@@ -102,7 +104,7 @@ export function spec({ part, shift, several }, signal, members) {
     upper.push({
       name: k && !several ? "" : `measured${name}`,
       x,
-      y: part(run.measured),
+      y: at(part(run.measured)),
       colour: "--measured",
       width: broad,
       opacity,

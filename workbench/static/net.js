@@ -19,7 +19,7 @@ async function sent(path, options) {
   try {
     response = await fetch(path, options);
   } catch {
-    throw new Fault("the server does not answer: it was ended; start rvwear workbench again");
+    throw new Fault("the server is gone: start rvwear workbench again, and open the address that it prints");
   }
   return answer(response);
 }

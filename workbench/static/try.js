@@ -230,10 +230,10 @@ export function show(root, context) {
     if (own) lines.push({ name: "with what is tried", x, y: tried, colour: "--tried", width: 2 });
     if (beside) lines.push({ name: beside, x, y: other, colour: "--b", width: 1.6 });
     const difference = (y) => measured.map((v, i) => v - y[i]);
-    const lower = [{ name: "measured − model", x, y: difference(base), colour: "--predicted", width: 1.1 }];
-    if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--a", width: 1.1 });
-    if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--b", width: 1.1 });
-    if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--tried", width: 1.3 });
+    const lower = [{ name: "measured − model", x, y: difference(base), colour: "--residual", width: 1.1 }];
+    if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--left-a", width: 1.1 });
+    if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--left-b", width: 1.1 });
+    if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--gold", width: 1.3 });
     if (t.stems)
       [...lines, ...lower].forEach((line, i) => Object.assign(line, { stems: true, sorted: true, width: 2.4, shift: 0.35 * ((i % lines.length) - 1) }));
     plot.set({
@@ -251,6 +251,7 @@ export function show(root, context) {
       h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`),
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",
+      t.free ? " · the zero is free: drawn at the fitted one" : "",
     );
   }
 

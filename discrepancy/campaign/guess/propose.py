@@ -8,10 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
 from discrepancy.campaign.guess.counted import with_repetitions
-from discrepancy.campaign.guess.file_names import by_pattern, suggested
+from discrepancy.campaign.guess.file_names import by_pattern, stem, suggested
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
@@ -186,8 +187,8 @@ def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[Pla
                 free = next(k for k in range(1, len(taken) + 2) if (*same, k) not in taken)
                 replicate = Guess(free, "counted in the order of the files", free == 1)
             taken.add((*same, replicate.value))
-            stem = re.sub(r"[^A-Za-z0-9._-]+", "_", run.path.name.removesuffix(".gz").rpartition(".")[0]).strip("_.-") or run.quantity.value
-            base = stem if number is None else f"{stem}_{number}"
+            plain = re.sub(r"[^\w.-]+", "_", normalize("NFC", stem(run.path))).strip("_.-") or run.quantity.value
+            base = plain if number is None else f"{plain}_{number}"
             name = next(n for n in (base, *(f"{base}_{k}" for k in range(2, len(guessed) + 99))) if n not in ids)
             ids.add(name)
             runs.append(PlacedRun(name, run, condition, replicate, {run.repeated[0]: number} if run.repeated and number is not None else {}))

@@ -15,6 +15,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.problem import ERROR
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
+from fmu_src.file_name import name_of_folder
 
 # Harmless where it is not so: the share of the lag that is found is none then.
 WHOSE_ANGLE = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
@@ -22,8 +23,7 @@ WHOSE_ANGLE = "an encoder there lags under load; \"input\" if it is the input's 
 
 def name_of(folder: Path) -> str:
     """Of the folder, in the signs that a campaign's name may have."""
-    name = "".join(c if c.isascii() and (c.isalnum() or c in " ._-") else "_" for c in folder.resolve().name).lstrip(" ._-")
-    return name or "campaign"
+    return name_of_folder(folder.resolve().name)
 
 
 def campaign_text(proposal: Proposal, folder: Path) -> str:

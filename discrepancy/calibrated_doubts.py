@@ -1,0 +1,53 @@
+"""Calibrated numbers that are far from what they can be: the fit took them, which makes them no truth."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from discrepancy.as_told import told_name
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.prediction.conditions import LAG_SHARE
+from discrepancy.problem import Parameter
+from discrepancy.scales import of_parameter
+from fmu_src.table import Table
+
+# The lag of the output, of the model's own, is doubted outside of these (assumed: stiffnesses of one type differ by some tens of per cent).
+PLAUSIBLE_LAG = (0.5, 2.0)
+# So many standard deviations from what is known beforehand, and from where a number is doubted.
+FAR, SURELY = 3.0, 2.0
+
+
+def calibrated_doubts(fit: Fit, tables: Sequence[Table]) -> list[str]:
+    """One sentence for each doubtful number of the base fit: at a bound, far from what is known, or a lag that no such reducer has."""
+    # A misfit makes numbers less certain than the noise alone does.
+    scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
+    variances = scatter * np.diag(np.linalg.pinv(fit.normal, hermitian=True)) if fit.parameters else np.zeros(0)
+    found = []
+    for parameter, variance in zip(fit.parameters, variances):
+        value = fit.values[parameter.name]
+        scale = of_parameter(max(abs(value), abs(parameter.off)), parameter.unit)
+        told = f"calibrated {told_name(parameter.name, tables)} = {scale.text(value, 3)}"
+        if parameter.name == LAG_SHARE:
+            found += [f"{told} {text}" for text in lag_doubts(value, float(np.sqrt(variance)))]
+        elif parameter.prior and abs(value - parameter.off) > FAR * parameter.prior:
+            times = abs(value - parameter.off) / parameter.prior
+            found.append(f"{told} lies {times:.1f} standard deviations from {scale.text(parameter.off, 3)}, which was known before: something else is in it")
+        elif parameter.name in fit.at_bounds and not is_angle(parameter):
+            found.append(f"{told} stands at a bound of its range: it would go on, so it is no measurement of this number")
+    return found
+
+
+def is_angle(parameter: Parameter) -> bool:
+    """Whether it says where an angle counts from: such numbers come again after each turn of a wave."""
+    return parameter.name.startswith("angle_zero")
+
+
+def lag_doubts(value: float, deviation: float) -> list[str]:
+    """What is said against a share of the lag known to ``deviation``; 1 is the model's own."""
+    low, high = PLAUSIBLE_LAG
+    if value < low - SURELY * deviation:
+        return ["(the model's own is 1): the output hardly lags; if the angle was the input's over the ratio, state angle_of = \"input\""]
+    if value > high + SURELY * deviation:
+        return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
+                " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip
+    return []

@@ -1,0 +1,69 @@
+"""What is said against calibrated numbers, and what a step of the ladder leaves."""
+
+import numpy as np
+import pytest
+
+from discrepancy.calibrated_doubts import calibrated_doubts
+from discrepancy.inference.base_fit.fit import fit_of
+from discrepancy.ladder_step import step_of
+from discrepancy.page.extension import model_page
+from discrepancy.problem import Parameter
+from discrepancy.wording import signals_left
+
+
+def doubts(value, deviation=0.01, name="lag_share", off=1.0, lower=0.0, upper=12.0, prior=None):
+    """Of one number that is known to ``deviation``."""
+    parameter = Parameter(name, "1", off, lower, upper, 1.0, prior=prior)
+    return calibrated_doubts(fit_of((parameter,), {name: value}, np.zeros(100), np.full((100, 1), 0.1 / deviation)), ())
+
+
+@pytest.mark.parametrize("value, words", [(4.7, "4.7 times as soft"), (0.02, 'angle_of = "input"'), (1.0, ""), (1.8, ""), (0.6, "")])
+def test_a_lag_that_no_such_reducer_has_is_doubted(value, words):
+    found = doubts(value)
+    assert bool(found) == bool(words) and words in "".join(found)
+
+
+def test_what_is_hardly_known_is_no_reason_for_a_doubt():
+    assert not doubts(4.7, deviation=2.0) and not doubts(0.02, deviation=1.0)
+
+
+def test_numbers_at_bounds_and_far_from_what_is_known_are_doubted():
+    assert "at a bound" in doubts(12.0, name="friction")[0] and not doubts(5.0, name="friction")
+    assert not doubts(12.0, name="angle_zero[1]")
+    assert "4.8 standard deviations from 0" in doubts(4.8, name="model_error[hysteresis]", off=0.0, lower=-10.0, upper=10.0, prior=1.0)[0]
+    assert not doubts(2.0, name="model_error[hysteresis]", off=0.0, lower=-10.0, upper=10.0, prior=1.0)
+
+
+def entry(kept=True):
+    """A step as a model file has it: one signal is explained, one is not."""
+    signals = [
+        {"signal": "no_load_torque", "held_out": held, "unit": "N.m", "before": 0.12, "after": after, "noise_floor": 0.01} for held, after in ((False, 0.09), (True, 0.104))
+    ]
+    signals.append({"signal": "transmission_error", "held_out": False, "unit": "rad", "before": 6e-5, "after": 1.2e-6, "noise_floor": 1e-6})
+    return {"campaign": "c", "effects": ["crank_eccentricity"], "verdict": "helped", "reason": "r", "kept": kept, "signals": signals,
+            "held_out_before": 620.0, "held_out_after": 0.82, "training_before": 359.0, "training_after": 0.89}  # fmt: skip
+
+
+def test_a_step_names_the_signals_that_it_leaves():
+    assert signals_left(step_of(entry()).left) == "left: no_load_torque 10.4 times its noise"
+    # What was not kept leaves all as it was.
+    assert signals_left(step_of(entry(kept=False)).left) == "left: transmission_error 60 times its noise, no_load_torque 12 times its noise"
+    assert signals_left({}) == ""
+
+
+def test_the_ladder_says_it_on_page_and_screen(file, capsys):
+    from dataclasses import replace
+
+    from cli.show.comparison import show_ladder
+
+    made = replace(file, steps=(entry(),))
+    assert model_page(made).finding.endswith("Left: no load torque 10.4 times its noise.")
+    show_ladder(made)
+    assert "left: no_load_torque 10.4 times its noise" in capsys.readouterr().out
+
+
+@pytest.fixture
+def file():
+    from discrepancy.model_file import load_model
+
+    return load_model("RV20E-121")
