@@ -73,8 +73,13 @@ export function show(root, context) {
     // What was refused is shown as it was.
     draw();
   }
-  // A cell of campaign.toml itself; what is refused is shown as it was.
-  async function correct(place, value) {
+  // A cell of campaign.toml itself, one after the other: each is meant for the file as the one before it left it.
+  let corrected = Promise.resolve();
+  const correct = (place, value) => {
+    corrected = corrected.then(() => correctNow(place, value));
+  };
+  // What is refused is shown as it was.
+  async function correctNow(place, value) {
     const found = await context.act(post("in/edit", { of: data.cells.of, place, value }), faults);
     if (found) {
       const own = data.own;
