@@ -58,7 +58,7 @@ def hysteresis(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None 
     >>> import rvwear
     >>> loop = rvwear.hysteresis("RV20E-121", steps=8, angles=1)
     >>> f"{loop['torsional_stiffness_Nm_per_arcmin'].item():.3g} N.m/arcmin"
-    '50.3 N.m/arcmin'
+    '50.2 N.m/arcmin'
     """
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset
