@@ -132,11 +132,11 @@ def test_unused_runs_that_show_nothing_of_it_say_nothing_against_it():
     (5e-4, -9.0, True), (3e-3, 0.5, True), (3e-3, -0.5, False), (1e-2, CONFIRMING + 1.0, True), (1e-2, CONFIRMING - 1.0, False),
 ])  # fmt: skip
 def test_what_is_not_beyond_doubt_is_named_as_far_as_unused_runs_agree(p, gain, named):
-    settings = Settings()
-    assert borne_out(p, judged(2.0, 1.0, gain=gain), settings) == named
+    levels = Settings().sure_level, Settings().screen_level
+    assert borne_out(p, judged(2.0, 1.0, gain=gain), *levels) == named
     # Runs that do not show it, or none, leave it to the level of the test.
     for silent in (None, judged(2.0, 1.0, gain=gain, seen=False)):
-        assert borne_out(p, silent, settings) == (p < settings.screen_level)
+        assert borne_out(p, silent, *levels) == (p < levels[1])
 
 
 def test_a_start_that_is_worse_than_no_effect_is_halved():

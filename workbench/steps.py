@@ -83,16 +83,19 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
+    from discrepancy.held_shapes import held_text
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
-    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down
+    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down, variant_text
 
     effects = []
     for effect in answer.effects:
         effects.append({
-            "name": effect["name"], "title": effect["title"], "candidates": effect["candidates"], "share": shares_text(answer, effect),
+            "name": effect["name"], "title": effect["title"], "place": variant_text(effect),
+            "candidates": effect["candidates"], "share": shares_text(answer, effect),
             "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
+            "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
     return {

@@ -174,7 +174,7 @@ class Diagnostician:
         self.report([*members, *rivals])
         judge = judgement.held_out([*members, *[r for r in rivals[:2] if r not in members]])
         judged = judge.judge(final)
-        if not by_place and not borne_out(p_screen, judged, settings):
+        if not by_place and not borne_out(p_screen, judged, settings.sure_level, settings.screen_level):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         unproved = against(judged)
         if unproved:

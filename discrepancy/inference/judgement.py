@@ -11,9 +11,8 @@ from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation, Localiser
 from discrepancy.inference.refit.refit import Refit, leave_condition_out
-from discrepancy.inference.verdict import Settings
 
-# Of chi-square that unused runs gain: one campaign in twenty without an effect.
+# Of chi-square that unused runs gain of noise alone in one campaign in twenty.
 CONFIRMING = 6.0
 
 
@@ -28,16 +27,16 @@ def against(judged: HeldOut | None) -> str:
     return ""
 
 
-def borne_out(p: float, judged: HeldOut | None, settings: Settings) -> bool:
-    """Whether what fits at level ``p`` may be named: beyond doubt as it is, else as far as unused runs that would show it agree.
+def borne_out(p: float, judged: HeldOut | None, sure: float, level: float) -> bool:
+    """Whether what is significant at ``p`` may be named: below ``sure`` as it is, else as far as unused runs that would show it agree.
 
     Of noise alone they gain more than x in chi-square in no more than exp(-x/2) of campaigns (Markov, of a likelihood ratio).
     """
-    if p < settings.sure_level:
+    if p < sure:
         return True
     if judged is None or not judged.seen:
-        return p < settings.screen_level
-    return judged.gain > (0.0 if p < settings.screen_level else CONFIRMING)
+        return p < level
+    return judged.gain > (0.0 if p < level else CONFIRMING)
 
 
 def widening(over: bool, inflation: float) -> float:

@@ -120,7 +120,7 @@ export function show(root, context) {
     h(
       "div",
       { style: { "margin-top": "8px" } },
-      h("h3", {}, words(e.name)),
+      h("h3", {}, words(e.name) + (e.place ? ` (${e.place})` : "")),
       e.parameters.map((p) =>
         h(
           "div",
@@ -131,7 +131,7 @@ export function show(root, context) {
           why(p.why, p.name),
         ),
       ),
-      h("p", { class: "quiet small" }, [e.share, e.error].filter(Boolean).join("; ")),
+      h("p", { class: "quiet small" }, [e.share, e.error, e.held].filter(Boolean).join("; ")),
     );
 
   const rivals = () =>
