@@ -6,6 +6,7 @@ import numpy as np
 
 from discrepancy.as_told import told_name
 from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.problem import Parameter
 from discrepancy.scales import of_parameter
@@ -21,9 +22,8 @@ def calibrated_doubts(fit: Fit, tables: Sequence[Table]) -> list[str]:
     """One sentence for each doubtful number of the base fit: at a bound, far from what is known, or a lag that no such reducer has."""
     # A misfit makes numbers less certain than the noise alone does.
     scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
-    variances = scatter * np.diag(np.linalg.pinv(fit.normal, hermitian=True)) if fit.parameters else np.zeros(0)
     found = []
-    for parameter, variance in zip(fit.parameters, variances):
+    for parameter, variance in zip(fit.parameters, scatter * np.diag(covariance_of(fit))):
         value = fit.values[parameter.name]
         scale = of_parameter(max(abs(value), abs(parameter.off)), parameter.unit)
         told = f"calibrated {told_name(parameter.name, tables)} = {scale.text(value, 3)}"
