@@ -1,6 +1,6 @@
 """Calibrated numbers that are far from what they can be: the fit took them, which makes them no truth."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 import numpy as np
 
@@ -18,12 +18,17 @@ PLAUSIBLE_LAG = (0.5, 2.0)
 FAR, SURELY = 3.0, 2.0
 
 
-def calibrated_doubts(fit: Fit, tables: Sequence[Table]) -> list[str]:
-    """One sentence for each doubtful number of the base fit: at a bound, far from what is known, or a lag that no such reducer has."""
+def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = ()) -> list[str]:
+    """One sentence for each doubtful number that was calibrated: at a bound, far from what is known, or a lag that no such reducer has.
+
+    ``effects`` are the parameters of the fit that are effects', which are judged elsewhere.
+    """
     # A misfit makes numbers less certain than the noise alone does.
     scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
     found = []
     for parameter, variance in zip(fit.parameters, scatter * np.diag(covariance_of(fit))):
+        if parameter.name in effects:
+            continue
         value = fit.values[parameter.name]
         scale = of_parameter(max(abs(value), abs(parameter.off)), parameter.unit)
         told = f"calibrated {told_name(parameter.name, tables)} = {scale.text(value, 3)}"

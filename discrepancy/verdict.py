@@ -139,7 +139,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         touched = {finding["signal"] for finding in found.localisation["findings"]}
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
-    doubts = calibrated_doubts(doctor.space.base, as_told.tables_of(model))
+    # Beside what is named a number may be what it should be.
+    best = found.fits.members[0] if found.fits.members else None
+    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 

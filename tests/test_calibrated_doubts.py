@@ -34,6 +34,12 @@ def test_numbers_at_bounds_and_far_from_what_is_known_are_doubted():
     assert not doubts(2.0, name="model_error[hysteresis]", off=0.0, lower=-10.0, upper=10.0, prior=1.0)
 
 
+def test_what_is_an_effects_is_judged_elsewhere():
+    parameter = Parameter("drag", "N.m", 0.0, 0.0, 5.0, 1.0)
+    fit = fit_of((parameter,), {"drag": 5.0}, np.zeros(100), np.full((100, 1), 10.0))
+    assert calibrated_doubts(fit, ()) and not calibrated_doubts(fit, (), {"drag"})
+
+
 def entry(kept=True):
     """A step as a model file has it: one signal is explained, one is not."""
     signals = [
