@@ -10,6 +10,7 @@ import numpy as np
 
 from discrepancy import as_told
 from discrepancy.calibrated_doubts import calibrated_doubts
+from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
@@ -162,11 +163,12 @@ def another_reducer(model: PhysicalModel) -> Reducer | None:
 
 
 def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
-    """What is said before anything is fitted: another reducer, a base that is too soft, conditions that leave something out."""
+    """What is said before anything is fitted: another reducer, wrong angles, a base that is too soft, conditions that leave something out."""
     named = another_reducer(model)
     made_of = model.file.reducer.name
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
-    return [*other, *too_soft(figures), *incomplete(model.campaign)]
+    angles = [f"{found.text}: {found.remedy}" for found in angle_doubts(model.campaign)]
+    return [*other, *angles, *too_soft(figures), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

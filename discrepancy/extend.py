@@ -29,6 +29,8 @@ from fmu_src.threads import sharing_no_matrices
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
 # An error within this factor of the old one is no better.
 BETTER = 0.97
+# What chance leaves as often as this is not said to be left to explain.
+BY_CHANCE = 0.05
 
 
 class UnknownEffect(InputFault):
@@ -155,7 +157,8 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             " they do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
-        left = f"; {judged.after:.1f} times what noise leaves there is still left to explain" if judged.after > WITHIN_NOISE else ""
+        over = judged.after > WITHIN_NOISE and judged.p_after < BY_CHANCE
+        left = f"; {judged.after:.1f} times what noise leaves there is still left to explain" if over else ""
         return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}{left}"
     return DID_NOT_HELP, (
         f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"

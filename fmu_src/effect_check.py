@@ -21,7 +21,7 @@ from typing import Any
 
 from fmu_src.faults import InputFault, nearest
 from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, source_of
-from fmu_src.source_hash import KERNEL_PACKAGES, ROOT, STAMP, USER_EFFECTS, readable, user_effect_files
+from fmu_src.source_hash import IN_FMU, KERNEL_PACKAGES, ROOT, USER_EFFECTS, readable, user_effect_files
 from fmu_src.units import UnitError, fmi_base_unit
 from fmu_src.variables import Variable
 
@@ -63,7 +63,7 @@ class Frame:
 
 def require_sound_effects(package: str) -> None:
     """EffectFault if anything is wrong with the user's effects of a unit, or with their folder."""
-    folder = None if (ROOT / STAMP).is_file() else os.environ.get(USER_EFFECTS)
+    folder = None if IN_FMU else os.environ.get(USER_EFFECTS)
     findings = findings_of(package, folder) if folder else ()
     if findings:
         raise EffectFault("\n".join(map(str, findings)))

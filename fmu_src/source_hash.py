@@ -11,6 +11,8 @@ KERNEL_PACKAGES = ("fmu_src", "rv_plant", "wear_fmu", "rv_reducer")
 USER_EFFECTS = "RVWEAR_EFFECTS"
 # Lies beside the sources inside an FMU, which has its effects with it and takes no others.
 STAMP = "unit.json"
+# Known now, as ``LOADED_HASH`` is: an importer may delete the folder before its next instance.
+IN_FMU = (ROOT / STAMP).is_file()
 
 
 def user_effect_files(package: str) -> list[tuple[str, Path]]:
@@ -18,7 +20,7 @@ def user_effect_files(package: str) -> list[tuple[str, Path]]:
 
     What editors and file managers put beside files begins with a dot.  What cannot be read is told by ``effect_check``.
     """
-    folder = None if (ROOT / STAMP).is_file() else os.environ.get(USER_EFFECTS)
+    folder = None if IN_FMU else os.environ.get(USER_EFFECTS)
     files = sorted((Path(folder).resolve() / package).glob("[!.]*.py")) if folder else []
     return [(f"{package}/effects/{file.name}", file) for file in files if readable(file)]
 

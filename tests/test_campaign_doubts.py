@@ -9,7 +9,10 @@ from test_campaign_check import angle_file, campaign, codes, condition
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.doubts import jumps, path, suffices
 from discrepancy.campaign.load import load_campaign
+from discrepancy.compare import beforehand
+from discrepancy.model_file import load_model
 from discrepancy.plausible import fitting, scale_doubts
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 
 RATED = 167.0
@@ -155,6 +158,14 @@ def test_an_angle_that_runs_on_like_the_input_is_doubted(tmp_path, turns, second
     assert bool(found) == bool(said)
     if said:
         assert said in found[0].text and ("input_angle=phi" in found[0].remedy) == (turns > 100)
+
+
+def test_a_comparison_begins_with_an_angle_that_cannot_be(tmp_path):
+    run = angle_file(tmp_path, "te.csv", 1.02 * 121, 4000)
+    campaign(tmp_path, {"a": condition()}, [f'condition = "a"\n{run}'])
+    found = load_campaign(tmp_path)
+    said = beforehand(PhysicalModel(load_model("RV20E-121-rigid"), found), [])
+    assert any("494 s at the stated 15 rpm" in text and "input_angle=phi" in text for text in said)
 
 
 @pytest.mark.parametrize(("end", "more", "doubted"), [(-1.0, {}, True), (-1.0, {"direction": "forward"}, True), (-1.0, {"direction": "reverse"}, False), (1.0, {}, False)])

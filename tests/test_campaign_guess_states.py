@@ -77,6 +77,13 @@ def test_facts_in_the_head_are_read_and_printed(tmp_path, capsys):
     assert 'angle_of = "output": an encoder there lags under load' in said and "locked = output: the file's name or head says so" in said
 
 
+@pytest.mark.parametrize(("text", "side"), [("Entrée bloquée", "input"), ("sortie_bloquee", "output"), ("moteur verrouillé", "input")])
+def test_sides_in_french(text, side):
+    assert locked_side(text) == side
+    assert unloaded("Essai à vide") and unloaded("couple sans charge") and not unloaded("sous charge")
+    assert meaning_of("Angle moteur") == "input_angle" and meaning_of("Vitesse de sortie") == "output_speed" and meaning_of("Angle centrée") == "angle"
+
+
 def test_sides_of_speeds():
     assert meaning_of("Drehzahl Antrieb") == "input_speed" and meaning_of("Drehzahl Abtrieb") == "output_speed" and meaning_of("Drehzahl") == "speed"
 

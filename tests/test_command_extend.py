@@ -109,4 +109,6 @@ def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, sai
     assert verdict == HELPED and "28.00 to 2.00" in reason
     assert "2.0 times what noise leaves there is still left" in reason
     assert "still left" not in verdict_of(HeldOut(28.0, 1.1, 0.4, judged.rms, "held-out runs"))[1]
+    # What chance leaves often enough is nothing to explain.
+    assert "still left" not in verdict_of(HeldOut(28.0, 1.6, 0.1, judged.rms, "held-out runs"))[1]
     assert ("times the noise" in reason) != said and ("less than their noise" in reason) == said

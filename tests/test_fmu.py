@@ -1,6 +1,7 @@
 """The FMUs: description, bytes, state, instances, refusals, and the same trajectories as in process."""
 
 import math
+import os
 import subprocess
 import sys
 import zipfile
@@ -202,8 +203,11 @@ assert fmu_src.__file__.startswith(__import__("tempfile").gettempdir())
 
 
 def test_units_run_where_the_project_is_not_installed(fmus, tmp_path):
-    """One after the other in one process; fmpy deletes the folder of each when it is done."""
-    done = subprocess.run([sys.executable, "-I", "-c", ALONE, fmus], cwd=tmp_path, capture_output=True, text=True)
+    """One after the other in one process; fmpy deletes the folder of each when it is done.  A folder of own effects that is set is not theirs."""
+    own = tmp_path / "own" / "rv_plant"
+    own.mkdir(parents=True)
+    (own / "mine.py").write_text("EFFECT = None\n", encoding="utf-8")
+    done = subprocess.run([sys.executable, "-I", "-c", ALONE, fmus], cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "RVWEAR_EFFECTS": str(own.parent)})
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -1,9 +1,12 @@
-"""What a column means by its name: words of the field in English, German, Chinese and Japanese."""
+"""What a column means by its name: words of the field in English, German, French as far as benches write it, Chinese and Japanese."""
 
 import re
 
-INPUT = r"input|motor|antrieb(?!$)|(?<=[ _.-])antrieb|eingang|drive|servo|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
-OUTPUT = r"output|abtrieb|ausgang|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|load side)(?:$|[ _.-])"
+INPUT = (
+    r"input|mot(?:o|eu)r|(?<![a-z])entr[ée]e|antrieb(?!$)|(?<=[ _.-])antrieb|eingang|drive|servo"
+    r"|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
+)
+OUTPUT = r"output|sortie|abtrieb|ausgang|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|load side)(?:$|[ _.-])"
 
 # Meaning -> words; the first that fits counts.
 MEANINGS = {
@@ -20,7 +23,7 @@ MEANINGS = {
     "order": r"^order|ordnung|阶次|次数",
     "acceleration": r"acc|beschl|vibra|schwing|加速度|振动|振動",
     "temperature": r"temp|温度",
-    "speed": r"speed|veloc|drehzahl|geschw|rpm|转速|轉速|回転|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
+    "speed": r"speed|veloc|vitesse|drehzahl|geschw|rpm|转速|轉速|回転|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
     "torque": r"torq|moment|drehm|扭矩|转矩|轉矩|力矩|トルク|负载|負荷|(?:^|[ _.-])(?:m|md|t|load|last)(?:$|[ _.-])(?!.*time)",
     "twist": r"twist|torsion|verdreh|wind.?up|deflect|hyster|spiel|backlash|^turn(?:ing)?(?:$|[ _.-])|扭转|扭轉|回差|变形|ねじれ|ヒステリシス",
     "angle": r"angle|winkel|phi|theta|φ|θ|ϕ|encoder|geber|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posit|角|回転角",

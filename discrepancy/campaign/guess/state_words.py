@@ -2,8 +2,8 @@
 
 import re
 
-SIDES = {"input": r"input|motor|antrieb|eingang|drive", "output": r"output|abtrieb|ausgang"}
-HELD = r"locked|fixed|blocked|clamped|held|gesperrt\w*|blockiert\w*|fest|festgehalten\w*|festgesetzt\w*|arretiert\w*|geklemmt\w*"
+SIDES = {"input": r"input|mot(?:o|eu)r|entr[ée]e|antrieb|eingang|drive", "output": r"output|sortie|abtrieb|ausgang"}
+HELD = r"locked|fixed|blocked|clamped|held|gesperrt\w*|blockiert\w*|fest|festgehalten\w*|festgesetzt\w*|arretiert\w*|geklemmt\w*|bloqu[ée]\w*|verrouill[ée]\w*"
 # Between a side and what was done to it.
 BETWEEN = r"(?:shaft|side|end|seite|welle|ist|is|was|war|wurde|mechanisch)"
 CHINESE = {"input": "输入(?:轴|端|侧)?(?:固定|锁死|锁定)", "output": "输出(?:轴|端|侧)?(?:固定|锁死|锁定)"}
@@ -12,13 +12,13 @@ IS_HELD = {
 }  # fmt: skip
 UNLOADED = re.compile(
     r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
-    r"|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
+    r"|sans charge|à vide|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
 )
 
 
 def plainly(text: str) -> str:
     """In small letters, words parted by one blank each: ``Antrieb_gesperrt`` as ``antrieb gesperrt``."""
-    apart = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", " ", text)
+    apart = re.sub(r"(?<=[a-zäöüßéè])(?=[A-ZÄÖÜÉ])", " ", text)
     return re.sub(r"[\W_]+", " ", apart).lower().strip()
 
 
