@@ -57,8 +57,9 @@ class Threads:
         if self.jobs < 2 or len(work) < 2 or getattr(self.here, "inside", False):
             return [function(item) for item in work]
         with ThreadPoolExecutor(self.jobs, "rvwear") as pool:
-            futures: list[Future[Result]] = [pool.submit(copy_context().run, self.inside, function, item) for item in work]
             try:
+                # Ctrl-C may come before all are handed out.
+                futures: list[Future[Result]] = [pool.submit(copy_context().run, self.inside, function, item) for item in work]
                 return [future.result() for future in futures]
             except BaseException:
                 # An error, or Ctrl-C: what has not begun does not begin, the rest ends at its next prediction.
