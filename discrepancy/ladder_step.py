@@ -4,10 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from discrepancy.compare import CONSPICUOUS
 from discrepancy.model_file import SignalEntry
-
-# A signal that errs by more than so many times its noise is left to explain, as a comparison has it.
-ABOVE = 1.5
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ class Step:
         found: dict[str, float] = {}
         for s in self.signals:
             ratio = (s.after if self.kept else s.before) / s.noise_floor if s.noise_floor > 0.0 else 0.0
-            if ratio > ABOVE:
+            if ratio > CONSPICUOUS:
                 found[s.signal] = max(ratio, found.get(s.signal, 0.0))
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
 

@@ -2,11 +2,10 @@
 
 import re
 
-INPUT = (
-    r"input|mot(?:o|eu)r|(?<![a-z])entr[ée]e|antrieb(?!$)|(?<=[ _.-])antrieb|eingang|drive|servo"
-    r"|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
-)
-OUTPUT = r"output|sortie|abtrieb|ausgang|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|load side)(?:$|[ _.-])"
+# Words of either side that mean it wherever they stand; "Antrieb" is the whole drive, too.
+SIDES = {"input": r"input|mot(?:o|eu)r|(?<![a-z])entr[ée]e|eingang|drive", "output": r"output|sortie|abtrieb|ausgang"}
+INPUT = SIDES["input"] + r"|antrieb(?!$)|(?<=[ _.-])antrieb|servo|输入|電機|电机|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
+OUTPUT = SIDES["output"] + r"|输出|出力|負荷側|(?:^|[ _.-])(?:out|ab|load side)(?:$|[ _.-])"
 
 # Meaning -> words; the first that fits counts.
 MEANINGS = {

@@ -2,13 +2,16 @@
 
 import re
 
-SIDES = {"input": r"input|mot(?:o|eu)r|entr[ée]e|antrieb|eingang|drive", "output": r"output|sortie|abtrieb|ausgang"}
+from discrepancy.campaign.guess.column_words import SIDES
+
+# What is held is a shaft: "Antrieb" is the input's.
+SHAFTS = SIDES | {"input": SIDES["input"] + "|antrieb"}
 HELD = r"locked|fixed|blocked|clamped|held|gesperrt\w*|blockiert\w*|fest|festgehalten\w*|festgesetzt\w*|arretiert\w*|geklemmt\w*|bloqu[ée]\w*|verrouill[ée]\w*"
 # Between a side and what was done to it.
 BETWEEN = r"(?:shaft|side|end|seite|welle|ist|is|was|war|wurde|mechanisch)"
 CHINESE = {"input": "输入(?:轴|端|侧)?(?:固定|锁死|锁定)", "output": "输出(?:轴|端|侧)?(?:固定|锁死|锁定)"}
 IS_HELD = {
-    side: re.compile(rf"\b(?:{words})\w*? ?(?:{BETWEEN} ){{0,3}}(?:{HELD})\b|\b(?:{HELD}) (?:{words})|{CHINESE[side]}") for side, words in SIDES.items()
+    side: re.compile(rf"\b(?:{words})\w*? ?(?:{BETWEEN} ){{0,3}}(?:{HELD})\b|\b(?:{HELD}) (?:{words})|{CHINESE[side]}") for side, words in SHAFTS.items()
 }  # fmt: skip
 UNLOADED = re.compile(
     r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
