@@ -26,7 +26,7 @@ from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import FLOATING, PhysicalModel, defined_at
 from discrepancy.repetitions import Outlying, outlying
-from discrepancy.scales import of_parameter, shown
+from discrepancy.scales import Scale, of_parameter, shown
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
@@ -102,8 +102,13 @@ def floating_text(floating: Mapping[str, int]) -> str:
 
 def calibrated_text(model: PhysicalModel, values: Mapping[str, float]) -> str:
     """What of the model was calibrated to the campaign before it was held against it: ``model_error[hysteresis] = -10``; empty for nothing."""
+    return ", ".join(f"{name} = {scale.text(value, 6)}" for name, value, scale in calibrated_numbers(model, values))
+
+
+def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> list[tuple[str, float, Scale]]:
+    """Calibrated numbers (SI) by the names that are told, with the scale to tell them in."""
     units, tables = {p.name: p.unit for p in model.nuisances}, as_told.tables_of(model)
-    return ", ".join(f"{as_told.told_name(k, tables)} = {of_parameter(abs(v), units.get(k, '1')).text(v, 6)}" for k, v in values.items())
+    return [(as_told.told_name(name, tables), value, of_parameter(abs(value), units.get(name, "1"))) for name, value in values.items()]
 
 
 def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:

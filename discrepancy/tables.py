@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy.as_told import tables_of as tables_in
 from discrepancy.as_told import told_name
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import Comparison
+from discrepancy.compare import Comparison, calibrated_numbers
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.key_figures import KeyFigure
@@ -76,11 +76,8 @@ def answer_tables(result: Answer) -> list[Table]:
 
 def calibrated_rows(model: PhysicalModel, space: Workspace) -> list[Table]:
     """What of the base model was calibrated to the campaign before it was held against it; no table for nothing."""
-    units, tables = {p.name: p.unit for p in model.nuisances}, tables_in(model)
-    rows = []
-    for name, value in space.base.values.items():
-        scale = of_parameter(abs(value), units.get(name, "1"))
-        rows.append({"parameter": told_name(name, tables), "value": scale.number(value), "unit": scale.unit})
+    numbers = calibrated_numbers(model, space.base.values)
+    rows = [{"parameter": name, "value": scale.number(value), "unit": scale.unit} for name, value, scale in numbers]
     return [rows_table("calibrated", rows, {})] if rows else []
 
 
