@@ -9,12 +9,12 @@ from discrepancy.inference.misfit.features import features, samples_of_a_wave
 from discrepancy.inference.misfit.localise import Localiser, step_of, stepped
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.cages import likeliest, resultant, whitening
+from discrepancy.prediction.cages import Cages, likeliest, resultant, weights, whitening
 from discrepancy.prediction.conditions import distinct_conditions, row_conditions
 from discrepancy.prediction.curves import OverAngle, level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer
 from discrepancy.prediction.fineness import EVERY_SAMPLE, SOLVED, Fineness
-from discrepancy.prediction.observe import ripple_of_cages
+from discrepancy.prediction.observe import ripples_of_cages
 from discrepancy.problem import Record
 
 TURN = 2.0 * np.pi
@@ -117,7 +117,7 @@ def test_the_cages_ripple_is_computed_at_nodes_too(monkeypatch):
     lengths = []
     running = Bench.running_places
     monkeypatch.setattr(Bench, "running_places", lambda self, c, v, angles, *a, **more: lengths.append(len(angles)) or running(self, c, v, angles, *a, **more))
-    ripple = ripple_of_cages(bench, record, {}, 0.3)
+    [ripple] = ripples_of_cages(bench, record, {}, [0.3])
     assert np.std(ripple) > 1e-8 and max(lengths) < 20_000
 
 
@@ -132,13 +132,33 @@ def test_the_place_of_the_cages_is_seen_through_slow_noise():
     assert share * TURN == pytest.approx(2.0, abs=0.1) and sure > 0.98
 
 
-def test_between_three_places_the_likeliest_is_found():
+def test_the_likeliest_place_is_found_by_the_ripple_at_others():
     random = np.random.default_rng(6)
     phase = 140.0 * np.linspace(0.0, TURN, 500, endpoint=False)
     # No sine: a kink in every wave.
     kinked = lambda share: np.abs(np.sin(0.5 * (phase - TURN * share)))
-    shares = [0.22, 0.3, 0.38]
     misfit = kinked(0.337) + 0.05 * random.normal(0.0, 1.0, 500)
-    ripples = [kinked(s) for s in shares]
-    found = likeliest(shares, ripples, misfit, whitening(misfit - ripples[1]))
-    assert found == pytest.approx(0.337, abs=0.01)
+    ripples = np.array([kinked(s) for s in np.arange(8) / 8])
+    assert likeliest(ripples, misfit, 0.3) == pytest.approx(0.337, abs=0.01)
+
+
+def test_a_series_through_equal_places_has_the_harmonics_that_they_can_have():
+    shares, places = np.linspace(-0.7, 1.3, 41), np.arange(8) / 8
+    for h in range(4):
+        for wave in (np.cos, np.sin):
+            assert weights(shares, 8) @ wave(h * TURN * places) == pytest.approx(wave(h * TURN * shares), abs=1e-12)
+    assert weights(places, 8) == pytest.approx(np.eye(8), abs=1e-12)
+
+
+def test_the_ripple_is_computed_at_so_many_places_that_nobody_sees_what_is_missed():
+    """Two runs of one condition share them: the second costs nothing."""
+    bench, record = Bench(load_model("RV20E-121-rigid").reducer, {}), curve(400, noise=2e-7)
+    bench.fineness = Fineness([record])
+    cages = Cages(bench, [record], lambda r, values: dict(values))
+    shares = np.array([0.1, 0.37, 0.81])
+    exact = np.array(ripples_of_cages(bench, record, {}, shares, True))
+    few = np.array([np.zeros(400), *ripples_of_cages(bench, record, {}, (0.25, 0.5, 0.75), True)])
+    closer = cages.closer(record, {}, few)
+    error = lambda ripples: float(np.sqrt(np.mean((weights(shares, len(ripples)) @ ripples - exact) ** 2)))
+    assert 4 < len(closer) <= 16 and error(closer) < 0.6 * error(few)
+    assert len(closer) == 16 or error(closer) < bench.allowed(record)

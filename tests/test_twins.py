@@ -8,7 +8,7 @@ import pytest
 from discrepancy.model_file import load_model
 from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverAngle, cage_ripple
+from discrepancy.prediction.curves import OverAngle, cage_ripples
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.twins import Twins, corners, places_of
 from discrepancy.prediction.units import Condition
@@ -129,7 +129,7 @@ def test_anchors_stand_closer_where_noise_is_less(bench):
 def test_ripple_of_the_cages_errs_less_than_noise_shows(bench, noise):
     record = recorded(bench, noise)
     pitch = 2.0 * np.pi / bench.reducer.topology.rollers
-    found = cage_ripple(bench, record, {}, 0.5 * pitch)
+    [found] = cage_ripples(bench, record, {}, [0.5 * pitch])
     exact, there = (bench.running(COLD, {}, record.axes["angle"], cage)[:, COLUMNS.index(ERROR)] for cage in (0.5 * pitch, 0.0))
     error = np.std(found - (exact - there))
     assert error < bench.allowed(record)

@@ -88,7 +88,7 @@ class Selection:
         fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
-        others = self.tried("fitting in earnest", self.refits.renewed, [f for f in fits[1:] if f.fit.chi2 < near])
+        others = self.tried("fitting in earnest", partial(self.as_reported, self.near(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
 
     def first_tried(self, scores: list[Score], top: float) -> list[Score]:
@@ -123,6 +123,11 @@ class Selection:
     def near(self, best: Refit) -> float:
         """Chi-square below which a rough fit may be as good as ``best``."""
         return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
+
+    def as_reported(self, least: float, rival: Refit) -> Refit:
+        """A rival as it is reported, fitted in earnest unless predictions in earnest leave it above the chi-square ``least`` where it stands."""
+        seen = self.refits.seen(rival)
+        return self.refits.renewed(seen) if seen.fit.chi2 < least else seen
 
     def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
         """``function`` of every score or refit, told as it goes."""
@@ -243,6 +248,7 @@ class Selection:
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
-        near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member) + self.refits.gained_in_earnest(final)
+        least = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member)
+        near = least + self.refits.gained_in_earnest(final)
         rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
-        return [self.refits.renewed(r) if r.fit.chi2 < near else r for r in rivals]
+        return [self.as_reported(least, r) if r.fit.chi2 < near else r for r in rivals]

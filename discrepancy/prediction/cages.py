@@ -14,7 +14,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.curves import OF_RIPPLE, errors_of_cages
 from discrepancy.prediction.fewer import fewer
-from discrepancy.prediction.observe import ripple_of_cages, transmission_error
+from discrepancy.prediction.observe import ripples_of_cages, transmission_error
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -25,10 +25,12 @@ LONG = 40
 PLACES = 64
 # Parts of the pitch beside 0 at which the ripple is looked at.
 QUARTERS = (0.25, 0.5, 0.75)
-# A place that is known so well is looked for so far to either side once more, and closer again.
-KNOWN, BESIDE, CLOSE_BESIDE = 0.9, 0.08, 0.05
-# What a ripple to first order misses may add to chi-square, root.
-SHOWS = 1.0
+# A place that is known so well is looked for once more, so far to either side, at so many places.
+KNOWN, BESIDE, LOOKS = 0.9, 0.08, 17
+# Places at which the ripple is computed, at most, and what a series through twice as many misses of what one through half of them does.
+MOST_PLACES, DOUBLED = 16, 3.0
+# What that may be, of what a prediction may err.
+HALF = 0.5
 # Samples that one of the noise remembers.
 LAGS = 10
 # Share of itself by which a ripple errs at few nodes.
@@ -68,35 +70,37 @@ class Cages:
     def found(self, record: Record, own: dict[str, float]) -> Floats:
         few = fewer(record, turns_of(self.bench, record))
         if few is record:
-            there = transmission_error(self.bench, record, own)
-            quarter, half, last = (ripple_of_cages(self.bench, record, own, share) for share in QUARTERS)
+            there, ahead = transmission_error(self.bench, record, own), ripples_of_cages(self.bench, record, own, QUARTERS)
         else:
-            there, (quarter, half, last) = self.roughly(few, own, QUARTERS)
-        middle, cosine, sine = (quarter + half + last) / 4.0, -half / 2.0, (quarter - last) / 2.0
-        basis = np.column_stack([cosine, sine])
+            there, ahead = self.roughly(few, own, QUARTERS)
+        ripples = np.array([np.zeros(len(few.values)), *ahead])
+        middle, cosine, sine = ripples.mean(axis=0), -0.5 * ripples[2], 0.5 * (ripples[1] - ripples[3])
         misfit = few.values - there
-        share, sure = resultant(basis, misfit - middle)
-        exactly = False
-        if sure > KNOWN and few is record:
-            # To first order, and if what that misses would show, by the ripple itself.
-            share, missed = self.nearer(record, own, misfit, share, BESIDE, False)
-            exactly = missed > SHOWS
-            if exactly:
-                share, _ = self.nearer(record, own, misfit, share, CLOSE_BESIDE, True)
-        ripple = ripple_of_cages(self.bench, record, own, share, exactly)
+        share, sure = resultant(np.column_stack([cosine, sine]), misfit - middle)
         if few is not record:
+            [ripple] = ripples_of_cages(self.bench, record, own, [share])
             exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
-            ripples = [ripple_of_cages(self.bench, record, own, s) for s in QUARTERS] if exactly else self.roughly(record, own, QUARTERS)[1]
-            middle = sum(ripples, np.zeros(len(record.values))) / 4.0
+            ahead = ripples_of_cages(self.bench, record, own, QUARTERS, True) if exactly else self.roughly(record, own, QUARTERS)[1]
+            middle = sum(ahead, np.zeros(len(record.values))) / 4.0
+        elif sure > KNOWN:
+            # Shared by all runs of a condition, wherever their cages stand.
+            ripples = self.closer(record, own, ripples)
+            share = likeliest(ripples, misfit, share)
+            ripple, middle = (weights(np.array([share]), len(ripples)) @ ripples)[0], ripples.mean(axis=0)
+        else:
+            [ripple] = ripples_of_cages(self.bench, record, own, [share])
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
         return sure * ripple + (1.0 - sure) * middle
 
-    def nearer(self, record: Record, own: dict[str, float], misfit: Floats, share: float, beside: float, exactly: bool) -> tuple[float, float]:
-        """The likeliest place about ``share``, and what a ripple to first order would miss there, in units of the noise."""
-        around = [share - beside, share, share + beside]
-        ripples = [ripple_of_cages(self.bench, record, own, s, exactly) for s in around]
-        white = whitening(misfit - ripples[1])
-        return likeliest(around, ripples, misfit, white), float(np.linalg.norm(white(OF_RIPPLE * ripples[1])))
+    def closer(self, record: Record, own: dict[str, float], ripples: Floats) -> Floats:
+        """The ``ripples`` (k, n) at equal places of the pitch, at so many that nobody sees what the series through them misses."""
+        missed = np.inf
+        while len(ripples) < MOST_PLACES and missed > HALF * DOUBLED * self.bench.allowed(record):
+            between = (np.arange(len(ripples)) + 0.5) / len(ripples)
+            new = np.array(ripples_of_cages(self.bench, record, own, between))
+            missed = float(np.sqrt(np.mean((weights(between, len(ripples)) @ ripples - new) ** 2)))
+            ripples = np.stack([ripples, new], axis=1).reshape(-1, ripples.shape[1])
+        return ripples
 
     def roughly(self, record: Record, own: dict[str, float], shares: Sequence[float]) -> tuple[Floats, list[Floats]]:
         """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``shares`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
@@ -142,10 +146,24 @@ def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
     return float(np.angle(mean)) / (2.0 * np.pi), abs(mean)
 
 
-def likeliest(shares: Sequence[float], ripples: Sequence[Floats], misfit: Floats, white: Callable[[Floats], Floats]) -> float:
-    """The place between the three ``shares`` whose ripple, which is no sine, leaves least of the ``misfit``; by a parabola."""
-    left = [float(np.sum(white(misfit - ripple) ** 2)) for ripple in ripples]
-    step, bend = 0.5 * (left[2] - left[0]), left[0] - 2.0 * left[1] + left[2]
-    if bend <= 0.0:
-        return shares[int(np.argmin(left))]
-    return shares[1] + (shares[2] - shares[1]) * float(np.clip(-step / bend, -1.0, 1.0))
+def weights(shares: Floats, count: int) -> Floats:
+    """(m, count): what each of ``count`` equal places of the pitch, the first at 0, adds at ``shares`` (m,) to the trigonometric series through them."""
+    turns = 2.0 * np.pi * (shares[:, None] - np.arange(count) / count)
+    harmonics = sum((2.0 * np.cos(h * turns) for h in range(1, count // 2)), np.cos(count // 2 * turns))
+    found: Floats = (1.0 + harmonics) / count
+    return found
+
+
+def likeliest(ripples: Floats, misfit: Floats, share: float) -> float:
+    """The place about ``share`` at which the ripple, of which ``ripples`` (k, n) are known at equal places, leaves least of the ``misfit`` (n,)."""
+    white = whitening(misfit - (weights(np.array([share]), len(ripples)) @ ripples)[0])
+    columns = white(np.column_stack([misfit, *ripples]))
+    shares = share + np.linspace(-BESIDE, BESIDE, LOOKS)
+    shown = np.column_stack([np.ones(LOOKS), -weights(shares, len(ripples))])
+    # Squares of what each place leaves, by products over all samples once.
+    left = np.einsum("ij,jk,ik->i", shown, columns.T @ columns, shown)
+    best = int(np.clip(np.argmin(left), 1, LOOKS - 2))
+    before, at, after = left[best - 1 : best + 2]
+    bend = before - 2.0 * at + after
+    step = float(np.clip(0.5 * (before - after) / bend, -1.0, 1.0)) if bend > 0.0 else 0.0
+    return float(shares[best]) + step * float(shares[1] - shares[0])

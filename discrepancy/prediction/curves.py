@@ -283,19 +283,23 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     return change
 
 
-def cage_ripple(bench: Bench, record: Record, values: Values, cage: float, exactly: bool = False) -> Floats:
-    """What cages that stand ``cage`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody could
-    see what that misses."""
-    curve, plain = (OverAngle(bench, record, "transmission_error", ahead) for ahead in (cage, 0.0))
-    if cage == 0.0:
-        return np.zeros(len(record.values))
-    if not exactly and curve.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float], exactly: bool = False) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody
+    could see what that misses."""
+    plain = OverAngle(bench, record, "transmission_error")
+    if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+        found: list[Floats] = []
         angles, samples = plain.support(nodes_of(plain, values), values)
-        ahead, there = (bench.error_beside(curve.condition, values, angles, values, angles, c) for c in (cage, 0.0))
-        change = ahead - there
-        if OF_RIPPLE * float(np.std(change)) <= HARDLY_SEEN * bench.allowed(record):
-            return samples(change)
-    return signal(curve, values) - signal(plain, values)
+        there = bench.error_beside(plain.condition, values, angles, values, angles)
+        for cage in cages:
+            change = bench.error_beside(plain.condition, values, angles, values, angles, cage) - there
+            if OF_RIPPLE * float(np.std(change)) > HARDLY_SEEN * bench.allowed(record):
+                break
+            found.append(samples(change))
+        else:
+            return found
+    without = signal(plain, values)
+    return [signal(replace(plain, cage=cage), values) - without for cage in cages]
 
 
 def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:

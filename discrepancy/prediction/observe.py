@@ -1,13 +1,13 @@
 """One function per measured quantity: what the bench would have shown on a record's axes, in SI units."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
 from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
-from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripple, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripples, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -46,9 +46,10 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
     return None if change is None else from_zero(record, change)
 
 
-def ripple_of_cages(bench: Bench, record: Record, values: Values, share: float, exactly: bool = False) -> Floats:
-    """What cages a ``share`` of their rollers' pitch ahead change in the transmission error."""
-    return cage_ripple(bench, record, values, share * 2.0 * math.pi / bench.reducer.topology.rollers, exactly)
+def ripples_of_cages(bench: Bench, record: Record, values: Values, shares: Iterable[float], exactly: bool = False) -> list[Floats]:
+    """What cages each of ``shares`` of their rollers' pitch ahead change in the transmission error."""
+    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
+    return cage_ripples(bench, record, values, [float(share) * pitch for share in shares], exactly)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:

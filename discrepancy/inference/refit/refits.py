@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from discrepancy.inference.base_fit.fit import fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import in_earnest
 from discrepancy.inference.refit.refit import Refit, finished, refit
@@ -32,6 +33,8 @@ class Refits:
         # What a fit's chi-square fell by when it was made in earnest.
         self.gained: dict[frozenset[str], float] = {}
         self.widely: set[frozenset[str]] = set()
+        # Where effects stood when the cages were placed with them, and the rough chi-square there.
+        self.settled: dict[frozenset[str], tuple[dict[str, float], float]] = {}
 
     def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
             least: float = np.inf) -> Refit:  # fmt: skip
@@ -76,11 +79,27 @@ class Refits:
         key = frozenset(c.name for c in result.candidates)
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
-        self.space.predictions.settle(result.fit.values)
+        self.settle(key, result)
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
-        self.gained[key] = max(result.fit.chi2 - better.fit.chi2, 0.0)
+        self.gained[key] = max(self.settled[key][1] - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
+
+    def seen(self, result: Refit) -> Refit:
+        """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
+        key, fit = frozenset(c.name for c in result.candidates), result.fit
+        if key in self.final_fits:
+            return in_order(self.final_fits[key], result.candidates)
+        self.settle(key, result)
+        there = fit_of(fit.parameters, fit.values, self.space.residual(fit.values), fit.jacobian, fit.candidates, fit.converged)
+        self.fitted[key] = finished(self.space, result.candidates, there)
+        return self.fitted[key]
+
+    def settle(self, key: frozenset[str], result: Refit) -> None:
+        """What is placed beside an effect (the roller cages) placed with this one, once."""
+        if key not in self.settled or self.settled[key][0] != result.fit.values:
+            self.space.predictions.settle(result.fit.values)
+            self.settled[key] = result.fit.values, result.fit.chi2
 
     def gained_in_earnest(self, result: Refit) -> float:
         """By how much rough predictions have made a fit look worse than it is; others may look as much too bad."""
