@@ -9,7 +9,7 @@ from discrepancy.inference.misfit.features import features, samples_of_a_wave
 from discrepancy.inference.misfit.localise import Localiser, step_of, stepped
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.cages import Cages, likeliest, resultant, weights, whitening
+from discrepancy.prediction.cages import Cages, likeliest, resultant, weights
 from discrepancy.prediction.conditions import distinct_conditions, row_conditions
 from discrepancy.prediction.curves import OverAngle, level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer

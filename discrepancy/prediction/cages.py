@@ -12,7 +12,7 @@ from scipy.linalg import solve_toeplitz
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
-from discrepancy.prediction.curves import OF_RIPPLE, errors_of_cages
+from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import ripples_of_cages, transmission_error
 from discrepancy.problem import Record
