@@ -47,6 +47,7 @@ def main() -> None:
     parser.add_argument("--positions", type=int, default=32)
     options = parser.parse_args()
     print("| | mean | least | largest | at 0 |\n|---|---|---|---|---|")
+    off = []
     for name in REDUCERS:
         mean, found = loops(name, options.positions)
         for key, head in zip(FIGURES, HEADS):
@@ -54,9 +55,10 @@ def main() -> None:
             shares = np.array([loop_figures(loop)[key] for loop in found]) / middle - 1.0
             unit = "N m/arcmin" if "Nm" in key else "arcmin"
             least, largest, first = (f"{100.0 * share:+.1f} %" for share in (shares.min(), shares.max(), shares[0]))
-            print(f"| {name}: {head} | {middle:#.3g} {unit} | {least} | {largest} | {first} |")
-        print(f"| {name}: whole loop | | | {'%.1f arcsec root mean square, at most %.1f' % departure(found)} | |")
-        print(f"one turn of the cranks against the carrier is {math.degrees(period(name)):.4g} deg of the input ({name})")
+            print(f"| {name}: {head} | {middle:.3g} {unit} | {least} | {largest} | {first} |")
+        off.append("{}: one position departs from the mean by {:.1f} arcsec (root mean square), {:.1f} at most".format(name, *departure(found)))
+        off.append(f"{name}: a turn of the cranks against the carrier is {math.degrees(period(name)):.5g} deg of the input")
+    print("\n" + "\n".join(off))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rvwear
+from benchmarks.locked_position import departure, loops
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.locked_doubts import locked_doubts
@@ -19,6 +20,7 @@ from discrepancy.prediction.units import Condition
 from discrepancy.remembered import key
 from discrepancy.verdict import Settings
 from fmu_src.faults import InputFault
+from fmu_src.source_hash import ROOT
 from orchestrator.fmu import Fmu
 from reducers.reducer import load_reducer
 from studies.hysteresis import hysteresis, read_loop, torque_way
@@ -84,6 +86,16 @@ def test_a_turn_of_the_cranks_against_the_carrier_is_one_period():
     # But for where the rollers stand then.
     assert there.lost_motion_arcmin == pytest.approx(here.lost_motion_arcmin, rel=0.008)
     assert abs(between.lost_motion_arcmin / here.lost_motion_arcmin - 1.0) > 0.03
+
+
+@pytest.mark.parametrize(("name", "lost_motion", "departure_rms"), [("RV20E-121", (-6.6, 9.2), 1.9), ("BX-40E", (-5.6, 8.2), 1.5)])
+def test_positions_differ_as_the_page_says(name, lost_motion, departure_rms):
+    mean, found = loops(name, 8)
+    shares = [100.0 * (loop.lost_motion_arcmin / mean.lost_motion_arcmin - 1.0) for loop in found]
+    assert (min(shares), max(shares)) == pytest.approx(lost_motion, abs=0.2)
+    assert departure(found)[0] == pytest.approx(departure_rms, abs=0.1)
+    page = (ROOT / "docs" / "standard_tests.md").read_text()
+    assert "| {}: lost motion | {:.3g} arcmin | {:+.1f} % | {:+.1f} % |".format(name, mean.lost_motion_arcmin, *lost_motion) in page
 
 
 @pytest.mark.parametrize("kind", ["fmus", "native_fmus"])
