@@ -21,6 +21,8 @@ FREE_ZERO = ("transmission_error", "hysteresis")
 ERROR, ORDERS = "transmission_error", "transmission_order"
 # Quantities whose zero may be said to be known; an order table has a mean then, order 0.
 WITH_ZERO = (*FREE_ZERO, ORDERS)
+# Quantities measured with one side held, and the factor that says where that was.
+HELD, LOCKED_AT = ("hysteresis", "lost_motion", "torsional_stiffness"), "locked_at"
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
 BASE = "base"
 # ``part`` of an error of the instruments and not of the reducer.
@@ -44,7 +46,8 @@ class Record:
     ``values`` (n,) in ``unit``; ``axes`` maps the names of axes (``angle`` [rad],
     ``time`` [s], ``torque`` [N.m], ``hours`` [s], ``depth_angle`` [rad] ...) to arrays of
     the same length.  ``factors`` are the condition's numbers (``speed`` [rad/s] of the
-    input, ``load`` [N.m], ``temperature`` [K], ``hours`` [s] ..., ``direction`` +1 or -1).
+    input, ``load`` [N.m], ``temperature`` [K], ``hours`` [s] ..., ``direction`` +1 or -1; of ``HELD`` quantities
+    ``locked_at``, the angle [rad] of the input at which they were measured).
     Runs with one ``condition`` and different ``replicate`` repeat each other; runs with one
     ``mounting`` share its phases.  ``held_out`` runs are never used for fitting.
     ``stated_noise`` is the standard deviation that the campaign states, if it does.

@@ -72,6 +72,7 @@ def of_parameter(size: float, unit: str) -> Scale:
 AXES = {
     "speed": Scale(30.0 / math.pi, "rpm"), "load": Scale(1.0, "N.m"), "temperature": Scale(1.0, "degC", ABSOLUTE_ZERO),
     "hours": Scale(1.0 / 3600.0, "h"), "angle": Scale(1.0 / DEGREE, "deg"), "depth_angle": Scale(1.0 / DEGREE, "deg"),
+    "locked_at": Scale(1.0 / DEGREE, "deg"),
     "torque": Scale(1.0, "N.m"), "time": Scale(1.0, "s"), "normal_force": Scale(1.0, "N"), "sliding_speed": Scale(1.0, "m/s"),
     "sliding_distance": Scale(1.0, "m"),
 }  # fmt: skip

@@ -49,22 +49,28 @@ def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = Non
     return crank_turn(chosen, settings_of(chosen, settings or {}), positions).dataset()
 
 
-def hysteresis(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, steps: int = 16, angles: int = 16) -> xr.Dataset:
+def hysteresis(
+    reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, steps: int = 16, angles: int = 16, locked_at: float | str | None = None,
+) -> xr.Dataset:  # fmt: skip
     """The stiffness test: input locked, torque up and down both ways.
 
-    ``steps``: torques per quarter of the loop; ``angles``: input angles over which it is averaged.  ``torque`` [N.m] and ``turning`` [arcmin]
-    over ``step``, and what is read from them: lost motion at 3 % of the torque, stiffness between half and all of it, area of the loop.
+    ``steps``: torques per quarter of the loop; ``angles``: positions of the input, over a turn of the cranks, of which it is the mean;
+    ``locked_at``: in their place the one angle of the input at which it is locked (``"90 deg"``; a number is in rad), 0 being where an FMU begins.
+    ``torque`` [N.m] and ``turning`` [arcmin] over ``step``, and what is read from them: lost motion at 3 % of the torque, stiffness between
+    half and all of it, area of the loop.
 
     >>> import rvwear
     >>> loop = rvwear.hysteresis("RV20E-121", steps=8, angles=1)
     >>> f"{loop['torsional_stiffness_Nm_per_arcmin'].item():.3g} N.m/arcmin"
     '50.2 N.m/arcmin'
     """
+    from discrepancy.campaign.amount import amount
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset
 
     chosen = reducer_of(reducer)
-    return loop_dataset(chosen, measure(chosen, settings_of(chosen, settings or {}), steps, angles))
+    at = amount(locked_at, "rad", "locked_at") if isinstance(locked_at, str) else locked_at
+    return loop_dataset(chosen, measure(chosen, settings_of(chosen, settings or {}), steps, angles, at))
 
 
 def modes(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, held: bool = True) -> pd.DataFrame:

@@ -4,6 +4,9 @@ The curve of turning against torque gives lost motion (the turning between +3 % 
 -3 % of the rated torque, on the middle line of the loop) and torsional stiffness (the secant
 between half and full torque on the way up), as catalogues of RV reducers define them.  With friction
 the torque goes round once before anything is read: it is then where every further round finds it.
+
+What is read depends on where the input is locked, for the cranks stand otherwise to the pins that they push: the test is the
+mean over ``angles`` positions, or that at one.
 """
 
 import math
@@ -16,6 +19,8 @@ from fmu_src.faults import InputFault
 from orchestrator.component import InProcess
 from orchestrator.settings import Setting, apply
 from reducers.reducer import Reducer
+from rv_plant.gear_stage import total_ratio
+from rv_plant.needle_bearing import cage_rate
 from studies.solve import ARCMIN
 
 # Torques a quarter and places over a turn of the cranks: five times as many torques at twice as many places move lost motion by 0.03 %.
@@ -55,8 +60,11 @@ def torque_way(rated: float, steps: int) -> Floats:
     return np.concatenate([up, down, -up[1:], -down])
 
 
-def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = STEPS, angles: int = ANGLES) -> Hysteresis:
-    """The test at ``angles`` positions of the input spread over a crank turn, averaged; ``steps`` torques a quarter of the loop."""
+def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = STEPS, angles: int = ANGLES, locked_at: float | None = None) -> Hysteresis:
+    """The test at ``angles`` positions of the input spread over a crank turn, averaged; ``steps`` torques a quarter of the loop.
+
+    ``locked_at``: in their place the one angle of the input [rad], from where the model begins on in the sense that turns the output forward.
+    """
     if not (4 <= steps <= MOST_STEPS and 1 <= angles <= MOST_ANGLES):
         raise InputFault(f"steps = {steps}, angles = {angles}: at least 4 and 1 are needed, at most {MOST_STEPS} and {MOST_ANGLES}")
     plant = InProcess("plant", reducer.specification("rv_plant"))
@@ -66,7 +74,24 @@ def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = STEPS, an
         raise InputFault("load_torque = 0: the test turns the torque up and down to this value; give --torque")
     remembers = any(plant.number(name) != 0.0 for name in MEMORY)
     torque = torque_way(rated, steps)
-    turning = np.mean([one_angle(reducer, settings, torque, k / angles, 2 if remembers else 1) for k in range(angles)], axis=0)
+    places = [(k / angles, 0.0) for k in range(angles)] if locked_at is None else [turned_there(reducer, plant, locked_at)]
+    turning = np.mean([one_angle(reducer, settings, torque, share, 2 if remembers else 1, cage) for share, cage in places], axis=0)
+    return read_loop(torque, turning, remembers)
+
+
+def turned_there(reducer: Reducer, plant: InProcess, locked_at: float) -> tuple[float, float]:
+    """Turns of the cranks in the housing, and angle of the roller cages [rad] that roll along, at an angle of the input [rad]."""
+    if not math.isfinite(locked_at):
+        raise InputFault(f"locked_at = {locked_at:g} rad: a finite angle of the input is needed")
+    topology = reducer.topology
+    output = float(locked_at / abs(total_ratio(plant.number("first_stage_ratio"), topology.pins, topology.lobes)))
+    rate = cage_rate(-topology.lobes, 1.0, plant.number("inner_race_radius"), plant.number("outer_race_radius"))
+    return output * topology.lobes / (2.0 * math.pi), float(rate * output)
+
+
+def read_loop(torque: Floats, turning: Floats, remembers: bool) -> Hysteresis:
+    """What is read from a turning [arcmin] along ``torque_way``; without memory both ways are the same."""
+    rated = float(torque.max())
     quarter = len(torque) // 4
     up, down, back, home = (slice(k * quarter, (k + 1) * quarter + 1) for k in range(4))
 
@@ -76,7 +101,7 @@ def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = STEPS, an
         return float(np.interp(share * rated, way[order], turning[part][order]))
 
     def middle(there: slice, again: slice, share: float) -> float:
-        """On the middle line; without memory both ways are the same."""
+        """On the middle line."""
         return 0.5 * (at(there, share) + at(again, share)) if remembers else at(there, share)
 
     low = LOST_MOTION_SHARE
@@ -88,14 +113,16 @@ def hysteresis(reducer: Reducer, settings: list[Setting], steps: int = STEPS, an
     )
 
 
-def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: float, rounds: int = 1) -> Floats:
-    """Turning of the output along the torques, the last of ``rounds``, at one input angle, in the sense of the torque [arcmin]."""
+def one_angle(reducer: Reducer, settings: list[Setting], torque: Floats, share: float, rounds: int = 1, cage: float = 0.0) -> Floats:
+    """Turning of the output along the torques, the last of ``rounds``, at one input angle, ``share`` turns of the cranks in the housing from
+    where the model begins and the roller cages at ``cage`` [rad], in the sense of the torque [arcmin]."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     apply(settings, {"plant": plant})
     plant.set("fidelity", 0)
     plant.set("input_speed", 0.0)
     plant.set("load_torque", torque[0])
     plant.records["ideal_output"] = 2.0 * math.pi * share / reducer.topology.lobes
+    plant.records["cage"] = cage
     plant.exit_initialisation()
     turning = np.zeros(len(torque))
     for _ in range(rounds):

@@ -1,5 +1,7 @@
 """The bench with the FMUs on it says what the bench with their kernels says, up to a whole diagnosis."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from test_loop import CLEARANCE, campaign_of
@@ -53,7 +55,7 @@ def test_running_bench_shows_the_same(benches, condition, first):
         assert there[name] == pytest.approx(here[name], abs=1e-3)
 
 
-@pytest.mark.parametrize("condition", [SHORT, WORN])
+@pytest.mark.parametrize("condition", [SHORT, WORN, replace(SHORT, locked_at=0.03), replace(WORN, locked_at=-3.5)])
 def test_held_output_turns_the_same(benches, condition):
     torques = np.array([5.0, 100.0, 5.0, -5.0, -100.0, -5.0, 5.0])
     here, there = (bench.held(condition, VALUES, torques) for bench in benches)

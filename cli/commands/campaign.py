@@ -55,12 +55,13 @@ def run_check(options: argparse.Namespace) -> int:
     from cli.show.campaign import show, show_separability
     from discrepancy.campaign.check import check_campaign
     from discrepancy.campaign.load import load_campaign
+    from discrepancy.locked_doubts import locked_doubts
     from discrepancy.plausible import scale_doubts
 
     with task("reading the campaign"):
         campaign = load_campaign(options.folder, options.data)
     with task("holding its scales against the model"):
-        doubts = scale_doubts(campaign)
+        doubts = scale_doubts(campaign) + locked_doubts(campaign)
     check = check_campaign(campaign, doubts)
     found = None
     if options.separable:

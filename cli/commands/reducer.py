@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import add_json, add_reducer_options, chosen, reducer_of, settings_of
+from cli.options import add_json, add_reducer_options, chosen, number_in, reducer_of, settings_of
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -27,7 +27,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     loop = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
     add_reducer_options(loop)
     loop.add_argument("--steps", type=int, default=16, help="torques per quarter of the loop, closer near none and near the largest (default 16)")
-    loop.add_argument("--angles", type=int, default=16, help="input angles averaged (default 16)")
+    places = loop.add_mutually_exclusive_group()
+    places.add_argument("--angles", type=int, default=16, help="positions of the input over a turn of the cranks, averaged (default 16)")
+    places.add_argument("--locked-at", type=number_in("deg"), metavar="ANGLE",
+                        help="angle of the input at which alone it is locked, in deg unless a unit is given; 0 is where an FMU begins")
     add_json(loop)
     add_exports(loop)
     loop.set_defaults(run=hysteresis)
@@ -60,6 +63,8 @@ def solve(options: argparse.Namespace) -> int:
 
 def hysteresis(options: argparse.Namespace) -> int:
     """``rvwear hysteresis``: the standard stiffness test."""
+    import math
+
     from cli import screen
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset, loop_figures
@@ -67,13 +72,15 @@ def hysteresis(options: argparse.Namespace) -> int:
     check_exports(options)
     reducer = reducer_of(options.reducer)
     with task("loading torques at locked input"):
-        loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles)
+        at = None if options.locked_at is None else math.radians(options.locked_at)
+        loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles, at)
     figures = loop_figures(loop)
     if options.json:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
         screen.json_text({"reducer": reducer.name} | figures | curve)
     else:
-        screen.figures(f"{reducer.name}: torque up and down, input locked", figures, how=HELD)
+        where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
+        screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=HELD)
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
 

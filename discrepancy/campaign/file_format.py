@@ -42,6 +42,7 @@ class ConditionEntry(Strict):
     load_torque: Stated | None = None
     temperature: Stated | None = None
     hours: Stated | None = None
+    locked_at: Stated | None = None
     normal_force: Stated | None = None
     sliding_speed: Stated | None = None
     sliding_distance: Stated | None = None

@@ -9,7 +9,7 @@ from discrepancy.campaign.amount import split, to_si
 from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, Stated, read_campaign_file
 from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
 from discrepancy.campaign.order_tables import as_asked, given_quantity
-from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, roles_of
+from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, numbers_of, roles_of
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
@@ -211,7 +211,8 @@ def record_of(run: Run, condition: Condition, series: Series, scales: Scales, pl
     quantity = QUANTITIES[run.quantity]
     # What a row says of itself is nearer to the truth than the condition's nominal number.
     factors = dict(condition.factors) | scales.factors(run.actual, f"{place}.actual")
-    factors = {name: number for name, number in factors.items() if name not in series}
+    meant = {"direction", *numbers_of(quantity)}
+    factors = {name: number for name, number in factors.items() if name in meant and name not in series}
     if run.direction is not None:
         factors["direction"] = float(DIRECTIONS[run.direction])
     return Record(

@@ -6,6 +6,8 @@ it; a new quantity is one more entry here.
 
 from dataclasses import dataclass
 
+from discrepancy.problem import HELD, LOCKED_AT
+
 # The role of the column (or number) that holds the quantity itself.
 VALUE = "value"
 # What an empty campaign measures unless told otherwise.
@@ -86,6 +88,8 @@ FACTORS = (
         " torque"),
     Key("temperature", "temperature", "K", "40 degC", "of the housing, when steady", 0, 0.0),
     Key("hours", "hours", "s", "1000 h", "operating hours of the unit when it was measured", 0, 0.0),
+    Key(LOCKED_AT, LOCKED_AT, "rad", "90 deg",
+        "angle of the input at which a loop, lost motion or stiffness was measured, positive forward; counted as the angles of the same mounting"),
     Key("normal_force", "normal_force", "N", "50 N", "pin-on-disc: force on the pin", 0, 0.0),
     Key("sliding_speed", "sliding_speed", "m/s", "0.1 m/s", "pin-on-disc: speed of the contact", 0, 0.0),
     Key("sliding_distance", "sliding_distance", "m", "1 km", "pin-on-disc: way of the contact", 0, 0.0),
@@ -163,7 +167,12 @@ def roles_of(quantity: Quantity) -> dict[str, Key]:
     """Roles that columns of a run may take: the value, the axes and, row by row, the factors."""
     value = Key(VALUE, VALUE, quantity.unit, quantity.usual_unit, quantity.description)
     axes = {key.key: key for key in AXES if key.name in quantity.axes + quantity.optional_axes}
-    return {VALUE: value} | axes | FACTOR_KEYS
+    return {VALUE: value} | axes | {name: key for name, key in FACTOR_KEYS.items() if key.name in numbers_of(quantity)}
+
+
+def numbers_of(quantity: Quantity) -> tuple[str, ...]:
+    """Names of a condition's numbers that can matter to a quantity: where the input was locked says nothing of a running reducer."""
+    return tuple(name for name in FACTOR_NAMES if name != LOCKED_AT or quantity.name in HELD)
 
 
 def keys_for(name: str) -> list[str]:

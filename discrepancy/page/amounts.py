@@ -16,6 +16,7 @@ TITLES = {
     "load": "load torque",
     "hours": "operating hours",
     "angle": "output angle",
+    "locked_at": "input locked at",
     "depth_angle": "place on the surface",
     "order": "order of the output's turn",
 }

@@ -48,6 +48,8 @@ class Bench(Lives):
     def __init__(self, reducer: Reducer, settings: Mapping[str, float], resolution: Resolution = RESOLUTION):
         super().__init__(reducer, settings, resolution)
         self.held_angles, self.mean_positions, self.quarter, self.torque_step = HELD_ANGLES, MEAN_POSITIONS, QUARTER, TORQUE_STEP
+        # By its name (``conditions.angle_zero``) the output angle [rad] of the model at which a mounting's angle is 0, if it is not 0.
+        self.zeros: dict[str, float] = {}
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
         self.twins = Twins()
@@ -199,13 +201,14 @@ class Bench(Lives):
         return found
 
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int = HELD_ANGLES) -> Floats:
-        """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions."""
+        """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions, or at the condition's one."""
+        positions = positions_of(condition, positions)
         whole = self.held_mean(condition, {}, torques, positions, SHORT_CYCLE)
         if not self.relevant(values, condition.hours > 0.0):
             return whole
         fewer = min(self.held_angles, positions)
         turning = self.held_mean(condition, values, torques, fewer, self.cycle_turns)
-        if fewer == positions:
+        if fewer == positions and (condition.hours == 0.0 or self.cycle_turns == SHORT_CYCLE):
             return turning
         # What the values change, seen from fewer positions and by rougher lives.
         return whole + turning - self.held_mean(condition, {}, torques, fewer, self.cycle_turns)
@@ -216,7 +219,7 @@ class Bench(Lives):
         return found
 
     def held_halves(self, condition: Condition, torques: Floats) -> Floats:
-        """Half of what every other position's mean differs by from that of the rest, in the base model: about what ``held`` may err."""
+        """Half of what every other position's mean differs by from that of the rest, in the base model: about what ``held`` may err as a mean."""
         turning = self.held_turnings(condition, {}, torques, HELD_ANGLES, SHORT_CYCLE)
         found: Floats = 0.5 * (turning[0::2].mean(axis=0) - turning[1::2].mean(axis=0))
         return found
@@ -258,7 +261,7 @@ class Bench(Lives):
             guessed = bool(relevant) and not self.remembers(values)
             surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
             plants = None
-            for k, angle in enumerate(self.held_at(positions)):
+            for k, angle in enumerate(self.held_at(condition, positions)):
                 z = similar[k][0] if guessed else np.zeros(places.shape[2])
                 if plants is None or not guessed:
                     plants = self.new_held(condition, values, angle, torques, z)
@@ -272,13 +275,15 @@ class Bench(Lives):
 
         return self.kept(key, run)
 
-    def held_at(self, positions: int) -> list[float]:
-        """Output angles [rad] at which the cranks stand in so many places of a turn."""
+    def held_at(self, condition: Condition, positions: int) -> list[float]:
+        """Output angles [rad] at which the cranks stand in so many places of a turn, or the condition's one."""
+        if condition.locked_at is not None:
+            return [condition.locked_at]
         return [2.0 * math.pi * k / (positions * self.reducer.topology.lobes) for k in range(positions)]
 
     def held_beside(self, condition: Condition, values: Mapping[str, float], torques: Floats, base: Mapping[str, float]) -> Floats:
         """``held`` of a new reducer with ``values`` to first order beside the run with ``base``; neither may remember its way."""
-        positions, relevant, before = self.held_angles, self.relevant(values, False), self.relevant(base, False)
+        positions, relevant, before = positions_of(condition, self.held_angles), self.relevant(values, False), self.relevant(base, False)
 
         def beside(setting: Condition, angle: float, chosen: slice | Places, similar: Floats) -> Floats:
             applied, turning = torques[chosen], np.zeros(len(similar))
@@ -289,14 +294,14 @@ class Bench(Lives):
         def whole(setting: Condition) -> Floats:
             def run() -> Floats:
                 similar = self.held_places(setting, base, torques, positions, SHORT_CYCLE)[1]
-                return np.array([beside(setting, angle, slice(None), similar[k]) for k, angle in enumerate(self.held_at(positions))])
+                return np.array([beside(setting, angle, slice(None), similar[k]) for k, angle in enumerate(self.held_at(setting, positions))])
 
             return self.kept(("held beside", setting, relevant, before, torques.tobytes(), positions), run)
 
         def repeats(other: Condition, chosen: Places) -> bool:
             turning, places = self.held_places(other, base, torques, positions, SHORT_CYCLE)
             known = whole(other)[0]
-            return same(beside(condition, 0.0, chosen, places[0][chosen]), known[chosen], known, turning[0])
+            return same(beside(condition, self.held_at(condition, positions)[0], chosen, places[0][chosen]), known[chosen], known, turning[0])
 
         run = ("held beside", relevant, before, torques.tobytes(), positions)
         found: Floats = (whole(self.twins.of(run, condition, places_of(len(torques)), repeats)) / positions).sum(axis=0)
@@ -311,3 +316,8 @@ class Bench(Lives):
         self.check((0, accumulator.step(wears, 0.0, MOMENT)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]
+
+
+def positions_of(condition: Condition, positions: int) -> int:
+    """Of how many positions of the cranks a held test is the mean: one where it is stated."""
+    return positions if condition.locked_at is None else 1

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.units import Condition
-from discrepancy.problem import Record
+from discrepancy.problem import LOCKED_AT, Record
 from fmu_src.arrays import Floats
 
 Values = Mapping[str, float]
@@ -17,15 +17,17 @@ DEFAULTS = {"temperature": 293.15, "hours": 0.0}
 
 
 def settings_of(bench: Bench, record: Record) -> list[Floats | float]:
-    """Speed, load, temperature and hours, each one number or one a row."""
+    """Speed, load, temperature and hours, and where the input is locked if that is stated, each one number or one a row."""
     defaults = {**DEFAULTS, "speed": bench.rated_speed, "load": bench.rated_load}
-    return [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
+    found = [record.axes.get(name, record.factors.get(name, defaults[name])) for name in ("speed", "load", "temperature", "hours")]
+    locked = record.axes.get(LOCKED_AT, record.factors.get(LOCKED_AT))
+    return found if locked is None else [*found, locked / abs(bench.ratio) + bench.zeros.get(angle_zero(record), 0.0)]
 
 
 def row_conditions(bench: Bench, record: Record) -> list[Condition]:
-    """The condition of every row (rows may differ in speed, load, temperature, hours)."""
+    """The condition of every row (rows may differ in speed, load, temperature, hours, and in where the input is locked)."""
     direction = int(record.factors.get("direction", 1))
-    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in rows_of(bench, record).tolist()]
+    return [Condition(speed, load, temperature, hours, direction, *at) for speed, load, temperature, hours, *at in rows_of(bench, record).tolist()]
 
 
 def distinct_conditions(bench: Bench, record: Record) -> list[Condition]:
@@ -33,18 +35,18 @@ def distinct_conditions(bench: Bench, record: Record) -> list[Condition]:
     rows = rows_of(bench, record)
     direction = int(record.factors.get("direction", 1))
     distinct = dict.fromkeys(map(tuple, rows[: 1 if (rows == rows[0]).all() else None].tolist()))
-    return [Condition(speed, load, temperature, hours, direction) for speed, load, temperature, hours in distinct]
+    return [Condition(speed, load, temperature, hours, direction, *at) for speed, load, temperature, hours, *at in distinct]
 
 
 def rows_of(bench: Bench, record: Record) -> Floats:
-    """Speed, load, temperature and hours of every row (n, 4)."""
+    """Speed, load, temperature and hours of every row (n, 4), and where the input is locked (n, 5) if that is stated."""
     return np.column_stack([np.broadcast_to(c, len(record.values)) for c in settings_of(bench, record)])
 
 
 def condition_of(bench: Bench, record: Record) -> Condition:
     """The one condition of a record whose rows share it."""
-    speed, load, temperature, hours = (c if isinstance(c, float) else float(np.ravel(c)[0]) for c in settings_of(bench, record))
-    return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)))
+    speed, load, temperature, hours, *at = (c if isinstance(c, float) else float(np.ravel(c)[0]) for c in settings_of(bench, record))
+    return Condition(speed, load, temperature, hours, int(record.factors.get("direction", 1)), *at)
 
 
 def identity(record: Record) -> tuple[Hashable, ...]:
@@ -99,4 +101,4 @@ def held_condition(bench: Bench, record: Record) -> Condition:
 
 def at_rest(bench: Bench, c: Condition) -> Condition:
     """The held test of a unit that ran at rated speed and load before."""
-    return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours)
+    return Condition(bench.rated_speed, bench.rated_load, c.temperature, c.hours, locked_at=c.locked_at)

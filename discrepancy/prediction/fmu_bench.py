@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.model_file import ModelFile, extended_reducer
-from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench
+from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench, positions_of
 from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
 from discrepancy.prediction.units import TOLERANCE, Condition, within_turn
 from fmu_src.arrays import Floats
@@ -191,14 +191,17 @@ class FmuBench(Bench):
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int = HELD_ANGLES) -> Floats:
         def run() -> Floats:
             worn = self.worn_state(condition, values)
+            count = positions_of(condition, positions)
+            first = within_turn(self.held_at(condition, count)[0])
             total = np.zeros(len(torques))
             self.start_plant(condition, values, torques[0])
             placed, since = self.plant.save(), self.time
-            for k in range(positions):
-                if k > 0:
+            for k in range(count):
+                further = first if k == 0 else 2.0 * math.pi / (count * self.reducer.topology.lobes)
+                if further != 0.0:
                     self.plant.restore(placed)
                     self.time = since
-                    self.turn_plant(condition, 2.0 * math.pi / (positions * self.reducer.topology.lobes))
+                    self.turn_plant(condition, further)
                     placed, since = self.plant.save(), self.time
                 self.plant.set("input_speed", 0.0)
                 if worn:
@@ -206,7 +209,7 @@ class FmuBench(Bench):
                 for i, torque in enumerate(torques):
                     self.plant.set("load_torque", torque)
                     self.step_plant(1.0)
-                    total[i] -= self.plant.get("transmission_error") / positions
+                    total[i] -= self.plant.get("transmission_error") / count
             return total
 
         key = ("held", condition, self.relevant(values, condition.hours > 0.0), torques.tobytes(), positions)

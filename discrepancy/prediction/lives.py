@@ -134,5 +134,5 @@ def stretches(inspections: list[float], turns: int) -> Iterator[tuple[float, flo
 
 
 def fresh(condition: Condition) -> Condition:
-    """The condition when new."""
-    return replace(condition, hours=0.0)
+    """The condition when new; a life does not know where its reducer is held."""
+    return replace(condition, hours=0.0, locked_at=None)

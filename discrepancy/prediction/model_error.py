@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.problem import Parameter, Record
+from discrepancy.problem import LOCKED_AT, Parameter, Record
 from fmu_src.arrays import Floats
 
 QUANTITIES = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
@@ -33,7 +33,9 @@ def is_error(name: str) -> bool:
 
 
 def is_loop(record: Record) -> bool:
-    """Whether a record is the output's turning over its torque."""
+    """Whether a record is the output's turning over its torque, predicted as a mean over positions: nobody said where the input was locked."""
+    if LOCKED_AT in record.factors or LOCKED_AT in record.axes:
+        return False
     return record.quantity == "hysteresis" and record.tags.get("locked") != "output" and "torque" in record.axes
 
 

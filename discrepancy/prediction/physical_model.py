@@ -99,6 +99,8 @@ class PhysicalModel:
         if zeros is None:
             self.align(always=len(nuisances) < len(campaign.nuisances))
             self.cages.place(self.standing())
+        # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
+        self.bench.zeros.update(self.zeros)
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.

@@ -29,13 +29,17 @@ Run = TypeVar("Run")
 
 @dataclass(frozen=True)
 class Condition:
-    """What the bench is set to; SI units.  ``direction`` +1 or -1 of rotation and of the torque that opposes it."""
+    """What the bench is set to; SI units.  ``direction`` +1 or -1 of rotation and of the torque that opposes it.
+
+    ``locked_at``: where a held test is done, as the angle [rad] of an output that follows its input evenly; None: the mean over a turn of the cranks.
+    """
 
     speed: float
     load: float
     temperature: float = 293.15
     hours: float = 0.0
     direction: int = 1
+    locked_at: float | None = None
 
 
 class Units:
