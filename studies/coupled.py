@@ -14,6 +14,11 @@ from rv_plant.plant import step as step_plant
 from rv_plant.turning import turn_input
 from wear_fmu.accumulator import step as step_wear
 
+# Of an equilibrium that is looked for from the one at the torque before.
+USUAL_ITERATIONS = 6.0
+# Share of the last one in what is known of them.
+REMEMBERED = 0.3
+
 
 @kernel
 def give_forces(p, w):
@@ -165,14 +170,21 @@ def torque_sweep(plants, torques, turning, places, similar, guessed):
     ``places``, ``similar`` and ``guessed`` as in ``sweep``.
     """
     p = plants[0]
+    # Iterations from beside the similar run and from where the way led, when each was last gone: far from a similar run it is no help.
+    from_similar, from_way = 0.0, USUAL_ITERATIONS
     for i in range(torques.shape[0]):
-        if guessed:
+        beside = guessed and from_similar <= from_way
+        if beside:
             # Play and yielding turn with the torque.
             start_beside(p, similar, i, i == 0 or torques[i] * torques[i - 1] > 0.0)
         p.load_torque = torques[i]
         status = step_plant(plants, 0.0, 1.0)
         if status != 0:
             return status
+        if beside:
+            from_similar += REMEMBERED * (p.iterations - from_similar)
+        else:
+            from_way += REMEMBERED * (p.iterations - from_way)
         turning[i] = -p.transmission_error
         for k in range(places.shape[1]):
             places[i, k] = p.z[k]

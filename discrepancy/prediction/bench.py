@@ -227,19 +227,17 @@ class Bench(Lives):
     def held_turnings(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> Floats:
         """Turning [rad] from each of so many positions, which may be that of another condition under which it is the same."""
 
-        guessed = not self.remembers(values)
-
         def repeats(other: Condition, chosen: Places) -> bool:
             known, places = self.held_places(other, values, torques, positions, turns)
             seen, found = np.zeros(len(chosen)), np.zeros((len(chosen), places.shape[2]))
-            plants = self.new_held(condition, values, 0.0, torques, places[0][0] if guessed else np.zeros(places.shape[2]))
-            self.check((coupled.torque_sweep(plants, torques[chosen], seen, found, places[0][chosen], guessed), 0), plants, self.templates[1])
+            plants = self.new_held(condition, values, 0.0, torques, places[0][0])
+            self.check((coupled.torque_sweep(plants, torques[chosen], seen, found, places[0][chosen], True), 0), plants, self.templates[1])
             base = self.held_places(other, {}, torques, positions, turns)[0] if self.relevant(values, False) else known
             return same(seen, known[0][chosen], known[0], base[0])
 
         run = ("held", self.relevant(values, condition.hours > 0.0), torques.tobytes(), positions, turns)
         # A way that leaves its mark is gone again whole, from one position.
-        chosen = places_of(len(torques)) if guessed else np.arange(len(torques))
+        chosen = np.arange(len(torques)) if self.remembers(values) else places_of(len(torques))
         twin = self.twins.of(run, condition, chosen if positions >= LEAST_POSITIONS else None, repeats)
         return self.held_places(twin, values, torques, positions, turns)[0]
 
@@ -257,13 +255,12 @@ class Bench(Lives):
             turning = np.zeros((positions, len(torques)))
             places = np.zeros((positions, len(torques), self.templates[0]["z"].shape[1]))
             similar = self.beside(key, lambda: self.held_places(condition, {}, torques, positions, turns)) if relevant else places
-            # What sticks remembers where it was: friction's springs must not see a start elsewhere.
-            guessed = bool(relevant) and not self.remembers(values)
+            guessed, remembers = bool(relevant), self.remembers(values)
             surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
             plants = None
             for k, angle in enumerate(self.held_at(condition, positions)):
                 z = similar[k][0] if guessed else np.zeros(places.shape[2])
-                if plants is None or not guessed:
+                if plants is None or remembers or not guessed:
                     plants = self.new_held(condition, values, angle, torques, z)
                 else:
                     self.place(plants, angle, z=z, advance_before=0.0)

@@ -45,6 +45,7 @@ EFFECT = Effect(
         Variable("holding_load_before", "state", "N.m", "load of the one before that with another"),
         Variable("held_before", "state", "N.m", "what friction could hold then"),
         Variable("held_last", "state", "N.m", "what friction could hold at the last equilibrium before this"),
+        Variable("held_turn", "state", "rad", "turning of the carrier in the ring at the last equilibrium"),
     ),
     signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature"),
 )
@@ -85,9 +86,9 @@ def before(r):
     r.friction_torque = max(known + slope * (abs(r.load_torque) - r.holding_load), 0.0)
     r.held_last = known
     if r.friction_torque > last:
-        turn = turned_in_ring(r)
+        # Not by ``z``, from which the next equilibrium is looked for: that may be where a similar run found it.
         for i in range(ELEMENTS):
-            r.slider[i] = turn - (turn - r.slider[i]) * last / r.friction_torque
+            r.slider[i] = r.held_turn - (r.held_turn - r.slider[i]) * last / r.friction_torque
 
 
 @kernel
@@ -127,6 +128,7 @@ def hold(r):
 def after(r):
     """Sliders follow; loss of power when turning."""
     load, turn = abs(r.load_torque), turned_in_ring(r)
+    r.held_turn = turn
     if load != r.holding_load:
         # From a turning input on in proportion to the load: what is held at no load is nothing.
         r.holding_load_before = r.holding_load if r.held_last > 0.0 else 0.0
