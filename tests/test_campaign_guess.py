@@ -307,7 +307,7 @@ def test_the_reducer_is_asked_for(tmp_path, capsys):
     write(tmp_path, "plain")
     assert main(["campaign", "from", str(tmp_path), "--json"]) == 2
     assert "--reducer: say which reducer was measured: " in capsys.readouterr().err
-    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 0
+    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 1
     told = json.loads(capsys.readouterr().out)
     assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
 
@@ -337,11 +337,16 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
     monkeypatch.chdir(tmp_path)
     write(tmp_path, "plain")
     (tmp_path / "te_167Nm_15rpm_1.csv").rename(tmp_path / "run_1.csv")
-    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 0
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 1
     shown = capsys.readouterr().out
     assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition 'output_speed=15 rpm' --condition 'load_torque=167 N.m'" in shown
     assert any("states no load, which run_1 need" in text and "the model's own is taken" in text for text in incomplete(load_campaign(tmp_path)))
     said = ["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--condition", "load_torque=100 N.m", "--condition", "output_speed=15 rpm"]
     assert main(said) == 2 and "give --overwrite to have it written anew" in capsys.readouterr().err
+    assert main([*said, "--overwrite"]) == 0
+    capsys.readouterr()
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--overwrite", "--json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert told["written"] and [need["text"].rpartition(" ")[2] for need in told["needs"]] == ["output_speed", "load_torque"]
     assert main([*said, "--overwrite"]) == 0
     assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)
