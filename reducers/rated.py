@@ -4,10 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reducers.reducer import Reducer
-
-# Torque over the rated one that no RV reducer survives: catalogues allow 2.5 times at starts and 5 times once in an emergency stop
-# (Nabtesco, RV-E and RV-N series: momentary maximum torque).
-MOST_RATED = 5.0
+from rv_reducer.judgement import MOST_RATED
 
 
 @dataclass(frozen=True)
