@@ -4,7 +4,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reducers.reducer import Reducer
-from rv_reducer.judgement import MOST_RATED
+from rv_reducer import judgement
+
+MOST_RATED = judgement.MOST_RATED
 
 
 @dataclass(frozen=True)

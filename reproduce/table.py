@@ -117,7 +117,8 @@ def as_json(claims: list[Claim]) -> dict[str, Any]:
 def claim_data(c: Claim) -> dict[str, Any]:
     numbers = [
         {"label": n.label, "unit": n.unit, "value": plain(n.value), "printed": plain(n.printed),
-         "theirs": plain(n.published), "low": plain(n.low), "high": plain(n.high), "independent_check": plain(n.audited), "agrees": n.agrees, "off": None if math.isnan(n.off) else float(n.off)}
+         "theirs": plain(n.published), "low": plain(n.low), "high": plain(n.high), "independent_check": plain(n.audited), "agrees": n.agrees,
+         "off": None if math.isnan(n.off) else float(n.off)}
         for n in c.numbers
     ]  # fmt: skip
     return {

@@ -37,8 +37,8 @@ PLACES = {
     "BeyondRated": ("fmu_src.faults", "BeyondRated"), "InputFault": ("fmu_src.faults", "InputFault"), "RunFault": ("fmu_src.faults", "RunFault"),
 }  # fmt: skip
 __all__ = [
-    "BeyondRated", "Comparison", "Diagnosis", "InputFault", "Reducer", "RunFault", "System", "compare", "connect", "diagnose", "export", "figure", "figure_names",
-    "frames", "hysteresis", "life", "load_campaign", "load_model", "load_reducer", "load_system", "modes", "read", "reducers", "solve",
+    "BeyondRated", "Comparison", "Diagnosis", "InputFault", "Reducer", "RunFault", "System", "compare", "connect", "diagnose", "export", "figure",
+    "figure_names", "frames", "hysteresis", "life", "load_campaign", "load_model", "load_reducer", "load_system", "modes", "read", "reducers", "solve",
 ]  # fmt: skip
 
 

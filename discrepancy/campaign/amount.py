@@ -7,6 +7,7 @@ from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.settings import NUMBER, require_point
 
+
 def to_si(unit: str, target: str, place: str) -> tuple[float, float]:
     """(factor, offset) from the stated unit, as benches write it, to ``target``."""
     known, _ = KNOWN.get(plain(unit)) or (unit.strip(), "")

@@ -18,7 +18,8 @@ MEANINGS = {
     "stiffness": r"stiff|steif|raideur|rigidit|rigidez|刚度|剛度|剛性",
     "efficiency": r"efficien|wirkungsgrad|rendement|rendim|效率|効率|^eta$|^η$",
     "lost_motion": r"lost.?motion|verlust|mouvement perdu|movimento perso|movimiento perdido|空程|ロストモーション",
-    "error": r"error|erreur|[ée]cart|fehler|abweich|deviation|deviazione|desviaci[óo]n|误差|誤差|偏差|(?:^|[ _.-])(?:te|tf|err|dphi|delta)(?:$|[ _.-])|Δ",
+    "error": r"error|erreur|[ée]cart|fehler|abweich|deviation|deviazione|desviaci[óo]n|误差|誤差|偏差"
+    r"|(?:^|[ _.-])(?:te|tf|err|dphi|delta)(?:$|[ _.-])|Δ",
     "wear": r"wear|depth|verschlei|tiefe|abtrag|usur[ea]|desgaste|profondeur|profondit|profundidad|磨损|磨損|磨耗|摩耗|深度|深さ",
     "mass_loss": r"mass.?loss|massenverlust|weight.?loss|perte de masse|perdita di massa|p[ée]rdida de masa|质量损失|質量損失",
     "iron": r"iron|eisen|hierro|ferro(?![a-z])|(?:^|[ _.-])(?:fe|fer)(?:$|[ _.-])|铁|鉄",
@@ -26,12 +27,14 @@ MEANINGS = {
     "acceleration": r"acc|beschl|vibra|schwing|加速度|振动|振動",
     # Not what French and Italian call time.
     "temperature": r"temp(?!s(?![a-z])|o(?![a-z]))|温度|溫度",
-    "speed": r"speed|veloc|vitesse|drehzahl|geschw|rpm|r[ée]gime|numero (?:di )?giri|revoluciones|转速|轉速|回転(?!角)|速度|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
+    "speed": r"speed|veloc|vitesse|drehzahl|geschw|rpm|r[ée]gime|numero (?:di )?giri|revoluciones|转速|轉速|回転(?!角)|速度"
+    r"|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
     "torque": r"torq|moment|drehm|(?<![a-z])couple(?![a-z])|coppia|^par(?:$|[ _.-])|扭矩|转矩|轉矩|力矩|トルク|负载|負載|負荷(?!側)"
     r"|(?:^|[ _.-])(?:m|md|t|load|last|charge|carico|carga)(?:$|[ _.-])(?!.*time)",
     "twist": r"twist|torsi[oó]n|verdreh|wind.?up|deflect|hyst|hist[ée]res|isteresi|spiel|backlash|(?<![a-z])jeu(?![a-z])|gioco|juego|^turn(?:ing)?(?:$|[ _.-])"
     r"|扭转|扭轉|回差|滞回|变形|變形|ねじれ|ヒステリシス",
-    "angle": r"angle|angol|[áa]ngul|winkel|phi|theta|φ|θ|ϕ|encoder|codeur|geber|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posi[tzc]|角|回転角",
+    "angle": r"angle|angol|[áa]ngul|winkel|phi|theta|φ|θ|ϕ|encoder|codeur|geber"
+    r"|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posi[tzc]|角|回転角",
     "time": r"time|zeit|temps|tempo|tiempo|时间|時間|uhr|clock|(?:^|[ _.-])t(?:$|[ _.-])|timestamp|时刻|時刻",
 }  # fmt: skip
 FITS = {meaning: re.compile(words, re.IGNORECASE) for meaning, words in MEANINGS.items()}
@@ -39,17 +42,19 @@ AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IG
 
 # Quantity -> words of a file's name or of lines above its table.
 QUANTITY_WORDS = {
-    "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.de.transmission)?|errore(?:.di.trasmissione)?"
-    r"|error(?:.de.transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
-    "hysteresis": r"loops?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa|stiff(?:ness)?|steifigkeit"
-    r"|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
+    "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.de.transmission)?"
+    r"|errore(?:.di.trasmissione)?|error(?:.de.transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
+    "hysteresis": r"loops?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa|stiff(?:ness)?"
+    r"|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
     "wear_profile": r"profiles?|wear.?profile|profilo?|perfil|verschlei(?:ß|ss)profil|轮廓",
     "wear_depth": r"wear|depths?|wear.?depth|verschlei(?:ß|ss)|usur[ea]|desgaste|磨损|摩耗",
     "no_load_torque": r"no.?load.?torque|leerlauf(?:moment)?|couple.[àa].vide|coppia.a.vuoto|par.en.vac[íi]o|空载(?:转矩|扭矩)?|無負荷(?:トルク)?",
-    "input_torque": r"torque|friction|reibung|drag|input.?torque|antriebsmoment|moment|couple|frottement|coppia|attrito|rozamiento|fricci[óo]n|扭矩|摩擦|トルク",
+    "input_torque": r"torque|friction|reibung|drag|input.?torque|antriebsmoment|moment|couple|frottement|coppia|attrito|rozamiento|fricci[óo]n"
+    r"|扭矩|摩擦|トルク",
     "lost_motion": r"lost.?motion|空程|ロストモーション", "efficiency": r"efficiency|wirkungsgrad|rendement|rendimento|rendimiento|效率|効率",
     "temperature": r"temperatur[ea]?|temp[ée]rature|temp|温度",
-    "vibration": r"vib(?:rations?)?|acc(?:eleration)?|schwingung|vibrazion[ei]|vibraci[óo]n|振动|振動", "vibration_order": r"orders?|vibration.?order|ordnung|ordres?|ordini|阶次",
+    "vibration": r"vib(?:rations?)?|acc(?:eleration)?|schwingung|vibrazion[ei]|vibraci[óo]n|振动|振動",
+    "vibration_order": r"orders?|vibration.?order|ordnung|ordres?|ordini|阶次",
     "cage_speed": r"cages?|cage.?speed|käfig|kaefig|gabbia|jaula|保持架",
 }  # fmt: skip
 IN_NAMES = {q: re.compile(rf"(?<![^\W\d_])(?:{words})(?![^\W\d_])", re.IGNORECASE) for q, words in QUANTITY_WORDS.items()}

@@ -17,8 +17,8 @@ NUMBERS = {
 }  # fmt: skip
 WORDS = ("replicate", "direction", "mounting", "condition", "any")
 SENSES = {
-    "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|avant|avanti|adelante|正转|正転", "reverse": r"rev|reverse|bwd|backward|ccw|rück|rueck|rückwärts|links"
-    r"|arri[èe]re|indietro|atr[áa]s|反转|逆転",
+    "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|avant|avanti|adelante|正转|正転",
+    "reverse": r"rev|reverse|bwd|backward|ccw|rück|rueck|rückwärts|links|arri[èe]re|indietro|atr[áa]s|反转|逆転",
 }  # fmt: skip
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
 NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"

@@ -13,7 +13,8 @@ HELD = (
 # Between a side and what was done to it.
 BETWEEN = r"(?:shaft|side|end|seite|welle|ist|is|was|war|wurde|mechanisch|est|è|está)"
 EAST_ASIAN = {
-    "input": "(?:输入|輸入|入力)(?:轴|軸|端|侧|側)?を?(?:固定|锁死|锁定|鎖死|鎖定|拘束|ロック)", "output": "(?:输出|輸出|出力)(?:轴|軸|端|侧|側)?を?(?:固定|锁死|锁定|鎖死|鎖定|拘束|ロック)",
+    "input": "(?:输入|輸入|入力)(?:轴|軸|端|侧|側)?を?(?:固定|锁死|锁定|鎖死|鎖定|拘束|ロック)",
+    "output": "(?:输出|輸出|出力)(?:轴|軸|端|侧|側)?を?(?:固定|锁死|锁定|鎖死|鎖定|拘束|ロック)",
 }  # fmt: skip
 IS_HELD = {
     side: re.compile(rf"\b(?:{words})\w*? ?(?:{BETWEEN} ){{0,3}}(?:{HELD})\b|\b(?:{HELD}) (?:{words})|{EAST_ASIAN[side]}") for side, words in SHAFTS.items()

@@ -12,8 +12,8 @@ COUNTS = "counts"
 WRITTEN = {
     ANGLE: {
         "deg": "° º deg degs degree degrees Grad degré degrés grado gradi grados 度",
-        "arcmin": "arcmin arcmins arc.min arcminute arcminutes arc.minute arc.minutes ' ′ amin minofarc min.of.arc Winkelmin Winkelminuten Bogenmin Bogenminuten"
-        " min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco 角分 弧分 分角 分",
+        "arcmin": "arcmin arcmins arc.min arcminute arcminutes arc.minute arc.minutes ' ′ amin minofarc min.of.arc Winkelmin Winkelminuten Bogenmin"
+        " Bogenminuten min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco 角分 弧分 分角 分",
         "arcsec": "arcsec arcsecs arc.sec arcsecond arcseconds arc.second arc.seconds \" '' ″ asec as secofarc sec.of.arc Winkelsek Winkelsekunden Bogensek"
         " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco 角秒 弧秒 秒角",
         "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度", "rad": "rad radian radians radianti radianes 弧度 ラジアン",
@@ -27,8 +27,8 @@ WRITTEN = {
         "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
     },
     SPEED: {
-        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min tr/mn tr.min^.1 tr.min.1 tour/min"
-        " tours/min giri/min giri/minuto vueltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
+        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min tr/mn tr.min^.1"
+        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
         "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
         "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s 度/秒",
     },
