@@ -23,7 +23,7 @@ class Overload:
     def __str__(self) -> str:
         return (
             f"output.load_torque = {self.torque:.5g} N.m is {self.factor:.3g} times the rated torque, {self.rated:.5g} N.m, and catalogues allow"
-            f" {MOST_RATED:g} times for a moment: contacts and bodies are computed as linear and elastic whatever the torque, real ones yield;"
+            f" {MOST_RATED:g} times for a moment: in the model contacts stay elastic and bodies linear whatever the torque, real ones yield;"
             " contact pressures, stiffness, lost motion and wear are those of no real reducer"
         )
 

@@ -20,8 +20,8 @@ LOST_MOTION_SHARE = 0.03
 # (Nabtesco, RV-E and RV-N series: momentary maximum torque).
 MOST_RATED = 5.0
 CAUTIONS = {
-    "overloads": f"output.load_torque is beyond {MOST_RATED:g} times life.rated_torque, the most that catalogues allow for a moment: contacts and bodies are"
-    " computed as linear and elastic whatever the torque, real ones yield; contact pressures, stiffness, lost motion and wear are those of no real reducer."
+    "overloads": f"output.load_torque is beyond {MOST_RATED:g} times life.rated_torque, the most that catalogues allow for a moment: in the model contacts"
+    " stay elastic and bodies linear whatever the torque, real ones yield; contact pressures, stiffness, lost motion and wear are those of no real reducer."
     " life.overloads counts the looks, one each life.judgement_interval, that found it so",
 }
 

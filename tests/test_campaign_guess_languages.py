@@ -70,6 +70,8 @@ def test_a_french_file_is_read_whole(tmp_path):
     (tmp_path / "essai_1.csv").write_text(head + table.to_csv(index=False, sep=";", decimal=","), encoding="cp1252")
     proposal = propose([tmp_path], Wishes("RV20E-121"))
     assert not proposal.needs and not proposal.doubts
+    # A word for a measurement names no condition.
+    assert "essai" not in proposal.conditions
     assert list(proposal.conditions.values()) == [{"output_speed": "10 rpm", "load_torque": "100 N.m"}]
     assert checked(proposal).records[0].values == pytest.approx(ERROR, abs=1e-9)
 

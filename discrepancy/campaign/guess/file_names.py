@@ -31,6 +31,7 @@ NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
+    "essai", "mesure", "prova", "misura", "ensayo", "prueba",
     "data", "export", "rep", "speed", "depth", "motion", "lost",
 }  # fmt: skip
 # Dates and times, which differ from file to file and say nothing of the condition.
