@@ -1,7 +1,7 @@
 """The command line tool ``rvwear``.
 
-Exit codes: 0 done, 1 a run that failed, 2 bad input, 3 an effect that did not help on unused runs (``extend``), 130 interrupted
-(Ctrl-C), 143 terminated (SIGTERM).
+Exit codes: 0 done, 1 a run that failed or a campaign that lacks something, 2 bad input, 3 an effect that did not help on unused runs
+(``extend``), 130 interrupted (Ctrl-C), 143 terminated (SIGTERM).
 
 Help and completion answer at once: a command imports what it computes with when it is called.
 """

@@ -26,7 +26,15 @@ class Parser(argparse.ArgumentParser):
             meant = f"; a reducer is given as --reducer {wrong}" if "--reducer" in known else f": see {command.prog} --help"
             return command.error(f"{wrong!r} is too much{meant}")
         word = wrong.partition("=")[0]
-        return command.error(f"there is no option {word}{nearest(word, known, 1) or '; --help lists those there are'}")
+        places = [action.dest for action in command._actions if not action.option_strings]
+        if word == "--model" and "--reducer" in known:
+            meant = "; --reducer takes the name or the file"
+        elif word.strip("-") in places:
+            meant = f"; it is given without one: {command.prog} {' '.join(map(str.upper, places))}"
+        else:
+            # Who mistyped an option did not ask for help.
+            meant = nearest(word, [name for name in known if name != "--help"], 1)
+        return command.error(f"there is no option {word}{meant or '; --help lists those there are'}")
 
     def error(self, message: str) -> NoReturn:
         """Exit code 2, without the whole usage."""

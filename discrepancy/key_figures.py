@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from discrepancy.drag_figures import DRAG, DRAG_UNITS, of_drag
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.series import position_of, spacing_of, stream_of
 from discrepancy.prediction.support import reversals
 from discrepancy.problem import ORDERS as TABLE
 from discrepancy.problem import Record
@@ -149,8 +149,7 @@ def with_noise(space: Workspace, i: int, values: Floats, reading: Reading) -> li
     stream = space.noise.streams[whitener.quantity]
     scale = float(np.median(whitener.scale))
     position = position_of(space.records[i])
-    spacing = float(np.median(np.abs(np.diff(position)))) if len(position) > 1 else 1.0
-    rho = float(np.exp(-spacing / stream.length)) if stream.length > 0.0 else 0.0
+    rho = float(np.exp(-spacing_of(position) / stream.length)) if stream.length > 0.0 else 0.0
     random = np.random.default_rng(0)
     found = []
     for _ in range(DRAWS):

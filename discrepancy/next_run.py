@@ -13,7 +13,7 @@ from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.noise import noise_key
-from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.noise.series import spacing_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, UNKNOWN, Settings
@@ -247,8 +247,7 @@ def correlation_loss(stream: StreamNoise, record: Record) -> float:
     """How much worse correlated samples average than independent ones."""
     if "angle" not in record.axes or not stream.length:
         return 1.0
-    spacing = float(np.median(np.abs(np.diff(record.axes["angle"]))))
-    return float(np.sqrt(1.0 + 2.0 * (1.0 - stream.nugget) * stream.length / max(spacing, 1e-12)))
+    return float(np.sqrt(1.0 + 2.0 * (1.0 - stream.nugget) * stream.length / max(spacing_of(record.axes["angle"]), 1e-12)))
 
 
 def conditions(example: Record, model: PhysicalModel, rig: Rig | None, campaign: Campaign) -> list[dict[str, float]]:

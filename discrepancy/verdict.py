@@ -16,13 +16,14 @@ from discrepancy.compare import beforehand, figures_of, warnings_of
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.verdict import INCOMPLETE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.model_file import ModelFile
 from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
+from discrepancy.unsearched_places import unsearched_text
 from discrepancy.waves import waves_of
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
@@ -142,7 +143,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Beside what is named a number may be what it should be.
     best = found.fits.members[0] if found.fits.members else None
     doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
-    warnings = beforehand(model, figures) + doubts + warnings_of(model, list(found.warnings))
+    # Where nothing is missing, nothing was looked for.
+    places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
+    warnings = beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
 
 

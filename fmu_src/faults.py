@@ -13,6 +13,10 @@ class OldName(FutureWarning):
     """A name that will no longer be known in the version after the next."""
 
 
+class BeyondRated(UserWarning):
+    """A torque that no reducer takes: the model answers, its figures are of no real one."""
+
+
 class MissingPart(InputFault):
     """A package of an optional part of the installation that is not there: ``what`` cannot be done without it."""
 

@@ -64,16 +64,24 @@ def require_drawable(path: Path) -> None:
 
 
 def write_pictures(figures: Sequence[Figure], path: Path, width: float = WIDTHS["single"]) -> list[Path]:
-    """The first figure as ``path``, further ones beside it as ``NAME_figure.svg``; the files that were written.  ``width`` in mm."""
+    """The first figure as ``path``, further ones beside it as ``NAME_figure.svg``; the files that were written.  ``width`` in mm.
+
+    What ``NAME`` ends with is not said again: ``turn.svg`` has ``turn_force.svg`` beside it.
+    """
     require_drawable(path)
     if not figures:
         raise InputFault(f"--picture {path}: there is nothing to draw in this result")
     written = []
     for k, figure in enumerate(figures):
-        own = path if k == 0 else path.with_name(f"{path.stem}_{figure.name.strip('_')}{path.suffix}")
+        own = path if k == 0 else path.with_name(f"{name_beside(path.stem, figure.name.strip('_'))}{path.suffix}")
         save(drawn(figure, width), own)
         written.append(own)
     return written
+
+
+def name_beside(stem: str, figure: str) -> str:
+    first, joint, rest = figure.partition("_")
+    return f"{stem}_{rest if joint and f'_{stem}'.endswith(f'_{first}') else figure}"
 
 
 def save(picture: Any, path: Path) -> None:

@@ -159,10 +159,16 @@ def load_reducer(name_or_path: str | Path) -> Reducer:
         path = LIBRARY / f"{name_or_path}.toml"
     if not path.is_file():
         raise InputFault(
-            f"no reducer {str(name_or_path)!r}{nearest(str(name_or_path), available(), 1)}; give one of {', '.join(available())}, or the path of a .toml file"
+            f"no reducer {str(name_or_path)!r}{nearest(str(name_or_path), available(), 1, files_beside(Path(name_or_path)))}; give one of"
+            f" {', '.join(available())}, or the path of a .toml file"
         )
     with reading(path, "a reducer file", REMEDY):
         return reducer_of(read_toml(path, "reducer file", REMEDY), path)
+
+
+def files_beside(path: Path) -> dict[str, str]:
+    """Reducer and model files of the folder in which somebody looked for one: ending or letters may be mistyped."""
+    return {name: str(found) for found in path.parent.glob("*.toml") for name in (found.name, found.stem)}
 
 
 def reducer_of(content: dict[str, Any], path: Path) -> Reducer:

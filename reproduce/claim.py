@@ -76,6 +76,14 @@ class Number:
             return bool(low - spare <= self.found <= high + spare)
         return math.isclose(self.found, self.audited, rel_tol=self.tolerance, abs_tol=1e-12)
 
+    @property
+    def off(self) -> float:
+        """How far the number lies from the independent check, or the nearer end of its range, as a share of that; NaN without one, or from 0."""
+        if self.audited is None:
+            return math.nan
+        near = min(max(self.found, self.audited[0]), self.audited[1]) if isinstance(self.audited, tuple) else self.audited
+        return (self.found - near) / abs(near) if near else math.nan
+
 
 def held(label: str, unit: str, value: float | None, theirs: Audited, span: tuple[float, float] | None = None) -> Number:
     """A number beside the source's: ours, theirs, and the range of ours over what is not known."""

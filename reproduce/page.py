@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pages.render import rendered
 from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, SOURCES, VERDICTS, Claim
-from reproduce.table import audited_text, ours_text, range_text, span_text, unit_text, value_text
+from reproduce.table import audited_text, off_text, ours_text, range_text, span_text, unit_text, value_text
 
 TEMPLATE = Path(__file__).with_name("claims.html")
 TONES = {REPRODUCED: "good", CONDITIONAL: "fair", CONTRADICTED: "bad", NOT_TESTABLE: "open"}
@@ -18,7 +18,7 @@ def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
     return rendered(
         TEMPLATE, [figure for claim in claims for figure in claim.figures],
         groups=[(source, found) for source, found in groups if found], tones=TONES, number=value_text, audited=audited_text,
-        ours=ours_text, range=range_text, span=span_text, unit=unit_text, held=[(c, n) for c in claims for n in c.held],
+        ours=ours_text, off=off_text, range=range_text, span=span_text, unit=unit_text, held=[(c, n) for c in claims for n in c.held],
         counts=[(v, TONES[v], sum(c.verdict == v for c in claims)) for v in VERDICTS], total=len(claims),
         changes=changes, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
         discrepancies=[] if changes else [(c, n) for c in claims for n in c.discrepancies],

@@ -1,5 +1,7 @@
 """The claims on the screen and as plain data."""
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 from rich.console import Console
@@ -51,6 +53,11 @@ def unit_text(number: Number) -> str:
     return "" if number.unit == "1" else number.unit
 
 
+def off_text(number: Number) -> str:
+    """How far the number is off the independent check, and in brackets what is allowed; nothing where that is 0."""
+    return "" if math.isnan(number.off) else f"{100.0 * number.off:+.3g} % ({100.0 * number.tolerance:.3g} %)"
+
+
 def print_table(claims: list[Claim], checked: bool = True) -> None:
     """One row per claim, their figures and ours, and below what the independent check does not confirm, where it is one of these numbers."""
     console = Console(width=max(Console().width, WIDTH), markup=False)
@@ -67,22 +74,37 @@ def print_table(claims: list[Claim], checked: bool = True) -> None:
         console.print(figures_table(claims))
     counts = {verdict: sum(c.verdict == verdict for c in claims) for verdict in VERDICTS}
     console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)
-    for claim in claims:
-        for number in claim.discrepancies if checked else ():
-            console.print(f"{claim.id} {number.label}: {value_text(number.found)} {number.unit}, independent check"
-                          f" {audited_text(number)}", highlight=False)
+    if checked and any(claim.discrepancies for claim in claims):
+        console.print(unconfirmed_table(claims))
 
 
 def figures_table(claims: list[Claim]) -> Table:
     """A row for each figure of a source: ours, theirs, the range of ours, and the claim's verdict; its cause stands with the claim."""
-    table = Table(title="Their figures and ours", title_justify="left", expand=True)
-    for head in ("id", "figure", "ours", "range", "theirs", "unit", "verdict"):
-        table.add_column(head, ratio={"figure": 5, "range": 3, "theirs": 3, "verdict": 3, "unit": 2, "ours": 2}.get(head))
-    for claim in claims:
-        for k, number in enumerate(claim.held):
+    heads = {"figure": 5, "ours": 2, "range": 3, "theirs": 3, "unit": 2}
+    return judged_table("Their figures and ours", heads, [
+        (claim, [(n.label, ours_text(n), range_text(n), span_text(n.published), unit_text(n)) for n in claim.held]) for claim in claims
+    ])  # fmt: skip
+
+
+def unconfirmed_table(claims: list[Claim]) -> Table:
+    """A row for each number that an independent solver found otherwise, with the verdict of its claim, which ours carries."""
+    heads = {"number": 5, "ours": 2, "check": 2, "unit": 2, "off (allowed)": 3}
+    table = judged_table("Not confirmed by the independent check", heads, [
+        (claim, [(n.label, value_text(n.found), audited_text(n), unit_text(n), off_text(n)) for n in claim.discrepancies]) for claim in claims
+    ])  # fmt: skip
+    table.caption, table.caption_justify = "the verdicts are carried by ours, under the conditions that the page lists, and not by the check", "left"
+    return table
+
+
+def judged_table(title: str, heads: dict[str, int], rows: Sequence[tuple[Claim, Sequence[tuple[str, ...]]]]) -> Table:
+    """Rows of numbers, claim by claim, the first of each with the claim's verdict in its colour; ``heads``: column -> share of the width."""
+    table = Table(title=title, title_justify="left", expand=True)
+    for head, ratio in {"id": None, **heads, "verdict": 3}.items():
+        table.add_column(head, ratio=ratio)
+    for claim, lines in rows:
+        for k, cells in enumerate(lines):
             verdict = Text(claim.verdict if claim.stands else "FALLEN", STYLES[claim.verdict]) if k == 0 else Text("")
-            table.add_row(claim.id if k == 0 else "", number.label, ours_text(number), range_text(number), span_text(number.published),
-                          unit_text(number), verdict, end_section=number is claim.held[-1])
+            table.add_row(claim.id if k == 0 else "", *cells, verdict, end_section=k == len(lines) - 1)
     return table
 
 
@@ -95,7 +117,8 @@ def as_json(claims: list[Claim]) -> dict[str, Any]:
 def claim_data(c: Claim) -> dict[str, Any]:
     numbers = [
         {"label": n.label, "unit": n.unit, "value": plain(n.value), "printed": plain(n.printed),
-         "theirs": plain(n.published), "low": plain(n.low), "high": plain(n.high), "independent_check": plain(n.audited), "agrees": n.agrees}
+         "theirs": plain(n.published), "low": plain(n.low), "high": plain(n.high), "independent_check": plain(n.audited), "agrees": n.agrees,
+         "off": None if math.isnan(n.off) else float(n.off)}
         for n in c.numbers
     ]  # fmt: skip
     return {

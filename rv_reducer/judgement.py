@@ -16,6 +16,14 @@ from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
+# Torque over the rated one that no RV reducer survives: catalogues allow 2.5 times at starts and 5 times once in an emergency stop
+# (Nabtesco, RV-E and RV-N series: momentary maximum torque).
+MOST_RATED = 5.0
+CAUTIONS = {
+    "overloads": f"output.load_torque is beyond {MOST_RATED:g} times life.rated_torque, the most that catalogues allow for a moment: in the model contacts"
+    " stay elastic and bodies linear whatever the torque, real ones yield; contact pressures, stiffness, lost motion and wear are those of no real reducer."
+    " life.overloads counts the looks, one each life.judgement_interval, that found it so",
+}
 
 NONE, FLANK, RACE, LOST_MOTION = range(4)
 # Where a step may end before its time (``pausing``).
@@ -101,6 +109,13 @@ def pauses(r, limited_by, was_over, left):
 
 
 @kernel
+def look_at_load(records):
+    r = records[0]
+    if abs(records.plant[0].load_torque) > MOST_RATED * r.rated_torque:
+        r.overloads += 1
+
+
+@kernel
 def start_judgement(records):
     """Of new surfaces, or of worn ones that say what lost motion was when they were new."""
     r = records[0]
@@ -110,6 +125,7 @@ def start_judgement(records):
         r.new_lost_motion = r.lost_motion
     extrapolate_life(r, 0.0, 0.0)
     start_estimate(r)
+    look_at_load(records)
 
 
 @kernel
@@ -127,6 +143,7 @@ def judge(records, turned):
     flank_rate = growth(r.worst_flank_depth, r.flank_volume, r.judged_flank_volume, passed)
     extrapolate_life(r, flank_rate, growth(r.worst_race_depth, race_volume, judged_race, passed))
     estimate(r)
+    look_at_load(records)
     # What is missing comes on top of the next interval.
     r.judged_time, r.turned = r.operating_time, min(r.turned - r.judgement_interval, 0.0)
     r.judged_flank_volume = r.flank_volume

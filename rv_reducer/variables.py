@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from fmu_src.table import Table
-from fmu_src.variables import SEEN, SETTABLE, Variable
+from fmu_src.variables import SEEN, SETTABLE, Variable, local
 from rv_plant.terminals import MECHANICAL as TERMINALS
 from rv_plant.topology import Topology
 from rv_plant.variables import plant_table
@@ -124,6 +124,8 @@ def judgement(z: Variable) -> list[Variable]:
         Variable("remaining_life", "output", "s", "operating time until the first limit if wear goes on as in the last"
                  " life.judgement_interval", nominal=1e6, path="life.remaining"),
         Variable("limited_by", "output", "1", "the limit that life.remaining refers to", choices=LIMITS, path="life.limited_by"),
+        local("overloads", "1", "looks at lost motion at which output.load_torque was beyond 5 times life.rated_torque, where figures are of no real reducer",
+              integer=True, path="life.overloads"),
         Variable("pausing", "state", "1", "where a step may end before its time: nowhere, where the judgement changes, wherever surfaces wore",
                  integer=True),
         state("paused_after", "s", "how much of the last step was done; 0: all of it"),

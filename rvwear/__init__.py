@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from discrepancy.campaign.load import load_campaign
     from discrepancy.model_file import load_model
-    from fmu_src.faults import InputFault, RunFault
+    from fmu_src.faults import BeyondRated, InputFault, RunFault
     from orchestrator.system import System, connect
     from orchestrator.system import load as load_system
     from reducers.library import available as reducers
@@ -34,11 +34,11 @@ PLACES = {
     "System": ("orchestrator.system", "System"), "load_system": ("orchestrator.system", "load"), "connect": ("orchestrator.system", "connect"),
     "frames": ("rvwear.files", "frames"), "figure": ("rvwear.files", "figure"),
     "figure_names": ("rvwear.files", "figure_names"), "export": ("rvwear.files", "export"),
-    "InputFault": ("fmu_src.faults", "InputFault"), "RunFault": ("fmu_src.faults", "RunFault"),
+    "BeyondRated": ("fmu_src.faults", "BeyondRated"), "InputFault": ("fmu_src.faults", "InputFault"), "RunFault": ("fmu_src.faults", "RunFault"),
 }  # fmt: skip
 __all__ = [
-    "Comparison", "Diagnosis", "InputFault", "Reducer", "RunFault", "System", "compare", "connect", "diagnose", "export", "figure", "figure_names",
-    "frames", "hysteresis", "life", "load_campaign", "load_model", "load_reducer", "load_system", "modes", "read", "reducers", "solve",
+    "BeyondRated", "Comparison", "Diagnosis", "InputFault", "Reducer", "RunFault", "System", "compare", "connect", "diagnose", "export", "figure",
+    "figure_names", "frames", "hysteresis", "life", "load_campaign", "load_model", "load_reducer", "load_system", "modes", "read", "reducers", "solve",
 ]  # fmt: skip
 
 

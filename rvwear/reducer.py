@@ -1,15 +1,21 @@
 """One reducer: a crank turn, the stiffness test, natural frequencies, a life."""
 
-from collections.abc import Callable, Mapping
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pandas as pd
 import xarray as xr
 
 from discrepancy.named_reducer import named_reducer
+from fmu_src.faults import BeyondRated
 from orchestrator import netcdf
 from orchestrator.settings import Setting, parse_setting
 from reducers.reducer import Reducer
+
+if TYPE_CHECKING:
+    from studies.duty import Segment
 
 # A variable of the units by its structured name, and its value: a number in SI, a choice's name, or a text with a unit.
 Settings = Mapping[str, float | str]
@@ -24,6 +30,14 @@ def settings_of(reducer: Reducer, settings: Settings) -> list[Setting]:
     return [parse_setting(f"{name}={value}", [reducer.plant, reducer.wear]) for name, value in settings.items()]
 
 
+def warn_of_overload(reducer: Reducer, settings: "Sequence[Setting]", duty: "Sequence[Segment]" = ()) -> None:
+    """BeyondRated, at the line that called ``solve``, ``hysteresis`` or ``life``."""
+    from studies.overload import overload
+
+    if beyond := overload(reducer, settings, duty):
+        warnings.warn(str(beyond), BeyondRated, stacklevel=3)
+
+
 def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, positions: int = 72) -> xr.Dataset:
     """Forces, pressure, errors and stiffness over one crank turn, without wear.
 
@@ -32,7 +46,8 @@ def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = Non
     ``positions``: equilibria per crank turn, at least 8.
 
     Series over ``position`` with the coordinate ``crank_angle`` [deg], arrays over ``disc``, ``pin``, ``crank`` and ``roller``; single numbers
-    named with their unit.  Every variable has ``units`` and ``long_name``.  InputFault names what is wrong with a file or setting.
+    named with their unit.  Every variable has ``units`` and ``long_name``.  InputFault names what is wrong with a file or setting; the warning
+    ``BeyondRated`` says of a torque beyond 5 times the rated one what is then untrue, here and in ``hysteresis`` and ``life``.
 
     >>> import rvwear
     >>> turn = rvwear.solve("RV20E-121", settings={"output.load_torque": "167 N.m"}, positions=24)
@@ -46,7 +61,9 @@ def solve(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = Non
     from studies.turn import crank_turn
 
     chosen = reducer_of(reducer)
-    return crank_turn(chosen, settings_of(chosen, settings or {}), positions).dataset()
+    parsed = settings_of(chosen, settings or {})
+    warn_of_overload(chosen, parsed)
+    return crank_turn(chosen, parsed, positions).dataset()
 
 
 def hysteresis(
@@ -70,7 +87,9 @@ def hysteresis(
 
     chosen = reducer_of(reducer)
     at = amount(locked_at, "rad", "locked_at") if isinstance(locked_at, str) else locked_at
-    return loop_dataset(chosen, measure(chosen, settings_of(chosen, settings or {}), steps, angles, at))
+    parsed = settings_of(chosen, settings or {})
+    warn_of_overload(chosen, parsed)
+    return loop_dataset(chosen, measure(chosen, parsed, steps, angles, at))
 
 
 def modes(reducer: ReducerLike = "RV20E-121", *, settings: Settings | None = None, held: bool = True) -> pd.DataFrame:
@@ -113,7 +132,9 @@ def life(
 
     chosen = reducer_of(reducer)
     segments = load_duty(duty) if duty is not None else ()
-    wanted = WantedLife(chosen, settings_of(chosen, settings or {}), LifeSettings(hours, tolerance), positions, segments)
+    parsed = settings_of(chosen, settings or {})
+    wanted = WantedLife(chosen, parsed, LifeSettings(hours, tolerance), positions, segments)
+    warn_of_overload(chosen, parsed, segments)
     return whole_life(wanted, lambda state: progress(state.hours[-1]) if progress else None)
 
 

@@ -12,6 +12,7 @@ import pytest
 from bench_files import ANGLE, ARCSEC, CURVES, DEG, DEPTH, ERROR, GUESSED_UNITS, HOURS, KGM, TORQUE, TURN, TWIST, WRITTEN, binary, write
 
 from cli.main import main
+from discrepancy.campaign.angle_doubts import turns_text
 from discrepancy.campaign.guess.file_names import by_pattern, proposed
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.propose import propose
@@ -273,6 +274,25 @@ def test_other_quantities(tmp_path, columns, quantity):
     assert proposal.runs[0].guessed.quantity.value == quantity and proposal.runs[0].guessed.quantity.sure
 
 
+def test_a_speed_that_is_given_for_all_is_none_of_loops(tmp_path):
+    """It was written to their conditions, too; what is shared with a file that has one, or given for a condition by its name, stays."""
+    for name, kind in (("te_167Nm_1", "plain"), ("loop_20C_1", "loop"), ("loop_40C_1", "loop")):
+        write(tmp_path, kind).rename(tmp_path / f"{name}.csv")
+    given = {"output_speed": "15 rpm", "load_torque": "100 N.m", "temperature": "20 degC"}
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions=given))
+    by_run = {run.name: proposal.conditions[run.condition] for run in proposal.runs}
+    assert by_run["loop_20C_1"] == {"temperature": "20 degC"} and by_run["loop_40C_1"] == {"temperature": "40 degC"}
+    assert by_run["te_167Nm_1"] == {"output_speed": "15 rpm", "load_torque": "167 N.m", "temperature": "20 degC"}
+    loop = next(run.condition for run in proposal.runs if run.name == "loop_20C_1")
+    assert propose([tmp_path], Wishes("RV20E-121", conditions={**given, f"{loop}:output_speed": "1 rpm"})).conditions[loop]["output_speed"] == "1 rpm"
+
+
+def test_one_is_not_many(tmp_path, capsys):
+    write(tmp_path, "loop")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run"]) == 0 and ": 1 run " in capsys.readouterr().out
+    assert turns_text(1.0) == "1 turn" and turns_text(0.999) == "0.999 turns" and turns_text(121.0) == "121 turns"
+
+
 def test_a_motor_that_turns_on_shows_its_torque_and_no_loop(tmp_path):
     k = np.arange(601)
     columns = {"TIME": 1.72e18 + 1e7 * k, "POSITION": k / 20, "TORQUE": 2 + np.sin(k / 50), "MOTOR_TEMPERATURE": 20 + k / 200}
@@ -307,7 +327,7 @@ def test_the_reducer_is_asked_for(tmp_path, capsys):
     write(tmp_path, "plain")
     assert main(["campaign", "from", str(tmp_path), "--json"]) == 2
     assert "--reducer: say which reducer was measured: " in capsys.readouterr().err
-    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 0
+    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 1
     told = json.loads(capsys.readouterr().out)
     assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
 
@@ -337,11 +357,16 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
     monkeypatch.chdir(tmp_path)
     write(tmp_path, "plain")
     (tmp_path / "te_167Nm_15rpm_1.csv").rename(tmp_path / "run_1.csv")
-    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 0
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 1
     shown = capsys.readouterr().out
     assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition 'output_speed=15 rpm' --condition 'load_torque=167 N.m'" in shown
     assert any("states no load, which run_1 need" in text and "the model's own is taken" in text for text in incomplete(load_campaign(tmp_path)))
     said = ["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--condition", "load_torque=100 N.m", "--condition", "output_speed=15 rpm"]
     assert main(said) == 2 and "give --overwrite to have it written anew" in capsys.readouterr().err
+    assert main([*said, "--overwrite"]) == 0
+    capsys.readouterr()
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--overwrite", "--json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert told["written"] and [need["text"].rpartition(" ")[2] for need in told["needs"]] == ["output_speed", "load_torque"]
     assert main([*said, "--overwrite"]) == 0
     assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)

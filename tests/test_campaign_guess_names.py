@@ -48,7 +48,7 @@ def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, caps
     """One value for all files would be wrong: the pattern is proposed, once, and as printed it does what was meant."""
     folder = error_files(tmp_path / "Prüfstand 7", "te_X50_1", "te_X100_1", "te_X167_1")
     loop_files(folder, "loop_20C_1", "loop_20C_2")
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm"]) == 0
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm"]) == 1
     command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
     assert command.count("--names") == 1 and "te_X{load_torque}_{replicate}" in command and not any("load_torque=" in word for word in command)
     assert main(command[1:]) == 0
@@ -60,7 +60,7 @@ def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, caps
 def test_what_two_quantities_need_is_asked_once(tmp_path, capsys):
     folder = error_files(tmp_path / "a", "te")
     pd.DataFrame({"input_speed [rpm]": [200.0, 600, 1000], "efficiency [%]": [60.0, 61, 62]}).to_csv(folder / "efficiency.csv", index=False)
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm", "--held-out"]) == 0
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm", "--held-out"]) == 1
     command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
     assert command.count("load_torque=167 N.m") == 1 and "--held-out" in command
 

@@ -45,6 +45,33 @@ def test_solve_options_act(capsys, options, lag):
     assert json_of(capsys, "solve", *RIGID, *options)["mean_lag_arcsec"] == pytest.approx(lag, rel=0.005)
 
 
+@pytest.mark.parametrize("arguments", [("solve", "--positions", "8"), ("hysteresis", "--steps", "4", "--angles", "1")])
+def test_a_torque_that_no_reducer_takes_is_answered_and_doubted(capsys, arguments):
+    assert main([*arguments, "--torque", "-1670", "--json"]) == 0
+    said = capsys.readouterr()
+    beyond = json.loads(said.out)["overload"]
+    assert (beyond["torque_Nm"], beyond["rated_torque_Nm"], beyond["factor"]) == (1670.0, 167.0, pytest.approx(10.0))
+    assert said.err.count("warning: ") == 1 and "1670 N.m is 10 times the rated torque, 167 N.m" in said.err and "contact pressures" in said.err
+    assert main([*arguments, "--torque", "800", "--json"]) == 0
+    said = capsys.readouterr()
+    assert "overload" not in json.loads(said.out) and "rated" not in said.err
+
+
+def test_the_torques_of_a_duty_are_doubted_instead_of_the_set_one(tmp_path, capsys):
+    from cli.overload import told_overload
+    from orchestrator.settings import Setting
+    from reducers.reducer import load_reducer
+    from studies.duty import Segment
+
+    reducer, absurd = load_reducer("RV20E-121"), [Setting("load_torque", 16700.0)]
+    assert told_overload(reducer, absurd, [Segment(200.0, 150.0, 1.0)]) == {}
+    assert told_overload(reducer, [], [Segment(200.0, 150.0, 0.5), Segment(-200.0, -1000.0, 0.5)])["overload"]["torque_Nm"] == 1000.0
+    # The last setting of a name counts.
+    assert told_overload(reducer, [*absurd, Setting("load_torque", 100.0)]) == {}
+    assert main(["life", "--hours", "1", "--positions", "8", "--tolerance", "0.5", "--torque", "1670", "--no-report", "--output", str(tmp_path / "a.nc"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["overload"]["factor"] == pytest.approx(10.0)
+
+
 def test_stiffness_reading_and_contact_law(capsys):
     literal = json_of(capsys, "solve", *RIGID, "--stiffness-reading", "literal")
     assert literal["torsional_stiffness_Nm_per_arcmin"] == pytest.approx(199, rel=0.01)

@@ -40,6 +40,9 @@ def said(capsys, *arguments):
     (["life", "--hours", "1,000"], "rvwear life: argument --hours: '1,000' has a comma in its number; write 1000, or 1.000"),
     (["reducer", "new", "--pins", "39.5"], "rvwear reducer new: argument --pins: '39.5': a whole number is needed"),
     (["dynamics-wear", "--limit", "3%"], "rvwear dynamics-wear: argument --limit: '3%': a number is needed, without a unit"),
+    (["solve", "--model", "m.toml"], "rvwear solve: there is no option --model; --reducer takes the name or the file"),
+    (["compare", "--model", "m.toml", "x"], "rvwear compare: there is no option --model; it is given without one: rvwear compare MODEL CAMPAIGN"),
+    (["solve", "--helq"], "rvwear solve: there is no option --helq; --help lists those there are"),
     (["effects", "fricton"], "rvwear effects: no effect 'fricton'; did you mean drive_friction"),
 ])  # fmt: skip
 def test_what_was_meant_is_said(capsys, arguments, text):
@@ -62,6 +65,7 @@ def test_hours_with_and_without_a_unit(text, hours):
     (["compare", "RV20E-12", "bench"], "no reducer 'RV20E-12'; did you mean RV20E-121?; give one of"),
     (["diagnose", "RV20E-121", "bnch"], "no campaign file at bnch/campaign.toml; did you mean bench?; rvwear campaign from"),
     (["next", "modl.toml", "bench"], "no such file at modl.toml; did you mean model.toml?"), (["export", "lif.nc", "a.csv"], "no result file at lif.nc; did you mean life.nc?"),
+    (["compare", "model.tml", "bench"], "no reducer 'model.tml'; did you mean model.toml?"), (["compare", "modle", "bench"], "did you mean model.toml?"),
     (["campaign", "from", "bench/te_1.cvs", "--reducer", "RV20E-121"], "there is no such file; did you mean bench/te_1.csv?"),
 ])  # fmt: skip
 def test_mistyped_names_are_told_before_any_work(capsys, tmp_path, monkeypatch, arguments, text):

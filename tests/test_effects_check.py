@@ -372,9 +372,12 @@ def after(r):
 """
 
 
-def test_check_says_which_shapes_a_diagnosis_fits(tmp_path, capsys):
+def test_check_says_which_shapes_a_diagnosis_fits_and_the_units_of_answers(tmp_path, capsys):
     assert main(["effects", "--check", str(written(tmp_path, LAW, name="lip"))]) == 0
     said = capsys.readouterr().out
     # A third of the start lies below the bounds.
     assert "lip_speed is fitted within 12 to 300 rad/s, from 30, 90" in said
+    # What an answer tells in another unit says so, and how many make one.
+    assert "lip_speed is in rad/s here, for kernels; answers give it in rpm at its usual size: 1 rad/s is 9.5493 rpm" in said
+    assert "lip_power is in" not in said and "lip_torque is in mN" not in said
     assert "lip_power is held at 1 1, not fitted: held=True" not in said and "lip_power is held at 1, not fitted: held=True" in said

@@ -103,6 +103,14 @@ def test_loop_and_turn_from_the_command_line(tmp_path, capsys):
     }  # fmt: skip
 
 
+@pytest.mark.parametrize("name, beside", [
+    ("turn", ["turn", "turn_force", "turn_teeth"]), ("my_turn", ["my_turn", "my_turn_force", "my_turn_teeth"]), ("return", ["return", "return_turn_force", "return_turn_teeth"]),
+])  # fmt: skip
+def test_what_a_pictures_name_ends_with_is_not_said_twice(tmp_path, name, beside):
+    figures = [chart(figure, "t", "", [Curve("c", [0.0, 1.0], [0.0, 1.0])], "x [m]", "y [m]") for figure in ("turn_error", "turn_force", "turn_teeth")]
+    assert [path.stem for path in write_pictures(figures, tmp_path / f"{name}.svg")] == beside
+
+
 def test_comparison_as_tables():
     result = compared(model_of({"gap": 2e-6}))
     tables = {table.name: table.frame() for table in measured_tables(result)}

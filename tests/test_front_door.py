@@ -113,6 +113,14 @@ def test_what_is_wrong_is_an_input_fault():
         rvwear.figure_names(xr.Dataset({"x": ("a", [1.0])}))
 
 
+def test_a_torque_that_no_reducer_takes_is_warned_of_where_it_was_asked_for():
+    absurd = {"output.load_torque": "1670 N.m"}
+    for asked in (lambda: rvwear.solve(settings=absurd, positions=8), lambda: rvwear.hysteresis(settings=absurd, steps=4, angles=1)):
+        with pytest.warns(rvwear.BeyondRated, match=r"1670 N\.m is 10 times the rated torque, 167 N\.m") as said:
+            asked()
+        assert said[0].filename == __file__
+
+
 def test_a_plotly_picture():
     found = rvwear.figure(rvwear.hysteresis(steps=4, angles=1), plotly=True)
     assert found.data[0].type == "scatter" and found.layout.xaxis.title.text == "torque [N·m]"

@@ -5,6 +5,7 @@ import pytest
 
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.noise.outliers import usable
+from discrepancy.inference.noise.series import spacing_of
 from discrepancy.inference.noise.whiten import SLOW, whitener
 from discrepancy.problem import Record
 
@@ -59,6 +60,12 @@ def test_noise_comes_from_replicates_whatever_the_misfit(uneven):
     assert stream.dof["offset"] == pytest.approx(12)
     deviation = noise.whiteners[0]((residuals[0] - residuals[1]) / np.sqrt(2))
     assert np.std(deviation) == pytest.approx(1.0, rel=0.15)
+
+
+def test_samples_lie_as_far_apart_as_they_mostly_do_whichever_way_they_run():
+    run = np.array([0.0, -1.0, -2.0, -3.0, -13.0])
+    assert spacing_of(run) == 1.0 and spacing_of(run, 5.0 * run, 5.0 * run) == 5.0
+    assert spacing_of(np.array([7.0])) == spacing_of(np.array([7.0]), np.array([8.0])) == 1.0
 
 
 def test_spikes_lose_their_weight_and_dropouts_are_left_out():

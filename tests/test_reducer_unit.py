@@ -109,6 +109,24 @@ def test_lost_motion_is_that_of_the_stiffness_test(rv20e):
     assert wider.get("lost_motion") > 2.0 * unit.get("lost_motion")
 
 
+@pytest.mark.parametrize("flavour", ["kernels", "python", "fmi2", "fmi3"])
+def test_a_torque_that_no_reducer_takes_is_said_once(request, rv20e, flavour):
+    """At the start and at each look at lost motion, never between: a step costs nothing more."""
+    if flavour == "kernels":
+        calm, unit = (make_unit(rv20e, load_torque=torque) for torque in (-800.0, -1000.0))
+        assert run(calm, 1, 1e-3).unit.due_cautions(calm.records) == {}
+    else:
+        folder = request.getfixturevalue("one_unit_fmus")
+        unit = open_fmu("reducer", (folder if flavour == "python" else folder / flavour) / "RvReducer.fmu")
+        unit.set("output.load_torque", -1000.0)
+    run(unit, 3, 1e-3)
+    assert unit.get("life.overloads" if flavour != "kernels" else "overloads") == 1
+    said = unit.cautions() if flavour == "kernels" else unit.messages
+    assert sum("beyond 5 times life.rated_torque" in text for text in said) == 1
+    if flavour != "kernels":
+        unit.close()
+
+
 def test_remaining_life_is_that_of_the_run_beyond_it(rv20e):
     """Run in, the depth grows nearly along a straight line: the limit is reached when it was foretold."""
     limit = 1e-6

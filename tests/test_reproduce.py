@@ -3,6 +3,7 @@
 import html
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -100,6 +101,24 @@ def test_a_number_tells_whether_it_confirms_the_check():
     assert Number("a", "1", None, 2.0, 2.0).agrees
     assert Number("a", "1", 5.0, None, (4.0, 6.0)).agrees and not Number("a", "1", 7.0, None, (4.0, 6.0)).agrees
     assert Number("a", "1", 5.0).agrees is None
+    assert Number("a", "1", 0.9, None, 1.0).off == pytest.approx(-0.1) and Number("a", "1", 7.0, None, (4.0, 5.0)).off == pytest.approx(0.4)
+    assert Number("a", "1", 4.5, None, (4.0, 5.0)).off == 0.0 and np.isnan(Number("a", "1", 5.0).off) and np.isnan(Number("a", "1", 5.0, None, 0.0).off)
+
+
+def test_numbers_that_the_check_does_not_confirm_are_judged(claims, capsys):
+    """They stood below the table without a word; now as their figures do: how far off, and the claim's verdict, on the screen and on the page."""
+    checked = next(c for c in claims if c.verdict == CONDITIONAL)
+    numbers = [Number("first of all", "N", 537.9, None, 595.0), Number("second", "N", 590.7, None, (600.0, 659.0), 0.001)]
+    off, fallen = replace(checked, id="T98", numbers=numbers), replace(checked, id="T99", numbers=numbers[:1], grounds=[("it holds", False)])
+    assert off.stands and len(off.discrepancies) == 2
+    print_table([off, fallen])
+    said = capsys.readouterr().out.partition("Not confirmed")[2]
+    assert re.search(r"T98 .*first of all.*537\.9.*595.*N .*-9\.6 %.*reproduced", said) and re.search("T99.*FALLEN", said) and "-1.55 %" in said
+    print_table([off], checked=False)
+    assert "Not confirmed" not in capsys.readouterr().out
+    part = page_of([off]).partition('id="discrepancies"')[2].partition("</section>")[0]
+    assert part.count(CONDITIONAL) == 1 and part.count("<tr data-verdict") == 2 and "-9.6 % (3 %)" in part and 'rowspan="2" class="fair"' in part
+    assert as_json([off])["claims"][0]["numbers"][0]["off"] == pytest.approx(-0.09597, rel=1e-3)
 
 
 def test_linear_forces_balance_the_moment():

@@ -51,7 +51,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run_from(options: argparse.Namespace) -> int:
-    """Show the guesses, write the file, name the command that compares."""
+    """Show the guesses, write the file, name the command that compares; exit code 1 where the file lacks what that command needs."""
     from cli.screen import json_text
     from cli.show.guesses import show
     from discrepancy.campaign.angle_doubts import angle_doubts
@@ -71,12 +71,13 @@ def run_from(options: argparse.Namespace) -> int:
     step = ["campaign", "check"] if proposal.needs else ["compare", str(proposal.reducer)]
     command = shlex.join(["rvwear", *step, str(folder)])
     text = campaign_text(proposal, folder)
+    code = 1 if proposal.needs else 0
     if not options.dry_run:
         write_campaign(proposal, folder, options.overwrite)
     if options.json:
         more = {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command}
         json_text(proposal.as_json() | {"findings": [asdict(found) for found in findings]} | more)
-        return 0
+        return code
     show(proposal, findings)
     if options.dry_run:
         print(f"\n{text}")
@@ -86,7 +87,7 @@ def run_from(options: argparse.Namespace) -> int:
         print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal)}")
     else:
         print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")
-    return 0
+    return code
 
 
 def again(options: argparse.Namespace, proposal: "Proposal") -> str:

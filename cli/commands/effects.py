@@ -73,17 +73,22 @@ def check_files(files: list[Path], as_json: bool) -> int:
         json_text({"findings": shown})
     else:
         for name, found in findings.items():
-            print("\n".join(map(str, found)) if found else "\n".join([f"{name}: nothing wrong", *(f"  {text}" for text in of_shapes(Path(name)))]))
+            print("\n".join(map(str, found)) if found else "\n".join([f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name)))]))
     return 2 if any(findings.values()) else 0
 
 
-def of_shapes(file: Path) -> list[str]:
-    """Of each shape of a sound effect whether a diagnosis fits it."""
+def of_parameters(file: Path) -> list[str]:
+    """Of a sound effect's parameters the unit that answers give them in, where it is none of the file's, and of each shape whether a diagnosis fits it."""
+    from discrepancy.scales import of_parameter
     from fmu_src.effect_check import imported
 
     module, texts = imported(file.absolute(), file.absolute().parent.name)[0], []
     for p in module.EFFECT.parameters if module else ():
         v, unit = p.variable, "" if p.variable.unit == "1" else f" {p.variable.unit}"
+        told = of_parameter(abs(p.scale) if p.kind == "amplitude" else abs(float(v.start)), v.unit)
+        if told.unit not in (v.unit, "1"):
+            same = "" if told.offset else f": 1 {v.unit} is {told.factor:.6g} {told.unit}"
+            texts.append(f"{v.name} is in {v.unit} here, for kernels; answers give it in {told.unit} at its usual size{same}")
         if p.is_held:
             texts.append(f"{v.name} is held at {float(v.start):g}{unit}, not fitted: held=True")
         elif p.kind == "shape":

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from cli.ending import exit_code
 from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, reducer_of, result_path, settings_of
+from cli.overload import told_overload
 from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault, nearest_path
 from fmu_src.held_file import held
@@ -82,19 +83,20 @@ def life(options: argparse.Namespace) -> int:
     duty = load_duty(options.duty) if options.duty else ()
     path = result_path(options.output, f"{reducer.name}_life")
     wanted = WantedLife(reducer, settings, life_settings, positions, duty, options.scheme, folder(options.fmus))
+    beyond = told_overload(reducer, settings, duty)
     with held(path):
-        return live_and_write(options, wanted, path)
+        return live_and_write(options, wanted, path, beyond)
 
 
-def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path) -> int:
-    """The life from where it stands, its result, and what is shown of it."""
+def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path, beyond: dict[str, Any]) -> int:
+    """The life from where it stands, its result, and what is shown of it; ``beyond`` goes into the JSON."""
     from cli.show.life import telling
     from fmu_src.progress import say
     from studies.kept_life import Paused, belongs_to, checkpoint_of, live_to
 
     checkpoint = checkpoint_of(path)
     if options.reuse and (known := known_result(path, wanted.inputs)) is not None:
-        return show_life(options, known, path)
+        return show_life(options, known, path, beyond)
     resume = options.resume or (options.reuse and checkpoint.exists() and belongs_to(checkpoint, wanted.inputs))
     if checkpoint.exists() and not (resume or options.restart or options.reuse):
         raise InputFault(f"{checkpoint} holds an unfinished run: give --resume to go on, --restart to start anew")
@@ -105,7 +107,7 @@ def live_and_write(options: argparse.Namespace, wanted: "WantedLife", path: Path
     except Paused as interruption:
         print(f"interrupted at {interruption.hours:g} h; go on with --resume", file=sys.stderr)
         return exit_code(interruption)
-    return show_life(options, dataset, path)
+    return show_life(options, dataset, path, beyond)
 
 
 def stands_aside(path: Path) -> Path:
@@ -134,7 +136,7 @@ def known_result(path: Path, inputs: dict[str, Any]) -> "xr.Dataset | None":
     return dataset if same else None
 
 
-def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) -> int:
+def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path, beyond: dict[str, Any]) -> int:
     """Table or JSON on the screen, and the report."""
     from cli import screen
     from cli.show.life import life_table
@@ -146,7 +148,7 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path) ->
 
         write_report(dataset, page)
     if options.json:
-        screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset))
+        screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset) | beyond)
     else:
         life_table(dataset)
         print(f"result  {path}")

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, add_reducer_options, chosen, number_in, reducer_of, settings_of
+from cli.overload import told_overload
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -51,10 +52,11 @@ def solve(options: argparse.Namespace) -> int:
 
     check_exports(options)
     reducer, settings, positions = chosen(options)
+    beyond = told_overload(reducer, settings)
     with task("equilibria of one crank turn"):
         found = crank_turn(reducer, settings, positions)
     if options.json:
-        screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures)
+        screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures | beyond)
     else:
         screen.figures(f"{reducer.name} over one crank turn", found.figures, how=RUNNING)
     export(options, found.dataset)
@@ -71,13 +73,15 @@ def hysteresis(options: argparse.Namespace) -> int:
 
     check_exports(options)
     reducer = reducer_of(options.reducer)
+    settings = settings_of(options, reducer)
+    beyond = told_overload(reducer, settings)
     with task("loading torques at locked input"):
         at = None if options.locked_at is None else math.radians(options.locked_at)
-        loop = measure(reducer, settings_of(options, reducer), options.steps, options.angles, at)
+        loop = measure(reducer, settings, options.steps, options.angles, at)
     figures = loop_figures(loop)
     if options.json:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
-        screen.json_text({"reducer": reducer.name} | figures | curve)
+        screen.json_text({"reducer": reducer.name} | figures | curve | beyond)
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
         screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=HELD)

@@ -13,7 +13,7 @@ from discrepancy.campaign.guess.write import WHOSE_ANGLE, over_output
 def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
     """Runs, what each column was taken for and why, conditions, what is not sure, ``findings`` in what was read, what is needed."""
     out = console(WIDTH)
-    table = Table(title=f"{proposal.name}: {len(proposal.runs)} runs", title_justify="left")
+    table = Table(title=f"{proposal.name}: {len(proposal.runs)} run{'s' * (len(proposal.runs) != 1)}", title_justify="left")
     for column in ("run", "quantity", "condition", "repetition"):
         table.add_column(column)
     for run in proposal.runs:

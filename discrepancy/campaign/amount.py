@@ -2,21 +2,17 @@
 
 from typing import TypeGuard
 
+from discrepancy.campaign.guess.unit_words import KNOWN, plain
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.settings import NUMBER, require_point
 
-# Ways of writing that benches use and pint reads otherwise ("Nm" would be a count times a metre).
-SPELLINGS = {
-    "Nm": "N.m", "mNm": "mN.m", "kNm": "kN.m", "Nm/arcmin": "N.m/arcmin", "Nm/rad": "N.m/rad", "Nm/deg": "N.m/deg",
-    "rev": "turn", "rev/s": "turn/s", "rev/min": "rpm", "1/min": "rpm", "m/s2": "m/s^2", "m/s²": "m/s^2",
-}  # fmt: skip
-
 
 def to_si(unit: str, target: str, place: str) -> tuple[float, float]:
-    """(factor, offset) from the stated unit to ``target``."""
+    """(factor, offset) from the stated unit, as benches write it, to ``target``."""
+    known, _ = KNOWN.get(plain(unit)) or (unit.strip(), "")
     try:
-        return conversion(SPELLINGS.get(unit.strip(), unit.strip()), target)
+        return conversion(known, target)
     except UnitError as problem:
         raise InputFault(f"{place}: {problem}") from None
 

@@ -71,7 +71,7 @@ def with_time(record: Record, speed: float) -> tuple[float, str]:
     times = 2.0 * math.pi * turns(record) / (speed * seconds) if seconds > 0.0 else 1.0
     if times == 0.0 or 1.0 / OTHER_RATE < times < OTHER_RATE:
         return times, ""
-    return times, f"makes {readable(turns(record))} turns in {readable(seconds)} s: {readable(times)} times the stated {rpm(speed)}"
+    return times, f"makes {turns_text(turns(record))} in {readable(seconds)} s: {readable(times)} times the stated {rpm(speed)}"
 
 
 def without_time(record: Record, speed: float, campaign: Campaign) -> tuple[float, str]:
@@ -82,9 +82,14 @@ def without_time(record: Record, speed: float, campaign: Campaign) -> tuple[floa
     if len(record.values) > SAMPLES_PER_WAVE * campaign.reducer.topology.pins * whole:
         return 1.0, ""
     return campaign.ratio, (
-        f"makes {readable(whole)} turns, {readable(2.0 * math.pi * whole / speed)} s at the stated {rpm(speed)}, in {len(record.values)} samples, too few for"
-        f" the {campaign.reducer.topology.pins} pins; over the ratio it is {readable(whole / campaign.ratio)} turns"
+        f"makes {turns_text(whole)}, {readable(2.0 * math.pi * whole / speed)} s at the stated {rpm(speed)}, in {len(record.values)} samples, too few for"
+        f" the {campaign.reducer.topology.pins} pins; over the ratio it is {turns_text(whole / campaign.ratio)}"
     )
+
+
+def turns_text(count: float) -> str:
+    said = readable(count)
+    return f"{said} turn{'s' * (said != '1')}"
 
 
 def rpm(speed: float) -> str:

@@ -16,10 +16,8 @@ from discrepancy.campaign.quantities import VALUE
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.units import conversion
+from reducers.rated import MOST_RATED
 
-# Torque over the rated one that no RV reducer survives: catalogues allow 2.5 times at starts and 5 times once in an emergency stop
-# (Nabtesco, RV-E and RV-N series: momentary maximum torque).
-MOST_RATED = 5.0
 # Share of the rated torque that a loop reaches at least if its unit is right, and the most that benches apply.
 USUAL_REACH = (0.1, 2.5)
 TORQUE_UNITS = ("N.m", "N.mm", "N.cm", "kgf.cm", "lbf.in", "kN.m")

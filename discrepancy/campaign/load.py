@@ -51,7 +51,7 @@ def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
             condition, zero = conditions[run.condition], zero_known(run, content, place)
             direction = int(DIRECTIONS[run.direction] if run.direction is not None else condition.factors["direction"])
             record = record_of(run, condition, as_asked(run, series, zero, direction, place), scales, place)
-            records.append(as_stated(record, run, content, path, place))
+            records.append(as_stated(record, run, content, path, place, zero))
     copied = copies(records)
     return Campaign(
         folder, content.campaign.name, content.campaign.description, scales.reducer, scales.ratio, scales.rated_torque,
@@ -72,9 +72,9 @@ def speed_at(content: CampaignFile) -> str:
     return "output" if stated.count("output_speed") > stated.count("input_speed") else "input"
 
 
-def as_stated(record: Record, run: Run, content: CampaignFile, path: Path, place: str) -> Record:
-    """The record with what the campaign says of its zero and of its angle."""
-    zero, general = zero_known(run, content, place), content.quantities.get(run.quantity)
+def as_stated(record: Record, run: Run, content: CampaignFile, path: Path, place: str, zero: bool) -> Record:
+    """The record with what the campaign says of its ``zero``, whether that is known, and of its angle."""
+    general = content.quantities.get(run.quantity)
     if run.angle_of is not None and "angle" not in record.axes:
         raise InputFault(f"{place}.angle_of = {run.angle_of!r}: {run.quantity} of this run has no angle; leave it out")
     angle_of = run.angle_of or (general.angle_of if general else "input")

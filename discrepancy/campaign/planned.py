@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.campaign.file_format import FILE, read_campaign_file
-from discrepancy.campaign.load import as_stated, record_of
+from discrepancy.campaign.load import as_stated, record_of, zero_known
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.order_analysis import as_numbers
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
@@ -34,7 +34,7 @@ def with_planned(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
         size = len(next(iter(series.values()))) if series else 1
         place = f"{path}: runs[{i + 1}] ({run.id})"
         record = record_of(run, campaign.conditions[run.condition], {VALUE: np.zeros(size), **series}, scales, place)
-        found.append(as_stated(record, run, content, path, place))
+        found.append(as_stated(record, run, content, path, place, zero_known(run, content, place)))
     return replace(campaign, records=(*campaign.records, *found)), tuple(record.name for record in found)
 
 

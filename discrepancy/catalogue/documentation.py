@@ -92,7 +92,9 @@ leading words that the effect's name has too. An effect must vanish at its ampli
 A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without:
 start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
 measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` says
-of each shape which of the two it is.
+of each shape which of the two it is, and of each parameter the unit that answers give it in: a file's unit is SI, because kernels get the number
+as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m), rpm for rad/s, um for m), always with
+the unit beside the number, and JSON has the SI value as `si`, too.
 
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:

@@ -17,19 +17,21 @@ NUMBERS = {
 }  # fmt: skip
 WORDS = ("replicate", "direction", "mounting", "condition", "any")
 SENSES = {
-    "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|正转|正転", "reverse": r"rev|reverse|bwd|backward|ccw|rück|rueck|rückwärts|links|反转|逆転",
+    "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|avant|avanti|adelante|正转|正転",
+    "reverse": r"rev|reverse|bwd|backward|ccw|rück|rueck|rückwärts|links|arri[èe]re|indietro|atr[áa]s|反转|逆転",
 }  # fmt: skip
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
 NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"
 WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-]\S*)$")
 COUNTED = re.compile(
-    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
+    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
     re.IGNORECASE,
 )
 NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
+    "essai", "mesure", "prova", "misura", "ensayo", "prueba",
     "data", "export", "rep", "speed", "depth", "motion", "lost",
 }  # fmt: skip
 # Dates and times, which differ from file to file and say nothing of the condition.

@@ -6,10 +6,10 @@ from discrepancy.campaign.guess import unit_words as u
 from discrepancy.campaign.guess.column_words import meaning_of
 from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
 
-STATED = re.compile(r"^[#%\"\s]*([^:=;\t,\d]{1,60}?)\s*[:=;\t,]\s*[;\t,]*\s*([+-]?\d+(?:[.,]\d+)?)\s*[;\t,]?\s*([^;\t,\"]*)[;\t,\"\s]*$")
+STATED = re.compile(r"^[#%\"\s]*([^:：=;\t,\d]{1,60}?)\s*[:：=;\t,]\s*[;\t,]*\s*([+-]?\d+(?:[.,]\d+)?)\s*[;\t,]?\s*([^;\t,\"]*)[;\t,\"\s]*$")
 # Several on one line: "torque = 100 N.m, speed = 15 rpm; temperature: 40 °C".
-ONE = r"[^:=;\t,|\d]{1,60}?\s*[:=]\s*[+-]?\d"
-EACH = re.compile(rf"([^:=;\t,|\d]{{1,60}}?)\s*[:=]\s*([+-]?\d+(?:[.,]\d+)?)\s*([^;\t,|:=\"]*?)\s*(?:[;\t,|\"]|\s(?={ONE})|$)")
+ONE = r"[^:：=;\t,|\d]{1,60}?\s*[:：=]\s*[+-]?\d"
+EACH = re.compile(rf"([^:：=;\t,|\d]{{1,60}}?)\s*[:：=]\s*([+-]?\d+(?:[.,]\d+)?)\s*([^;\t,|:：=\"]*?)\s*(?:[;\t,|\"]|\s(?={ONE})|$)")
 # Signs of a line that may state a number; what is longer is looked at in vain, and for long.
 LONGEST = 200
 FACTORS = {
@@ -25,7 +25,7 @@ def stated_above(lines: tuple[str, ...]) -> dict[str, tuple[float, str]]:
         if len(line) > LONGEST:
             continue
         one = STATED.match(line)
-        for name, number, unit in [one.groups()] if one and not re.search(r"[:=]", one[3]) else EACH.findall(line):
+        for name, number, unit in [one.groups()] if one and not re.search(r"[:：=]", one[3]) else EACH.findall(line):
             field = FACTORS.get(meaning_of(name_of(name.strip(' #%"'))) or "")
             known = unit_of(unit) or ((inside[0], inside[1]) if (inside := unit_in(name)) else None)
             if field and known and (known[1] == field[1] or (known[0] == "%" and field[0] == "load")):

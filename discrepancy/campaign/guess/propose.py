@@ -19,7 +19,7 @@ from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.measurement_files import measurement_files
-from discrepancy.campaign.quantities import FACTOR_NAMES, QUANTITIES, keys_for, roles_of
+from discrepancy.campaign.quantities import FACTOR_KEYS, FACTOR_NAMES, QUANTITIES, RUNNING, keys_for, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
@@ -89,6 +89,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     for state in states:
         conditions.setdefault(names[state], {})
         conditions[names[state]] |= dict(state.stated)
+    leave_out_idle(conditions, [(names[state], run) for state, run in zip(states, guessed)], wishes)
     given_for_one(conditions, wishes)
     runs = placed(guessed, [names[state] for state in states])
     measured = defaultdict(list)
@@ -107,6 +108,18 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+
+
+def leave_out_idle(conditions: dict[str, dict[str, str]], runs: Sequence[tuple[str, GuessedRun]], wishes: Wishes) -> None:
+    """A speed or load that is given for all is no number of a condition in which no file's quantity has one: a loop has no speed.
+
+    ``runs``: condition and run.
+    """
+    for key in (key for key in wishes.conditions if key in FACTOR_KEYS and FACTOR_KEYS[key].name in RUNNING):
+        for name, stated in conditions.items():
+            here = [run for condition, run in runs if condition == name]
+            if not any(key in run.factors or FACTOR_KEYS[key].name in QUANTITIES[run.quantity.value].factors for run in here):
+                stated.pop(key, None)
 
 
 def require_names(paths: Sequence[Path], wishes: Wishes) -> None:

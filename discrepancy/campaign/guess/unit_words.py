@@ -7,33 +7,57 @@ ACCELERATION, STIFFNESS = "acceleration", "stiffness"
 # Steps of an encoder: an angle, once it is known how many make a turn.
 COUNTS = "counts"
 
-# Kind -> unit of a campaign -> ways of writing it; blanks do not count, and these signs are one: . * · -
+# Kind -> unit of a campaign -> ways of writing it in English, German, French, Italian, Spanish, Chinese, Japanese; a blank within stands as a dot,
+# and these signs are one: . * · - ・
 WRITTEN = {
     ANGLE: {
-        "deg": "° º deg degs degree degrees Grad 度", "arcmin": "arcmin arcmins ' ′ amin minofarc Winkelmin Winkelminuten Bogenmin Bogenminuten 角分 分",
-        "arcsec": "arcsec arcsecs \" '' ″ asec as secofarc Winkelsek Winkelsekunden Bogensek Bogensekunden 角秒 秒角",
-        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad", "mrad": "mrad", "rad": "rad radian radians 弧度",
-        "turn": "turn turns rev revs U Umdr Umdrehungen 圈 転", COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB 脉冲 パルス",
+        "deg": "° º deg degs degree degrees Grad degré degrés grado gradi grados 度",
+        "arcmin": "arcmin arcmins arc.min arcminute arcminutes arc.minute arc.minutes ' ′ amin minofarc min.of.arc Winkelmin Winkelminuten Bogenmin"
+        " Bogenminuten min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco 角分 弧分 分角 分",
+        "arcsec": "arcsec arcsecs arc.sec arcsecond arcseconds arc.second arc.seconds \" '' ″ asec as secofarc sec.of.arc Winkelsek Winkelsekunden Bogensek"
+        " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco 角秒 弧秒 秒角",
+        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度", "rad": "rad radian radians radianti radianes 弧度 ラジアン",
+        "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours vueltas 圈 转 転",
+        COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos 脉冲 パルス",
     },
     TORQUE: {
-        "N.m": "N.m Nm 牛米 牛.米 Newtonmeter", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm", "N.mm": "N.mm Nmm", "N.cm": "N.cm Ncm",
-        "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
-        "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm", "ozf.inch": "ozf.in oz.in in.oz",
+        "N.m": "N.m Nm m.N 牛米 牛.米 牛顿米 牛顿.米 Newtonmeter newton.mètre newton.metro ニュートンメートル", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm 千牛.米",
+        "daN.m": "daN.m daNm m.daN", "N.mm": "N.mm Nmm 牛.毫米", "N.cm": "N.cm Ncm 牛.厘米", "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
+        "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm m.kg 公斤.米 千克力.米", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm 公斤.厘米", "ozf.inch": "ozf.in oz.in in.oz",
         "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
     },
-    SPEED: {"rpm": "rpm r/min rev/min 1/min U/min Upm min^.1 min.1 /min 转/分 转每分", "turn/s": "rev/s rps U/s r/s", "rad/s": "rad/s", "deg/s": "deg/s °/s"},
-    LENGTH: {"um": "um µm micron microns Mikrometer 微米", "mm": "mm Millimeter 毫米", "nm": "nm", "m": "m"},
-    TIME: {"s": "s sec secs Sek seconds 秒", "ms": "ms", "us": "us µs", "ns": "ns", "min": "min minutes", "h": "h hr hrs hours hour Std Stunden 小时 時間 时"},
-    TEMPERATURE: {"degC": "°C ℃ degC C Celsius 摄氏度", "K": "K Kelvin", "degF": "°F degF"},
-    SHARE: {"%": "% percent Prozent", "ppm": "ppm", "1": "1 - –"}, MASS: {"mg": "mg", "g": "g", "ug": "ug µg", "kg": "kg"},
-    ACCELERATION: {"m/s^2": "m/s^2 m/s2 m/ss", "mm/s^2": "mm/s^2 mm/s2", "g_0": "gn"},
-    STIFFNESS: {"N.m/arcmin": "N.m/arcmin Nm/arcmin Nm/' N.m/'", "N.m/rad": "N.m/rad Nm/rad", "N.m/deg": "N.m/deg Nm/deg Nm/°"},
+    SPEED: {
+        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min tr/mn tr.min^.1"
+        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
+        "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
+        "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s 度/秒",
+    },
+    LENGTH: {
+        "um": "um µm micron microns Mikrometer micromètre micromètres micrometri micras micrómetros 微米 ミクロン",
+        "mm": "mm Millimeter millimètre millimètres millimetri milímetros 毫米 ミリ", "nm": "nm 纳米", "m": "m",
+    },
+    TIME: {
+        "s": "s sec secs Sek seconds seconde secondes secondi segundos seg 秒", "ms": "ms 毫秒 ミリ秒", "us": "us µs 微秒", "ns": "ns",
+        "min": "min minutes Minuten minuti minutos 分钟 分鐘 分間",
+        "h": "h hr hrs hours hour Std Std. Stunden heure heures ore horas 小时 小時 時間 时",
+    },
+    TEMPERATURE: {"degC": "°C ℃ degC C Celsius 摄氏度 攝氏度 摂氏", "K": "K Kelvin", "degF": "°F ℉ degF"},
+    SHARE: {"%": "% ％ percent Prozent pour.cent pourcent pourcents per.cento por.ciento パーセント", "ppm": "ppm", "1": "1 - –"},
+    MASS: {"mg": "mg 毫克", "g": "g Gramm grammes grammi gramos 克 グラム", "ug": "ug µg", "kg": "kg 公斤 千克"},
+    ACCELERATION: {"m/s^2": "m/s^2 m/s2 m/ss 米/秒^2", "mm/s^2": "mm/s^2 mm/s2", "g_0": "gn"},
+    STIFFNESS: {
+        "N.m/arcmin": "N.m/arcmin Nm/arcmin N.m/arc.min Nm/arc.min Nm/' N.m/' Nm/角分 N.m/角分 牛米/角分 N.m/分", "N.m/rad": "N.m/rad Nm/rad",
+        "N.m/deg": "N.m/deg Nm/deg Nm/° N.m/°",
+    },
 }  # fmt: skip
+# Letters, figures and signs of East Asian width as those of ASCII.
+NARROW = {wide: wide - 0xFEE0 for wide in range(0xFF01, 0xFF5F)}
 
 
 def plain(text: str) -> str:
     """Without blanks, with one sign for each that is written in several ways."""
-    for signs, sign in (("μ", "µ"), ("*·⋅•-−⁻ ", "."), ("²", "^2"), ("¹", "1"), ("’‘`´", "'"), ("“”", '"')):
+    text = re.sub(r"\s*/\s*", "/", text.translate(NARROW))
+    for signs, sign in (("μ", "µ"), ("*·⋅•・･-−⁻ ", "."), ("²", "^2"), ("¹", "1"), ("’‘`´", "'"), ("“”", '"')):
         text = re.sub(f"[{re.escape(signs)}]", sign, text) if sign != "." else re.sub(rf"\s*[{re.escape(signs.strip())}]\s*|(?<=\S)\s+(?=\S)", ".", text)
     return text.strip(" .") or text.strip()
 
@@ -49,8 +73,11 @@ for _kind, _units in WRITTEN.items():
 LEAST_LOWER = 2
 
 IN_BRACKETS = re.compile(r"\s*[\[(（【{<]([^\[\](){}（）【】<>]*)[\])）】}>]\s*")
-AFTER_WORD = re.compile(r"^(.*\S)\s*(?:/|\bin\b|,|:)\s*(\S+)$")
+# The whole last word where it has parts: "Drehzahl U/min" is in no minutes, "T_N.m" in no metres.
+LAST_WORD = re.compile(r"^(.+?)(?:[\s_:：,]|/(?=\s))+(?:in\s+)?([^\s_:：,]*[^\s_:：,/][/.][^\s_:：,]+)$")
+AFTER_WORD = re.compile(r"^(.*\S)\s*(?:/|\bin\b|,|:|：)\s*(\S+)$")
 AFTER_LINE = re.compile(r"^(.+)[_ .-]([^_ ]+)$")
+ENDINGS = (LAST_WORD, AFTER_WORD, AFTER_LINE)
 
 
 def unit_of(text: str) -> tuple[str, str] | None:
@@ -66,7 +93,7 @@ def unit_in(header: str) -> tuple[str, str, str] | None:
             return *known, f"[{found}] in its header"
     # Half of what stands in brackets is no unit: "N furlong" is none, and no furlong.
     outside = IN_BRACKETS.sub(" ", header).strip()
-    for pattern in (AFTER_WORD, AFTER_LINE):
+    for pattern in ENDINGS:
         if (match := pattern.match(outside)) and (known := unit_of(match[2])) and known[0] != "1":
             return *known, f"its header ends with {match[2]}"
     return None
@@ -80,7 +107,7 @@ def unknown_in(header: str) -> str:
 def name_of(header: str) -> str:
     """A header cell without its unit."""
     name = IN_BRACKETS.sub(" ", header).strip()
-    for pattern in (AFTER_WORD, AFTER_LINE):
+    for pattern in ENDINGS:
         if (match := pattern.match(name)) and (known := unit_of(match[2])) and known[0] != "1":
-            return match[1].strip()
+            return match[1].strip(" :：")
     return name

@@ -11,7 +11,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
 from discrepancy.inference.law.waves import WAYS, wave_of
-from discrepancy.inference.noise.series import order_axis, stream_of
+from discrepancy.inference.noise.series import order_axis, spacing_of, stream_of
 from fmu_src.arrays import Floats
 
 BINS = 24
@@ -124,7 +124,7 @@ def _table(space: Workspace, fit: Fit, indices: Sequence[int]) -> list[_Bin]:
             w = weight[cut] + 1e-9
             scale = float(np.mean(scales[cut]))
             # correlated samples average worse than independent ones
-            spacing = np.median(np.abs(np.diff(main))) if main is not None and main.size > 1 else 1.0
+            spacing = spacing_of(main) if main is not None else 1.0
             together = 1 + 2 * (1 - stream.nugget) * stream.length / max(spacing, 1e-300) if stream.length else 1.0
             variance = scale**2 * (min(together, cut.size) / cut.size)
             places = {f"factor:{k}": float(v) for k, v in record.factors.items()}

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from discrepancy.inference.noise.replicates import Deviation
+from discrepancy.inference.noise.series import spacing_of
 from discrepancy.inference.noise.whiten import correlations, gains, innovations
 from fmu_src.arrays import Floats
 
@@ -34,7 +35,7 @@ def correlation_of(deviations: Sequence[Deviation], values: Sequence[Floats]) ->
             single.append(k)
         seen.add(d.condition)
     chosen = sorted(single, key=lambda k: -values[k].size)[:12]
-    spacing = np.median(np.concatenate([np.abs(np.diff(deviations[i].position)) for i in chosen]))
+    spacing = spacing_of(*(deviations[i].position for i in chosen))
     longest = np.median([np.ptp(deviations[i].position) for i in chosen])
     total = sum(values[i].size for i in chosen)
 

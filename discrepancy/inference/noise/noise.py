@@ -15,7 +15,7 @@ from discrepancy.inference.noise.correlation import autoregression_of, correlati
 from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
 from discrepancy.inference.noise.run_patterns import pattern_columns, pattern_variances
-from discrepancy.inference.noise.series import fast_part, path_of, position_of, stream_of
+from discrepancy.inference.noise.series import fast_part, path_of, position_of, spacing_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import SLOW, Whitener, autoregress, correlations, gains, innovations, slow_waves, whitener, with_slow
 from discrepancy.problem import ORDERS, Record
@@ -220,12 +220,8 @@ def known_of_slow(deviations: Sequence[Deviation], length: float) -> dict[str, f
     The level at no frequency of a first-order autoregression, 1/(1 - c)^2, errs in its logarithm by a variance of 4 (1 + c)/((1 - c) n), for
     that of c is (1 - c^2)/n; a variance of so many degrees of freedom errs by two over them.
     """
-    dof = sum(d.share * d.values.size * np.tanh(0.5 * _spacing(d.position) / max(length, 1e-300)) for d in deviations) / 2.0
+    dof = sum(d.share * d.values.size * np.tanh(0.5 * spacing_of(d.position) / max(length, 1e-300)) for d in deviations) / 2.0
     return {SLOW: max(float(dof), 1.0)} if dof < FEW else {}
-
-
-def _spacing(position: Floats) -> float:
-    return float(np.median(np.abs(np.diff(position))))
 
 
 def _tail_variance(e: Floats) -> float:
@@ -309,4 +305,4 @@ def _whitener(
                      tuple((key, n) for n in names), key)
     if SLOW not in stream.dof or rows < SHORT:
         return found
-    return with_slow(found, slow_waves(position, max(stream.length, _spacing(position))))
+    return with_slow(found, slow_waves(position, max(stream.length, spacing_of(position))))

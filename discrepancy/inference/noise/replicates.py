@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.inference.noise.series import position_of, stream_of
+from discrepancy.inference.noise.series import position_of, spacing_of, stream_of
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats, Mask
 
@@ -42,7 +42,7 @@ def deviations_of(records: Sequence[Record], residuals: Sequence[Floats], masks:
     result = []
     for group in _groups(records, indices):
         positions = [position_of(records[i]) for i in group]
-        spacing = np.median(np.abs(np.diff(positions[0]))) if positions[0].size > 1 else 1.0
+        spacing = spacing_of(positions[0])
         # sample by sample even if the samples wander a little: pairing with neighbours twice would feign slow noise
         matched = all(p.size == positions[0].size and np.allclose(p, positions[0], rtol=0, atol=1.5 * spacing + 1e-12) for p in positions)
         condition = records[group[0]].condition

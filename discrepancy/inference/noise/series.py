@@ -31,6 +31,12 @@ def path_of(record: Record) -> Floats:
     return next((np.asarray(axis, float) for axis in record.axes.values() if np.size(axis) > 1), np.arange(np.size(record.values), dtype=float))
 
 
+def spacing_of(*positions: Floats) -> float:
+    """Usual distance of neighbouring samples along one or several runs; 1 where no run has two."""
+    steps = np.concatenate([np.abs(np.diff(position)) for position in positions])
+    return float(np.median(steps)) if steps.size else 1.0
+
+
 def fast_part(path: Floats, values: Floats) -> tuple[npt.NDArray[np.intp], Floats]:
     """(rows, deviations): what a sample is off the straight line between its neighbours, scaled to the variance of one; only where the ``path``
     goes on one way, unless that is nowhere."""
