@@ -2,8 +2,8 @@
 
 import { choose, h, table, words } from "./dom.js";
 
-// ``put(place, value)`` sends a correction; what is refused is shown as it was.
-export function cells(found, put) {
+// ``put(place, value)`` sends a correction; what is refused is shown as it was.  ``quantities`` have the roles that a column may take.
+export function cells(found, quantities, put) {
   const field = (place, value, label, size = 12) =>
     h("input", {
       type: "text",
@@ -16,6 +16,15 @@ export function cells(found, put) {
     });
   const tick = (place, value, label) =>
     h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
+  const part = (r, i, role) =>
+    quantities[r.quantity]
+      ? choose(
+          Object.entries(quantities[r.quantity].roles).map(([name, known]) => [name, known.title]),
+          role,
+          (other) => put(["runs", i, "columns", role], other),
+          { "aria-label": `role of ${r.columns[role].column} in ${r.id}` },
+        )
+      : h("span", { class: "quiet" }, words(role));
   const names = Object.keys(found.conditions);
   const condition = (name) => [
     h("b", {}, name),
@@ -33,7 +42,7 @@ export function cells(found, put) {
         h(
           "div",
           { class: "row small" },
-          h("span", { class: "quiet" }, words(role)),
+          part(r, i, role),
           field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
           field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
         ),
