@@ -68,7 +68,7 @@ export function addPart(bag) {
   const { answer, extension, context, old } = bag;
   let anyway = false;
   // What a former model lacks may be in this one already.
-  const busy = context.busy() || (old && `${old} Diagnose it first.`);
+  const busy = context.busy() || (old && `${old} Diagnose that first.`);
   const named = answer.effects.flatMap((e) => e.candidates),
     numbersOff = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
   const one = answer.confusable.length ? answer.effects.map((e) => e.candidates[0]) : null;
@@ -141,6 +141,8 @@ export function ladder(bag) {
   if (!extension) return null;
   const busy = context.busy(),
     steps = extension.steps,
+    // What stands above already, beside the step that was taken last.
+    told = new Set(extension.page.sections.map((s) => JSON.stringify(s))),
     chosen = (kind) => async () => {
       await context.choose("model.toml");
       if (kind === "compare") context.go("look");
@@ -198,7 +200,7 @@ export function ladder(bag) {
             command(built.command),
           ]
         : null,
-      sections(extension.ladder.sections),
+      sections(extension.ladder.sections.filter((s) => !told.has(JSON.stringify(s)))),
     ),
   );
 }

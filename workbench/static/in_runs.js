@@ -106,7 +106,7 @@ function group(bag, members) {
   const pattern = h("input", {
     type: "text",
     value: first.names,
-    size: Math.min(44, Math.max(18, first.names.length + 2)),
+    size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
     title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
     onchange: () =>

@@ -6,8 +6,8 @@ import { h } from "./dom.js";
 export function past(result, job, context) {
   if (!result) return "";
   const chosen = context.model();
-  if (chosen && result.model !== chosen) return `This is of the model ${result.model}; chosen is ${chosen}.`;
-  return job?.old && job.state !== "running" ? `This is of ${result.model} and the files as they were; they have changed since.` : "";
+  if (chosen && result.model !== chosen) return `What stands below is of ${result.model}; the model that is chosen now is ${chosen}.`;
+  return job?.old && job.state !== "running" ? `What stands below is of ${result.model} and the files as they were; they have changed since.` : "";
 }
 
 // The words stand over what they are about.

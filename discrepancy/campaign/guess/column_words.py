@@ -65,9 +65,10 @@ def meaning_of(name: str) -> str | None:
 
 
 def quantities_named(text: str) -> list[str]:
-    """Quantities that a file's name speaks of, the longest word first."""
-    found = {quantity: max(len(m) for m in matches) for quantity, words in IN_NAMES.items() if (matches := words.findall(text))}
-    return sorted(found, key=lambda quantity: -found[quantity])
+    """Quantities that a file's name speaks of, the longest word first; a word within a longer one (no-load torque) speaks of nothing else."""
+    words = sorted(((-len(m[0]), m.span(), quantity) for quantity, fits in IN_NAMES.items() for m in fits.finditer(text)), key=lambda word: word[0])
+    apart = [q for k, (_, (first, end), q) in enumerate(words) if not any(f <= first and end <= e and (f, e) != (first, end) for _, (f, e), _ in words[:k])]
+    return list(dict.fromkeys(apart))
 
 
 def surface_named(text: str) -> str | None:

@@ -15,7 +15,7 @@ IS_HELD = {
 }  # fmt: skip
 UNLOADED = re.compile(
     r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
-    r"|sans charge|à vide|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
+    r"|sans charge|[àa] vide|no load|unloaded|without (?:a |any |external )?load)\b|空载|无负载|無負荷"
 )
 
 
