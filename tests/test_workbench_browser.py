@@ -303,7 +303,8 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     page.locator("#added", has_text="helped").wait_for(timeout=120_000)
     before, after = map(float, re.findall(r"from ([\d.]+) to ([\d.]+)", page.locator("#added").inner_text())[0])
     page.locator("#better:enabled").click()
-    page.locator("h1", has_text="model.toml against").wait_for(timeout=120_000)
+    page.locator("#tab-look[aria-selected=true]").wait_for()
+    page.locator("main:not(:has(.past)) #figures").wait_for(timeout=120_000)
     bench.view("diagnose")
     page.locator(".past #verdict").wait_for()
     assert page.locator(".past-note").inner_text() == "What stands below is of RV20E-121-rigid; the model that is chosen now is model.toml."
