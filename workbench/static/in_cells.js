@@ -22,7 +22,7 @@ export function cells(found, quantities, put) {
           Object.entries(quantities[r.quantity].roles).map(([name, known]) => [name, known.title]),
           role,
           (other) => put(["runs", i, "columns", role], other),
-          { "aria-label": `role of ${r.columns[role].column} in ${r.id}` },
+          { "aria-label": `role of ${r.columns[role].column} in ${r.id}`, style: { width: "14em" } },
         )
       : h("span", { class: "quiet" }, words(role));
   const names = Object.keys(found.conditions);
@@ -31,8 +31,7 @@ export function cells(found, quantities, put) {
     ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
   ];
   const run = (r, i) => [
-    h("b", {}, r.id),
-    r.file,
+    h("div", {}, h("b", {}, r.id), h("div", { class: "quiet small" }, r.file)),
     words(r.quantity),
     names.includes(r.condition) ? choose(names, r.condition, (value) => put(["runs", i, "condition"], value), { "aria-label": `condition of ${r.id}` }) : String(r.condition),
     h(
@@ -41,7 +40,7 @@ export function cells(found, quantities, put) {
       Object.entries(r.columns).map(([role, c]) =>
         h(
           "div",
-          { class: "row small" },
+          { class: "row small", style: { gap: "4px 6px" } },
           part(r, i, role),
           field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
           field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
@@ -55,7 +54,7 @@ export function cells(found, quantities, put) {
       "details",
       { class: "panel", id: "cells-runs" },
       h("summary", {}, h("b", {}, "Correct the columns of single files")),
-      table(["run", "file", "quantity", "condition", "columns and units"], found.runs.map(run), [], { class: "rows" }),
+      table(["run and file", "quantity", "condition", "roles, columns and units"], found.runs.map(run), [], { class: "rows" }),
     ),
   ];
 }
