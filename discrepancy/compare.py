@@ -172,7 +172,7 @@ def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
     named = another_reducer(model)
     made_of = model.file.reducer.name
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
-    angles = [f"{found.text}: {found.remedy}" for found in angle_doubts(model.campaign)]
+    angles = [found.sentence for found in angle_doubts(model.campaign)]
     return [*other, *angles, *too_soft(figures), *incomplete(model.campaign)]
 
 

@@ -39,6 +39,20 @@ def test_loads_in_names(name, load, pattern):
     assert by_pattern(Path(f"{name}.csv"), pattern).numbers == said.numbers
 
 
+@pytest.mark.parametrize("name, numbers, pattern, replicate", [
+    ("te-50Nm-40C-1", {"load": 50.0, "temperature": 40.0}, "te-{load}Nm-{temperature}C-{replicate}", 1),
+    ("te-50Nm-60C-2", {"load": 50.0, "temperature": 60.0}, "te-{load}Nm-{temperature}C-{replicate}", 2),
+    ("te-40C", {"temperature": 40.0}, "te-{temperature}C", None),
+    # A minus stays one: behind another hyphen, behind the letter that names the number, and where underlines part the name.
+    ("te--10C", {"temperature": -10.0}, "te-{temperature}C", None), ("te-T-10C", {"temperature": -10.0}, "te-T{temperature}C", None),
+    ("temp-10C", {"temperature": -10.0}, "temp{temperature}C", None), ("te_-10C", {"temperature": -10.0}, "te_{temperature}C", None),
+    ("2024-05-03", {}, "{any}", None),
+])  # fmt: skip
+def test_hyphens_part_names_that_nothing_else_parts(name, numbers, pattern, replicate):
+    found = proposed(Path(f"{name}.csv"))
+    assert ({key: number for key, (number, _) in found.numbers.items()}, found.pattern, found.replicate) == (numbers, pattern, replicate)
+
+
 @pytest.mark.parametrize("name", ["Probe2h_1", "Probe_2_C_1", "V2K", "te_run_2"])
 def test_letters_and_single_signs_are_no_units(name):
     assert not proposed(Path(f"{name}.csv")).numbers

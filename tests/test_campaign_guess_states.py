@@ -6,7 +6,7 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, FRICTION, SPEEDS, TORQUE, TWIST
 
 from cli.main import main
-from discrepancy.campaign.guess.column_words import meaning_of
+from discrepancy.campaign.guess.column_words import meaning_of, quantities_named
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.unit_words import unit_in
@@ -82,6 +82,24 @@ def test_sides_in_french(text, side):
     assert locked_side(text) == side
     assert unloaded("Essai à vide") and unloaded("couple sans charge") and not unloaded("sous charge")
     assert meaning_of("Angle moteur") == "input_angle" and meaning_of("Vitesse de sortie") == "output_speed" and meaning_of("Angle centrée") == "angle"
+
+
+@pytest.mark.parametrize(("head", "meaning"), [
+    ("Couple sortie", "torque"), ("Couple moteur", "input_torque"), ("Coupled", None), ("Erreur de transmission", "error"), ("Temps", "time"),
+    ("Température huile", "temperature"), ("Codeur entrée", "input_angle"), ("Rendement", "efficiency"), ("Rigidité", "stiffness"), ("jeu", "twist"),
+    ("Rotorlage", "input_angle"),
+])  # fmt: skip
+def test_heads_in_french(head, meaning):
+    assert meaning_of(head) == meaning
+
+
+def test_names_of_files_in_french(tmp_path):
+    """A word within a longer one speaks of nothing else: a torque without load is no torque under load, which would ask for one."""
+    assert quantities_named("couple_a_vide_40C") == ["no_load_torque"] and quantities_named("boucle_1") == ["hysteresis"]
+    pd.DataFrame({"Vitesse moteur [tr/min]": SPEEDS, "Couple moteur [Nm]": FRICTION}).to_csv(tmp_path / "couple_a_vide_40C.csv", index=False, sep=";")
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert proposal.runs[0].guessed.quantity.value == "no_load_torque" and not proposal.doubts and not proposal.needs
+    assert proposal.runs[0].guessed.columns["input_speed"].unit.value == "rpm"
 
 
 def test_sides_of_speeds():

@@ -115,6 +115,48 @@ def test_corrections_of_conditions_that_are_gone_are_said_and_left_out(tmp_path)
     assert found["proposal"]["conditions"].keys() == {"20degC"} and "30degC" in found["gone"][0]
 
 
+def angle_file(folder, name, head="Winkel [deg]"):
+    """Two turns of the output in eight seconds, as the motor's encoder counts them."""
+    rows = "\n".join(f"{0.02 * k:.2f};{217.8 * k:.1f};{k % 7}" for k in range(401))
+    folder.new_file(name, f"Zeit [s];{head};Drehfehler [arcsec]\n{rows}\n".replace(".", ",").encode())
+
+
+def test_an_angle_of_the_motor_is_doubted_in_its_row_and_mended(tmp_path, capsys):
+    """As proposed, unsaved; then as saved, which stays saved; the page's command writes the same."""
+    from workbench.intake import wish
+    from workbench.mending import mend
+
+    folder = opened(tmp_path / "b")
+    angle_file(folder, "Drehfehler_50Nm_15rpm_40C_1.csv")
+    angle_file(folder, "Drehfehler_50Nm_15rpm_60C_1.csv")
+    assert view(folder)["doubts"] == []
+    wish(folder, {"reducer": "RV20E-121"})
+    (doubt,) = view(folder)["doubts"]
+    assert "121 times the stated 15 rpm" in doubt["text"] and (doubt["column"], doubt["role"], doubt["title"]) == ("Winkel [deg]", "input_angle", "angle of the input (motor)")
+    assert "--" not in doubt["remedy"] and doubt["title"] in doubt["remedy"]
+    save(folder)
+    mend(folder, {"column": "Winkel [deg]", "role": "input_angle"})
+    found = view(folder)
+    assert found["doubts"] == [] and found["same"] and "columns.input_angle" in found["text"]
+    assert {run["names"] for run in found["proposal"]["runs"]} == {"Drehfehler_{load}Nm_{speed}rpm_{temperature}C_{replicate}"}
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+    # What was not saved is not saved by it.
+    wish(folder, {**found["wishes"], "conditions": {"40degC:hours": "5 h"}})
+    mend(folder, {"column": "Winkel [deg]", "role": "angle"})
+    assert not view(folder)["same"] and view(folder)["wishes"]["columns"] == {"angle": "Winkel [deg]"}
+
+
+def test_a_head_that_says_motor_needs_no_mending(tmp_path):
+    from workbench.intake import wish
+
+    for k, head in enumerate(("Winkel Motor [deg]", "Antriebswinkel [deg]", "Position moteur [deg]", "Codeur entrée [deg]", "input angle [deg]")):
+        folder = opened(tmp_path / str(k))
+        angle_file(folder, "te_50Nm_15rpm_40C_1.csv", head)
+        wish(folder, {"reducer": "RV20E-121"})
+        assert view(folder)["proposal"]["runs"][0]["columns"].keys() == {"value", "input_angle", "time"} and view(folder)["doubts"] == [], head
+
+
 def test_a_correction_that_nothing_can_be_made_of_changes_nothing(tmp_path):
     from workbench.intake import wish
 

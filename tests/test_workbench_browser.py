@@ -109,6 +109,47 @@ def test_files_are_dropped_guessed_and_corrected(bench, tmp_path):
     assert drawn["calls"] < 25_000
 
 
+def test_an_angle_of_the_motor_is_mended_by_a_click_and_by_its_role(bench, tmp_path):
+    """Doubted at its row; the role can be chosen there by hand, too; what one condition needs is not said of the others."""
+    page, rows = bench.page, range(401)
+    head = "Zeit [s];Winkel [deg];Drehfehler [arcsec]\n"
+    (tmp_path / "Drehfehler_50Nm_15rpm_40C_1.csv").write_text(head + "\n".join(f"{0.02 * k:.2f};{217.8 * k:.1f};{k % 7}" for k in rows))
+    (tmp_path / "Reibmoment_60C_1.csv").write_text("Motordrehzahl [1/min];Reibmoment [Nm]\n" + "\n".join(f"{300 * k};{0.2 + 0.1 * k:.1f}" for k in range(1, 7)))
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    doubt, role = page.locator(".doubt", has_text="121 times the stated 15 rpm"), page.get_by_label("role of Winkel [deg]")
+    doubt.get_by_role("button", name="Take Winkel [deg] for the angle of the input (motor)").click()
+    doubt.wait_for(state="detached")
+    assert role.input_value() == "input_angle"
+    role.select_option("angle")
+    doubt.wait_for()
+    assert "--" not in doubt.inner_text()
+    role.select_option(label="angle of the input (motor)")
+    doubt.wait_for(state="detached")
+    page.fill("#need-load_torque", "0")
+    page.keyboard.press("Tab")
+    page.locator("#save:enabled").wait_for()
+    assert [page.get_by_label("load torque", exact=True).nth(k).input_value() for k in (0, 1)] == ["50", "0"]
+    assert page.get_by_text("which is kept, not").count() == 0
+
+
+def test_a_result_of_another_model_says_so(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    said = page.evaluate(PAST)
+    assert said[0] == "" and "is of RV20E-121; the model that is chosen now is model.toml" in said[1] and "have changed since" in said[2] and said[3] == ""
+
+
+# Of the chosen model, of another, of files that changed since, and while it is asked anew.
+PAST = """async () => {
+    const { past } = await import('./static/past.js'), chosen = (name) => ({ model: () => name }), result = { model: 'RV20E-121' };
+    return [past(result, { old: false, state: 'done' }, chosen('RV20E-121')), past(result, { old: false, state: 'done' }, chosen('model.toml')),
+      past(result, { old: true, state: 'done' }, chosen('RV20E-121')), past(result, { old: true, state: 'running' }, chosen('RV20E-121'))];
+  }"""
+
+
 def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     (tmp_path / "loop_1.csv").write_text("nothing\n")
@@ -261,6 +302,12 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     page.locator("#extend:enabled").click()
     page.locator("#added", has_text="helped").wait_for(timeout=120_000)
     before, after = map(float, re.findall(r"from ([\d.]+) to ([\d.]+)", page.locator("#added").inner_text())[0])
+    page.locator("#better:enabled").click()
+    page.locator("#tab-look[aria-selected=true]").wait_for()
+    page.locator("main:not(:has(.past)) #figures").wait_for(timeout=120_000)
+    bench.view("diagnose")
+    page.locator(".past #verdict").wait_for()
+    assert page.locator(".past-note").inner_text() == "What stands below is of RV20E-121-rigid; the model that is chosen now is model.toml."
     page.locator("#build:enabled").click()
     page.get_by_text("fmus/fmi3/RvPlant.fmu").wait_for(timeout=240_000)
     assert before > 2.0 and after < 0.5 * before

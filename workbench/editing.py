@@ -30,7 +30,7 @@ def cells(folder: Folder) -> dict[str, Any]:
         {"id": str(run.get("id", number + 1)), "file": str(run.get("file", "")), "quantity": str(run.get("quantity", "")), "condition": run.get("condition"),
          "columns": {str(role): {key: entry[key] for key in COLUMN if key in entry}
                      for role, entry in table(run.get("columns")).items() if isinstance(entry, Mapping)}}
-        for number, run in enumerate(document.get("runs") or []) if isinstance(run, Mapping)
+        for number, run in enumerate(runs_of(document))
     ]  # fmt: skip
     keys = [key for key in CONDITION if key == "held_out" or any(key in c for c in conditions.values())]
     return {"of": told(content), "keys": keys, "conditions": conditions, "runs": runs}
@@ -39,18 +39,55 @@ def cells(folder: Folder) -> dict[str, Any]:
 def edit(folder: Folder, given: Mapping[str, Any]) -> None:
     """Put one ``value`` at a ``place``; InputFault, and nothing is changed, where the campaign could not be read any more.
 
-    ``place``: ["conditions", name, key], ["runs", number, "condition"] or ["runs", number, "columns", role, key].  An empty value takes the key away.
+    ``place``: ["conditions", name, key], ["runs", number, "condition"], ["runs", number, "columns", role, key], or ["runs", number, "columns", role]
+    for the role itself.  An empty value takes the key away.
     """
     content = folder.campaign.read_bytes()
     if given.get("of") != told(content):
         raise InputFault("campaign.toml was changed since this page read it; it is shown anew, correct it again")
     document = parsed(content)
-    holder, key = found(document, given.get("place"))
-    value = fitting(holder.get(key), key, given.get("value"))
-    if value is None:
-        holder.pop(key, None)
-    else:
-        holder[key] = value
+    match given.get("place"):
+        case ["runs", int(number), "columns", str(role)] if 0 <= number < len(runs := runs_of(document)) and role in table(runs[number].get("columns")):
+            turn(runs[number], role, str(given.get("value") or ""))
+        case place:
+            holder, key = found(document, place)
+            value = fitting(holder.get(key), key, given.get("value"))
+            if value is None:
+                holder.pop(key, None)
+            else:
+                holder[key] = value
+    rewrite(folder, document)
+
+
+def recast(folder: Folder, column: str, role: str) -> None:
+    """``column`` takes ``role`` in every run and layout that reads it; InputFault as ``edit``."""
+    document = parsed(folder.campaign.read_bytes())
+    readers = [*runs_of(document), *table(document.get("layouts")).values()]
+    reading = [(run, known) for run in readers for known, entry in table(table(run).get("columns")).items() if str(table(entry).get("column")) == column]
+    if not reading:
+        raise InputFault(f"no run of campaign.toml reads a column {column!r} by that name; correct the columns of single files below")
+    for run, known in reading:
+        turn(run, known, role)
+    rewrite(folder, document)
+
+
+def turn(run: Any, role: str, other: str) -> None:
+    """The column of one role takes another; one that has it already takes the first."""
+    columns = run["columns"]
+    entries = {known: columns[known] for known in (role, other) if known in columns}
+    for known in entries:
+        columns.pop(known)
+    for known, entry in entries.items():
+        columns[other if known == role else role] = entry
+    # What the campaign says of angles in general was said of the output's.
+    if other == "input_angle" and "angle" not in columns:
+        run["angle_of"] = "input"
+    elif "angle" in columns and run.get("angle_of") == "input":
+        run.pop("angle_of")
+
+
+def rewrite(folder: Folder, document: Any) -> None:
+    """InputFault, and the file stays as it was, where the campaign could not be read any more."""
     with replacing(folder.campaign) as partial:
         partial.write_bytes(tomlkit.dumps(document).encode("utf-8"))
         try:
@@ -95,6 +132,10 @@ def parsed(content: bytes) -> Any:
         return tomlkit.parse(content.decode("utf-8"))
     except (UnicodeDecodeError, TOMLKitError) as fault:
         raise InputFault(f"campaign.toml cannot be read: {fault}") from None
+
+
+def runs_of(document: Any) -> list[Any]:
+    return [run for run in document.get("runs") or [] if isinstance(run, Mapping)]
 
 
 def table(given: Any) -> Mapping[Any, Any]:

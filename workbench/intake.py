@@ -18,10 +18,12 @@ from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 from discrepancy.campaign.load import load_campaign
+from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available
+from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
 
@@ -41,7 +43,8 @@ def choices() -> dict[str, Any]:
     return {
         "quantities": {
             q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags],
-                     "roles": {role: {"description": key.description, "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
+                     "roles": {role: {"title": TITLES.get(role, role.replace("_", " ")), "description": key.description,
+                                      "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
             for q in QUANTITIES.values()
         },
         "factors": {key.key: {"example": key.example, "description": key.description} for key in FACTORS},
@@ -171,7 +174,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found: dict[str, Any] = {
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
-        "unread": {},
+        "unread": {}, "doubts": [],
     }  # fmt: skip
     if found["saved"]:
         found |= checked_campaign(folder) | cells_of(folder)
@@ -190,6 +193,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
+    found["doubts"] = doubts_of(proposal)
     used = {run.guessed.name.pattern for run in proposal.runs}
     found["command"] = command(folder, made, replace(made.wishes, names=tuple(n for n in made.wishes.names if n in used)))
     return found
@@ -212,8 +216,18 @@ def checked_campaign(folder: Folder) -> dict[str, Any]:
         return {"fault": str(fault).replace(f"{folder.root}/", "")}
     return {
         "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
-        "findings": [{"level": f.level, "text": f.text, "remedy": f.remedy} for f in check.findings],
+        "findings": [as_told(finding) for finding in check.findings],
     }
+
+
+def doubts_of(proposal: Proposal) -> list[dict[str, Any]]:
+    """Of angles, as the proposal would be read; none before it is known of which reducer, and where it cannot be read, which saving says."""
+    if not proposal.reducer:
+        return []
+    try:
+        return doubts(checked(proposal))
+    except InputFault:
+        return []
 
 
 @lru_cache(maxsize=4096)
@@ -239,6 +253,13 @@ def text_of(folder: Folder, proposal: Proposal) -> str:
 def written_here(folder: Folder) -> bool:
     """Whether campaign.toml is as the page saved it: only then may it be saved anew."""
     return folder.campaign.is_file() and folder.recall("saved").get("sha256") == sha256(folder.campaign.read_bytes())
+
+
+def is_saved(folder: Folder) -> bool:
+    """Whether campaign.toml holds what is proposed now."""
+    if not written_here(folder):
+        return False
+    return folder.campaign.read_text(encoding="utf-8") == text_of(folder, proposed(folder, folder.recall(WISHES)).proposal)
 
 
 def sha256(content: bytes) -> str:

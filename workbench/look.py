@@ -16,6 +16,7 @@ from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
+from workbench.doubts import doubts, without_doubts
 
 # The row of an order is drawn up to this one.
 MOST_ORDERS = 200
@@ -55,7 +56,8 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
     page = comparison.page(result)
     told = {
-        "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings, "cards": [asdict(c) for c in page.cards],
+        "title": page.title, "conditions": page.conditions, "finding": page.finding,
+        "doubts": doubts(model.campaign), "warnings": without_doubts(page.warnings, model.campaign), "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],

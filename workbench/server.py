@@ -51,7 +51,7 @@ class Workbench:
             Route("/", self.index), Route("/events", self.events), Route("/plotly.js", self.plotly), Route("/narrow.js", self.narrow),
             Route("/in", said(self.intake), methods=get), Route("/in/choices", said(self.choices), methods=get),
             Route("/in/wishes", said(self.wish), methods=post), Route("/in/save", said(self.save), methods=post),
-            Route("/in/edit", said(self.edit), methods=post),
+            Route("/in/edit", said(self.edit), methods=post), Route("/in/mend", said(self.mend), methods=post),
             Route("/files/{name:path}", said(self.upload), methods=["PUT"]), Route("/files/{name:path}", said(self.remove), methods=["DELETE"]),
             Route("/state", said(self.state), methods=get), Route("/state", said(self.set_state), methods=post),
             Route("/jobs/{kind}", said(self.start), methods=post), Route("/jobs/{kind}/stop", said(self.stop), methods=post),
@@ -104,6 +104,12 @@ class Workbench:
         from workbench.editing import edit
 
         await run_in_threadpool(edit, self.folder, await content(request))
+        return await self.intake(request)
+
+    async def mend(self, request: Request) -> Response:
+        from workbench.mending import mend
+
+        await run_in_threadpool(mend, self.folder, await content(request))
         return await self.intake(request)
 
     async def upload(self, request: Request) -> Response:

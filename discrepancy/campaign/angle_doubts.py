@@ -8,6 +8,7 @@ import numpy as np
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.findings import WARNING, Finding
+from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.model import Campaign
 from discrepancy.problem import Record
 
@@ -37,9 +38,9 @@ def rates_of_angles(design: Design) -> Iterator[Finding]:
         if not text or (column, text) in seen:
             continue
         seen.add((column, text))
-        at_input = f"the angle of the input is columns.input_angle (--column 'input_angle={column}')"
-        remedy = at_input if abs(times / (campaign.ratio or math.inf) - 1.0) < NEAR_RATIO else "correct the angle's unit or scale, or the condition's speed"
-        yield Finding(WARNING, "rate of the angle", f"run {record.name}: the output's angle{campaign.place(record.name, 'angle')} {text}", remedy)
+        of = OfColumn(column, "input_angle" if abs(times / (campaign.ratio or math.inf) - 1.0) < NEAR_RATIO else "")
+        remedy = of.remedy() if of.role else "correct the angle's unit or scale, or the condition's speed"
+        yield Finding(WARNING, "rate of the angle", f"run {record.name}: the output's angle{campaign.place(record.name, 'angle')} {text}", remedy, of)
 
 
 def senses_of_angles(design: Design) -> Iterator[Finding]:
@@ -56,7 +57,7 @@ def senses_of_angles(design: Design) -> Iterator[Finding]:
         stated = "is forward" if campaign.conditions[record.condition].direction_stated else "states no direction and so is forward"
         text = f"run {record.name}: the angle{campaign.place(record.name, 'angle')} falls, while its condition {stated}"
         remedy = 'state direction = "reverse" if it turned that way; else scale = -1 in its column, for the encoder counts the other way'
-        yield Finding(WARNING, "sense of the angle", text, remedy)
+        yield Finding(WARNING, "sense of the angle", text, remedy, OfColumn(source.column.removeprefix("column ")))
 
 
 def output_speed(record: Record, campaign: Campaign) -> float:

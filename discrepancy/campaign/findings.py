@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
+from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.zeros import unused_means
@@ -19,12 +20,17 @@ LEAST_CONDITIONS = 3
 
 @dataclass(frozen=True)
 class Finding:
-    """``problem``: no diagnosis is possible; ``warning``: some answers will be out of reach."""
+    """``problem``: no diagnosis is possible; ``warning``: some answers will be out of reach.  ``of``: the one column that it is about, if it is about one."""
 
     level: str
     code: str
     text: str
     remedy: str
+    of: OfColumn | None = None
+
+    @property
+    def sentence(self) -> str:
+        return f"{self.text}: {self.remedy}"
 
 
 def unfilled(design: Design) -> Iterator[Finding]:

@@ -31,7 +31,8 @@ class Source:
     factor: float
 
     def __str__(self) -> str:
-        return f"{self.file}, {self.column} [{self.unit}]"
+        # Most heads say their unit.
+        return f"{self.file}, {self.column}" + ("" if self.column.endswith(f"[{self.unit}]") else f" [{self.unit}]")
 
 
 @dataclass(frozen=True)

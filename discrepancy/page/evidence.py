@@ -181,8 +181,9 @@ def rivals(answer: Answer) -> Section:
         return Section("rivals", "Rivals", "No rival came near.")
     rows = [[words(r["name"]), r["reason"]] for r in rejected]
     refitted = [r for r in rejected if r["chi2_difference"] is not None][:MOST_RIVALS]
+    count = sum(r["chi2_difference"] is not None for r in rejected)
     lead = (
-        f"{sum(r['chi2_difference'] is not None for r in rejected)} were fitted in full, the others fell to the score test."
+        f"{count} {'was' if count == 1 else 'were'} fitted in full, the others fell to the score test."
         if refitted
         else "None came through the score test."
     )

@@ -30,7 +30,7 @@ const KEYS = [
   ["Alt + click", "in a chart: set cursor B"],
 ];
 
-export const context = { state: null, go, act, start, busy, modelChooser, model: () => context.state?.view?.model || "" };
+export const context = { state: null, go, act, start, busy, modelChooser, choose: (model) => chooseModel(model), model: () => context.state?.view?.model || "" };
 const main = document.getElementById("view"),
   work = document.getElementById("work"),
   gone = document.getElementById("gone");
@@ -136,6 +136,9 @@ export async function start(kind, given = {}) {
   return act(post(`jobs/${kind}`, { model: context.model(), ...given }).then(heard));
 }
 
+// The model that all views are about, in every tab.
+const chooseModel = (model) => act(post("state", { model }).then(heard));
+
 export function modelChooser(label = "model") {
   const state = context.state,
     reducers = state?.library ?? [];
@@ -144,7 +147,7 @@ export function modelChooser(label = "model") {
     "label",
     { class: "inline" },
     label,
-    choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), (model) => act(post("state", { model }).then(heard)), { id: "model" }),
+    choose([["", "choose…"], ...known.map((m) => [m, m])], context.model(), chooseModel, { id: "model" }),
   );
 }
 

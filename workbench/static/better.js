@@ -65,9 +65,10 @@ export function nextPart(bag) {
 }
 
 export function addPart(bag) {
-  const { answer, extension, context } = bag;
+  const { answer, extension, context, old } = bag;
   let anyway = false;
-  const busy = context.busy();
+  // What a former model lacks may be in this one already.
+  const busy = context.busy() || (old && `${old} Diagnose that first.`);
   const named = answer.effects.flatMap((e) => e.candidates),
     numbersOff = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
   const one = answer.confusable.length ? answer.effects.map((e) => e.candidates[0]) : null;
@@ -139,7 +140,14 @@ export function ladder(bag) {
   const { extension, built, context } = bag;
   if (!extension) return null;
   const busy = context.busy(),
-    steps = extension.steps;
+    steps = extension.steps,
+    // What stands above already, beside the step that was taken last.
+    told = new Set(extension.page.sections.map((s) => JSON.stringify(s))),
+    chosen = (kind) => async () => {
+      await context.choose("model.toml");
+      if (kind === "compare") context.go("look");
+      context.start(kind, { model: "model.toml" });
+    };
   const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.training_before ?? 0]), 1);
   const bar = (value, tone) =>
     value === null || value === undefined
@@ -175,16 +183,10 @@ export function ladder(bag) {
         { class: "row" },
         h(
           "button",
-          {
-            type: "button",
-            onclick: () => {
-              context.go("look");
-              context.start("compare", { model: "model.toml" });
-            },
-          },
+          { type: "button", id: "better", disabled: !!busy, title: busy || undefined, onclick: chosen("compare") },
           "Look at the better model",
         ),
-        h("button", { type: "button", onclick: () => context.start("diagnose", { model: "model.toml" }) }, "Is anything else missing?"),
+        h("button", { type: "button", id: "else", disabled: !!busy, title: busy || undefined, onclick: chosen("diagnose") }, "Is anything else missing?"),
         h("button", { type: "button", id: "build", disabled: !!busy, title: busy || undefined, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
       ),
       built
@@ -198,7 +200,7 @@ export function ladder(bag) {
             command(built.command),
           ]
         : null,
-      sections(extension.ladder.sections),
+      sections(extension.ladder.sections.filter((s) => !told.has(JSON.stringify(s)))),
     ),
   );
 }

@@ -2,9 +2,11 @@
 
 import { addPart, ladder, nextPart } from "./better.js";
 import { clear, command, duration, effectName, h, note, table, why, words } from "./dom.js";
+import { doubtsBefore } from "./doubts.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
+import { dimmed, past } from "./past.js";
 
 export function show(root, context) {
   let answer = null,
@@ -40,8 +42,6 @@ export function show(root, context) {
         ),
         answer ? h("a", { class: "button", href: "results/diagnose/report?download", download: "" }, "Save as one file") : null,
         answer ? exportMenu(context, "diagnose", () => answer.model) : null,
-        job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since") : null,
-        answer && context.model() && answer.model !== context.model() ? h("span", { class: "fair" }, `the answer is of ${answer.model}`) : null,
       ),
       ["diagnose", "next", "extend", "build"].map((kind) =>
         context.state?.jobs[kind]?.fault && context.state.jobs[kind].state !== "running" ? note(context.state.jobs[kind].fault, "bad") : null,
@@ -90,29 +90,34 @@ export function show(root, context) {
       clear(after);
       return;
     }
+    const old = past(answer, context.state.jobs.diagnose, context);
     clear(
       body,
       exported(context, "diagnose"),
-      h(
-        "div",
-        { class: `panel verdict ${answer.tone}`, id: "verdict" },
-        h("p", { class: "quiet small" }, `verdict: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
-        h("h1", {}, answer.headline),
-        answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
-        answer.effects.map(effectOf),
-        answer.together ? h("p", { class: "quiet small" }, answer.together) : null,
-        answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
-        answer.left ? h("p", { class: "small" }, h("b", {}, "Not explained: "), answer.left) : null,
-        answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
+      dimmed(
+        old,
+        doubtsBefore(answer, context, "diagnose"),
+        h(
+          "div",
+          { class: `panel verdict ${answer.tone}`, id: "verdict" },
+          h("p", { class: "quiet small" }, `verdict on ${answer.model}: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
+          h("h1", {}, answer.headline),
+          answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+          answer.effects.map(effectOf),
+          answer.together ? h("p", { class: "quiet", style: { "margin-top": "8px" } }, answer.together) : null,
+          answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
+          answer.left ? h("p", { class: "small" }, h("b", {}, "Not explained: "), answer.left) : null,
+          answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
+        ),
+        cards(answer.page.cards),
+        rivals(),
+        h("h2", {}, "Evidence"),
+        sections(answer.page.sections),
+        warnings(answer.page.warnings),
+        command(answer.command),
       ),
-      cards(answer.page.cards),
-      rivals(),
-      h("h2", {}, "Evidence"),
-      sections(answer.page.sections),
-      warnings(answer.page.warnings),
-      command(answer.command),
     );
-    const bag = { answer, next, extension, built, context };
+    const bag = { answer, next, extension, built, context, old };
     clear(after, nextPart(bag), addPart(bag), ladder(bag));
   }
 

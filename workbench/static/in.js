@@ -1,10 +1,14 @@
 // In: drop files, look at what they are taken for and why, correct it by a click, save the campaign.
 
 import { choose, clear, command, h, note, table, words } from "./dom.js";
+import { doubtNotes } from "./doubts.js";
 import { cells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
 import { drop, get, post, put } from "./net.js";
+
+// The place of a role in campaign.toml.
+const ROLE = ["runs", "number", "columns", "role"];
 
 export function show(root, context) {
   let data = null,
@@ -61,18 +65,21 @@ export function show(root, context) {
     await load();
   }
 
-  // What was corrected goes to the folder, and the guesses come back anew.
-  async function wish(change) {
-    const given = structuredClone(data.wishes);
-    change(given);
-    const found = await context.act(post("in/wishes", given), faults);
+  // What was corrected goes to the folder, and the guesses come back anew; what was refused is shown as it was.
+  async function sent(path, given) {
+    const found = await context.act(post(path, given), faults);
     if (found) {
       clear(faults);
       data = found;
     }
-    // What was refused is shown as it was.
     draw();
   }
+  const wish = (change) => {
+    const given = structuredClone(data.wishes);
+    change(given);
+    return sent("in/wishes", given);
+  };
+  const mend = (column, role) => sent("in/mend", { column, role });
   // A cell of campaign.toml itself, one after the other: each is meant for the file as the one before it left it.
   let corrected = Promise.resolve();
   const correct = (place, value) => {
@@ -85,8 +92,8 @@ export function show(root, context) {
       const own = data.own;
       clear(faults);
       data = found;
-      // The cells stay: another of them may be in the hand by now.
-      if (!own) {
+      // The cells stay: another of them may be in the hand by now.  Of a column with another role each has another place.
+      if (!own && place.length !== ROLE.length) {
         clear(document.getElementById("there"), elsewhere());
         clear(document.getElementById("findings"), findings());
         return;
@@ -103,6 +110,7 @@ export function show(root, context) {
       return choices;
     },
     wish,
+    mend,
     putIn: (...given) => putIn(...given),
     context,
     faults,
@@ -123,7 +131,7 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, correct) : null, h("div", { id: "findings" }, findings()));
+      clear(body, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
       for (const id of open) if (id) document.getElementById(id)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
       return;
@@ -145,7 +153,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
     if (held) document.getElementById(held)?.focus();
   }
@@ -166,6 +174,7 @@ export function show(root, context) {
             { class: "rows" },
           )
         : null,
+      doubtNotes((data.findings ?? []).filter(ofColumn), mend),
       h(
         "div",
         { class: "row" },
@@ -183,15 +192,19 @@ export function show(root, context) {
         ),
       ),
     );
-  const findings = () =>
-    data.findings?.length
+  // What is found of a column stands where the column does.
+  const ofColumn = (f) => f.column !== undefined;
+  const findings = () => {
+    const found = (data.findings ?? []).filter((f) => !ofColumn(f));
+    return found.length
       ? h(
           "details",
-          { open: data.findings.some((f) => f.level === "problem") || data.findings.length < 4 },
-          h("summary", {}, `${data.findings.length} finding${data.findings.length === 1 ? "" : "s"} of the check`),
-          data.findings.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
+          { open: found.some((f) => f.level === "problem") || found.length < 4 },
+          h("summary", {}, `${found.length} finding${found.length === 1 ? "" : "s"} of the check`),
+          found.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
         )
       : null;
+  };
 
   const chooseFiles = (text = "Choose files") => h("button", { type: "button", class: "main", onclick: () => input.click() }, text);
   const empty = () =>

@@ -2,8 +2,8 @@
 
 import { choose, h, table, words } from "./dom.js";
 
-// ``put(place, value)`` sends a correction; what is refused is shown as it was.
-export function cells(found, put) {
+// ``put(place, value)`` sends a correction; what is refused is shown as it was.  ``quantities`` have the roles that a column may take.
+export function cells(found, quantities, put) {
   const field = (place, value, label, size = 12) =>
     h("input", {
       type: "text",
@@ -16,14 +16,22 @@ export function cells(found, put) {
     });
   const tick = (place, value, label) =>
     h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
+  const part = (r, i, role) =>
+    quantities[r.quantity]
+      ? choose(
+          Object.entries(quantities[r.quantity].roles).map(([name, known]) => [name, known.title]),
+          role,
+          (other) => put(["runs", i, "columns", role], other),
+          { "aria-label": `role of ${r.columns[role].column} in ${r.id}`, style: { width: "14em" } },
+        )
+      : h("span", { class: "quiet" }, words(role));
   const names = Object.keys(found.conditions);
   const condition = (name) => [
     h("b", {}, name),
     ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
   ];
   const run = (r, i) => [
-    h("b", {}, r.id),
-    r.file,
+    h("div", {}, h("b", {}, r.id), h("div", { class: "quiet small" }, r.file)),
     words(r.quantity),
     names.includes(r.condition) ? choose(names, r.condition, (value) => put(["runs", i, "condition"], value), { "aria-label": `condition of ${r.id}` }) : String(r.condition),
     h(
@@ -32,8 +40,8 @@ export function cells(found, put) {
       Object.entries(r.columns).map(([role, c]) =>
         h(
           "div",
-          { class: "row small" },
-          h("span", { class: "quiet" }, words(role)),
+          { class: "row small", style: { gap: "4px 6px" } },
+          part(r, i, role),
           field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
           field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
         ),
@@ -46,7 +54,7 @@ export function cells(found, put) {
       "details",
       { class: "panel", id: "cells-runs" },
       h("summary", {}, h("b", {}, "Correct the columns of single files")),
-      table(["run", "file", "quantity", "condition", "columns and units"], found.runs.map(run), [], { class: "rows" }),
+      table(["run and file", "quantity", "condition", "roles, columns and units"], found.runs.map(run), [], { class: "rows" }),
     ),
   ];
 }

@@ -9,24 +9,36 @@ const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", tem
 
 // What is needed first, then what is not sure: each with the place where it is answered.
 export function questions(bag) {
-  const { data, putIn } = bag;
-  const { needs, doubts } = data.proposal;
+  const { data, wish } = bag;
+  const { needs, doubts } = data.proposal,
+    names = Object.keys(data.proposal.conditions);
   // What was saved was taken as it stands: it asks no more.
   const unsettled = !(data.saved && data.same);
-  const general = needs.filter((n) => n.place !== "campaign").flatMap((n) => [...n.text.matchAll(/needs (.+)$/g)].map((m) => [n, m[1].split(" or ")]));
-  const asked = new Map(general.map(([n, keys]) => [keys.join(), [n, keys]]));
+  // Keys of a condition that are asked for, with the conditions that need them.
+  const asked = new Map();
+  for (const need of needs.filter((n) => n.place !== "campaign"))
+    for (const [, keys] of need.text.matchAll(/needs (.+)$/g)) {
+      const needing = need.place.split(", ");
+      asked.set(keys, [...new Set([...(asked.get(keys) ?? []), ...names.filter((name) => name === need.place || needing.includes(name))])]);
+    }
+  // What some conditions need is said of them alone: the others may say something else, or need none.
+  const answer = (needing, key, text) =>
+    wish((w) => {
+      const own = needing.length < names.length ? needing.map((name) => `${name}:${key}`) : [key];
+      w.conditions = { ...w.conditions, ...Object.fromEntries(own.map((name) => [name, text])) };
+    });
   return [
     needs.length
       ? h(
           "div",
           { class: "panel" },
           h("h2", { style: { "margin-top": 0 } }, "Needed"),
-          [...asked.values()].map(([n, keys]) =>
+          [...asked].map(([keys, needing]) =>
             h(
               "div",
               { class: "row" },
-              h("span", {}, `${n.place}: `),
-              keys.map((key, i) => [i ? "or " : "", amount(key, data.wishes.conditions?.[key] ?? "", (text) => putIn("conditions", key, text), `need-${key}`)]),
+              h("span", {}, `${needing.join(", ")}: `),
+              keys.split(" or ").map((key, i) => [i ? "or " : "", amount(key, "", (text) => text && answer(needing, key, text), `need-${key}`)]),
             ),
           ),
           needs.filter((n) => n.place === "campaign").map((n) => h("p", {}, `${n.text}: choose it above`)),

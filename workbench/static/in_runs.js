@@ -1,6 +1,7 @@
 // What dropped files are taken for, group by group: quantity, columns with curve and unit, why; each corrected by a click.
 
 import { choose, h, spark, table, words } from "./dom.js";
+import { doubtNotes } from "./doubts.js";
 import { drop } from "./net.js";
 
 const COLUMNS = ["role", "column", "curve", "unit", "why"];
@@ -47,7 +48,7 @@ export function runs(bag) {
 }
 
 function group(bag, members) {
-  const { data, choices, wish, putIn, context, faults, load } = bag;
+  const { data, choices, wish, mend, putIn, context, faults, load } = bag;
   const first = members[0],
     quantity = choices.quantities[first.quantity.value];
   const own = [...new Set(members.map((m) => m.file.split("/").at(-1)))];
@@ -61,11 +62,23 @@ function group(bag, members) {
       }
     });
   const headers = (data.columns[first.file] ?? []).map((c) => c.name);
+  const roles = Object.entries(quantity.roles).map(([role, r]) => [role, r.title]);
+  // A column that takes a role of another gives that one its own, if it has one.
+  const cast = (header, role, before) =>
+    wish((w) => {
+      w.columns = { ...w.columns };
+      if (before) delete w.columns[before];
+      if (before && first.columns[role]) w.columns[before] = first.columns[role].header;
+      w.columns[role] = header;
+    });
+  const doubted = data.doubts.filter((d) => Object.values(first.columns).some((e) => e.column.value === d.column));
+  const used = new Set(Object.values(first.columns).map((e) => e.header));
+  const idle = (data.columns[first.file] ?? []).filter((c) => !used.has(c.name));
   const rows = Object.entries(first.columns).map(([role, entry]) => {
     const column = (data.columns[first.file] ?? []).find((c) => c.name === entry.header),
       units = quantity.roles[role]?.units ?? [];
     return [
-      h("span", { title: quantity.roles[role]?.description }, words(role)),
+      choose(roles, role, (other) => cast(entry.header, other, role), { "aria-label": `role of ${entry.header}`, title: quantity.roles[role]?.description }),
       choose(
         headers.map((name) => [name, name]),
         entry.header,
@@ -93,7 +106,7 @@ function group(bag, members) {
   const pattern = h("input", {
     type: "text",
     value: first.names,
-    size: Math.min(44, Math.max(18, first.names.length + 2)),
+    size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
     title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
     onchange: () =>
@@ -137,6 +150,20 @@ function group(bag, members) {
       [],
       { class: "rows" },
     ),
+    doubtNotes(doubted, mend),
+    idle.length
+      ? h(
+          "details",
+          {},
+          h("summary", {}, `${idle.length} column${idle.length === 1 ? "" : "s"} without a part: ${idle.slice(0, 3).map((c) => c.name).join(", ")}${idle.length > 3 ? " …" : ""}`),
+          table(
+            ["column", "curve", "role"],
+            idle.map((c) => [c.name, spark(c.curve), choose([["", "none"], ...roles], "", (role) => role && cast(c.name, role), { "aria-label": `role of ${c.name}` })]),
+            [],
+            { class: "rows" },
+          ),
+        )
+      : null,
     h(
       "details",
       {},

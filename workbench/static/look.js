@@ -1,10 +1,12 @@
 // Look: key figures first, then measured and predicted over each other with the residual in units of the noise, orders, loops.
 
 import { clear, command, h, note, number } from "./dom.js";
+import { doubtsBefore } from "./doubts.js";
 import { fails, keyFigures, notes, singles, spec } from "./look_parts.js";
 import { exported, exportMenu } from "./export.js";
 import { get, numbers } from "./net.js";
 import { orders } from "./orders.js";
+import { dimmed, past } from "./past.js";
 import { Link, Plot } from "./plot.js";
 
 const MOST_DRAWN = 4;
@@ -56,8 +58,6 @@ export function show(root, context) {
       ),
       result ? h("a", { class: "button", href: "results/compare/report?download", download: "" }, "Save as one file") : null,
       result ? exportMenu(context, "compare", () => result.model) : null,
-      job?.old && job.state === "done" ? h("span", { class: "fair" }, "files have changed since: compare again") : null,
-      result && context.model() && result.model !== context.model() ? h("span", { class: "fair" }, `what is shown is of ${result.model}`) : null,
     );
   }
 
@@ -93,13 +93,17 @@ export function show(root, context) {
       bar(),
       fault,
       exported(context, "compare"),
-      h("h1", {}, result.title),
-      h("p", { class: "lead" }, result.finding),
-      figures(),
-      curves(),
-      fails(result, context),
-      notes(result),
-      command(result.command),
+      dimmed(
+        past(result, job, context),
+        h("h1", {}, result.title),
+        h("p", { class: "lead" }, result.finding),
+        doubtsBefore(result, context, "compare"),
+        figures(),
+        curves(),
+        fails(result, context),
+        notes(result),
+        command(result.command),
+      ),
     );
   }
 
@@ -242,6 +246,7 @@ export function show(root, context) {
       "div",
       { class: "panel" },
       chips,
+      signal.axis.name === "angle" ? doubtsBefore(result, context, "compare") : null,
       plot.element,
       h(
         "div",

@@ -4,7 +4,7 @@ import re
 
 # Words of either side that mean it wherever they stand; "Antrieb" is the whole drive, too; the slow and the fast shaft are Romance words for them.
 SIDES = {
-    "input": r"input|mot(?:o|eu)r|(?<![a-z])entr[ée]e|entrada|entrata|ingresso|eingang|drive|(?:arbre|albero|eje) (?:rapide|veloce|r[áa]pido)",
+    "input": r"input|mot(?:o|eu)r|rotor|(?<![a-z])entr[ée]e|entrada|entrata|ingresso|eingang|drive|(?:arbre|albero|eje) (?:rapide|veloce|r[áa]pido)",
     "output": r"output|sortie|salida|uscita|abtrieb|ausgang|(?:arbre|albero|eje) lent[oe]?(?![a-z])",
 }  # fmt: skip
 INPUT = SIDES["input"] + r"|antrieb(?!$)|(?<=[ _.-])antrieb|servo|输入|輸入|電機|电机|马达|入力|モータ|(?:^|[ _.-])(?:in|an|mot)(?:$|[ _.-])"
@@ -33,7 +33,7 @@ MEANINGS = {
     r"|(?:^|[ _.-])(?:m|md|t|load|last|charge|carico|carga)(?:$|[ _.-])(?!.*time)",
     "twist": r"twist|torsi[oó]n|verdreh|wind.?up|deflect|hyst|hist[ée]res|isteresi|spiel|backlash|(?<![a-z])jeu(?![a-z])|gioco|juego|^turn(?:ing)?(?:$|[ _.-])"
     r"|扭转|扭轉|回差|滞回|变形|變形|ねじれ|ヒステリシス",
-    "angle": r"angle|angol|[áa]ngul|winkel|phi|theta|φ|θ|ϕ|encoder|codeur|geber"
+    "angle": r"angle|angol|[áa]ngul|winkel|rotorlage|phi|theta|φ|θ|ϕ|encoder|codeur|geber"
     r"|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posi[tzc]|角|回転角",
     "time": r"time|zeit|temps|tempo|tiempo|时间|時間|uhr|clock|(?:^|[ _.-])t(?:$|[ _.-])|timestamp|时刻|時刻",
 }  # fmt: skip
@@ -44,7 +44,7 @@ AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IG
 QUANTITY_WORDS = {
     "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.de.transmission)?"
     r"|errore(?:.di.trasmissione)?|error(?:.de.transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
-    "hysteresis": r"loops?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa|stiff(?:ness)?"
+    "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa|stiff(?:ness)?"
     r"|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
     "wear_profile": r"profiles?|wear.?profile|profilo?|perfil|verschlei(?:ß|ss)profil|轮廓",
     "wear_depth": r"wear|depths?|wear.?depth|verschlei(?:ß|ss)|usur[ea]|desgaste|磨损|摩耗",

@@ -38,6 +38,8 @@ PARTS_OF_QUANTITIES = {
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d|\d\d[-.]\d\d[-.]\d{4}|\d{8}T?|\d{6}|\d\d[-.h]\d\d(?:[-.m]\d\ds?)?$")
 FIELD = re.compile(r"\{(\w+)\}")
 PARTS = re.compile(r"([_\s]+|(?<=\D)-(?=\D)|(?<=\w)-(?=\D)|-(?=[A-Za-z])|[()]+)")
+# Where nothing else parts a name a hyphen before a number with a unit, or before the last one, does and is no minus: te-50Nm-40C-1.
+HYPHENS = re.compile(PARTS.pattern[:-1] + rf"|(?<=\w\w)(?<![Tt]emp)-(?={NUMBER}[^\W\d_])|(?<=[^\W\d_])-(?=\d{{1,2}}$))")
 # Letters before a number, as in T40 or n15: what they mostly stand for.
 LETTERS = {
     "t": "temperature", "n": "speed", "m": "load", "temp": "temperature", "load": "load", "last": "load", "torque": "load", "speed": "speed", "h": "hours",
@@ -72,7 +74,8 @@ def proposed(path: Path) -> Parsed:
     """The pattern that a name seems to follow, and what it says by it."""
     pattern, numbers, words = "", dict[str, tuple[float, str]](), list[str]()
     replicate, direction = None, None
-    parts = with_units(PARTS.split(stem(path)))
+    whole = stem(path)
+    parts = with_units((PARTS if re.search(r"[_\s]", whole) else HYPHENS).split(whole))
     last = max((k for k in range(0, len(parts), 2) if parts[k]), default=0)
     for k, part in enumerate(parts):
         if k % 2 or not part:

@@ -27,7 +27,7 @@ WRITTEN = {
         "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
     },
     SPEED: {
-        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min tr/mn tr.min^.1"
+        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
         " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
         "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
         "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s 度/秒",

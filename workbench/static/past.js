@@ -1,0 +1,15 @@
+// A result that is not of what is chosen now: it stays to be looked at, dimmed, and says of which model it is.
+
+import { h } from "./dom.js";
+
+// Why it is past; empty for one that is of the chosen model and of the files as they are.
+export function past(result, job, context) {
+  if (!result) return "";
+  const chosen = context.model();
+  if (chosen && result.model !== chosen) return `What stands below is of ${result.model}; the model that is chosen now is ${chosen}.`;
+  return job?.old && job.state !== "running" ? `What stands below is of ${result.model} and the files as they were; they have changed since.` : "";
+}
+
+// The words stand over what they are about.
+export const dimmed = (why, ...parts) =>
+  why ? [h("div", { class: "row past-note", role: "status" }, h("b", { class: "fair" }, why)), h("div", { class: "past" }, ...parts)] : parts;
