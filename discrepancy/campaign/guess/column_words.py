@@ -44,8 +44,8 @@ AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IG
 QUANTITY_WORDS = {
     "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.de.transmission)?"
     r"|errore(?:.di.trasmissione)?|error(?:.de.transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
-    "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa|stiff(?:ness)?"
-    r"|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
+    "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa"
+    r"|stiff(?:ness)?|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
     "wear_profile": r"profiles?|wear.?profile|profilo?|perfil|verschlei(?:ß|ss)profil|轮廓",
     "wear_depth": r"wear|depths?|wear.?depth|verschlei(?:ß|ss)|usur[ea]|desgaste|磨损|摩耗",
     "no_load_torque": r"no.?load.?torque|leerlauf(?:moment)?|couple.[àa].vide|coppia.a.vuoto|par.en.vac[íi]o|空载(?:转矩|扭矩)?|無負荷(?:トルク)?",
@@ -76,9 +76,10 @@ def meaning_of(name: str) -> str | None:
 
 
 def quantities_named(text: str) -> list[str]:
-    """Quantities that a file's name speaks of, the longest word first."""
-    found = {quantity: max(len(m) for m in matches) for quantity, words in IN_NAMES.items() if (matches := words.findall(text))}
-    return sorted(found, key=lambda quantity: -found[quantity])
+    """Quantities that a file's name speaks of, the longest word first; a word within a longer one (no-load torque) speaks of nothing else."""
+    words = sorted(((-len(m[0]), m.span(), quantity) for quantity, fits in IN_NAMES.items() for m in fits.finditer(text)), key=lambda word: word[0])
+    apart = [q for k, (_, (first, end), q) in enumerate(words) if not any(f <= first and end <= e and (f, e) != (first, end) for _, (f, e), _ in words[:k])]
+    return list(dict.fromkeys(apart))
 
 
 def surface_named(text: str) -> str | None:
