@@ -90,7 +90,8 @@ class Cages:
         else:
             [ripple] = ripples_of_cages(self.bench, record, own, [share])
         # The ripple's form at the likeliest place as far as that is known, else its mean over all places.
-        return sure * ripple + (1.0 - sure) * middle
+        placed: Floats = sure * ripple + (1.0 - sure) * middle
+        return placed
 
     def closer(self, record: Record, own: dict[str, float], ripples: Floats) -> Floats:
         """The ``ripples`` (k, n) at equal places of the pitch, at so many that nobody sees what the series through them misses."""
