@@ -113,3 +113,14 @@ def test_intervals_hold_whatever_the_unit_of_x():
     y = -0.9 + 1.4e-3 * x - 3.7e-7 * x**2 + 0.05 * rng.standard_normal(12)
     widths = [np.ptp(next(f for f in propose(x * scale, y, np.full(12, 0.05)) if f.name == "quadratic").intervals["a"]) for scale in (1.0, 1e-3)]
     assert widths[0] == pytest.approx(widths[1], rel=1e-3) and widths[0] > 0.05
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", range(5))
+def test_forms_are_proposed_without_a_warning_where_their_constants_show_nothing(seed):
+    """One point that stands out, or the last: a step beyond the data has a place that changes nothing."""
+    random = np.random.default_rng(seed)
+    for count in (6, 13, 60):
+        x = np.sort(random.uniform(0.0, 6.0, count))
+        for y in (np.eye(count)[0], np.eye(count)[count // 2], np.where(x > x[-2], 1e-6, 0.0)):
+            assert all(np.isfinite([v for interval in form.intervals.values() for v in interval]).all() for form in propose(x, y, np.full(count, 1e-3)))

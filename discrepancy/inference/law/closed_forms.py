@@ -81,7 +81,8 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
         if name == "periodic":
             starts = _frequencies(x, y / scale, deviation / scale, levels)
         best = min((_fit(function, s, x, y / scale, deviation / scale) for s in starts), key=lambda r: r.cost)
-        if not np.isfinite(best.cost) or not np.isfinite(best.jac).all():
+        sizes = np.linalg.norm(best.jac, axis=0)
+        if not np.isfinite(best.cost) or not np.isfinite(sizes).all() or sizes.min() == 0.0:
             # Its constants ran to where nothing can be told.
             continue
         losses = np.full(y.size, np.nan)
@@ -91,10 +92,12 @@ def propose(x: Floats, y: Floats, deviation: Floats, groups: Sequence[str] | Non
                 continue
             solution = _fit(function, best.x, x[~out], y[~out] / scale, deviation[~out] / scale)
             losses[out] = ((y[out] / scale - function(x[out], *solution.x)) * scale / deviation[out]) ** 2
+        if np.isnan(losses).all():
+            # Too few points to leave some out.
+            continue
         loss = float(np.nanmean(np.minimum(losses, 1e6)))
         dof = max(y.size - len(names), 1)
         # Constants of x^2 and of 1 differ by many decades: in their own sizes, or the small ones would seem known exactly.
-        sizes = np.maximum(np.linalg.norm(best.jac, axis=0), 1e-300)
         covariance = np.linalg.pinv((best.jac / sizes).T @ (best.jac / sizes)) / np.outer(sizes, sizes) * max(2 * best.cost / dof, 1.0)
         half = stdtrit(dof, 0.975) * np.sqrt(np.maximum(np.diag(covariance), 0.0))
         linear = {"a", "b"} | ({"c"} if name in ("quadratic", "periodic") else set())
