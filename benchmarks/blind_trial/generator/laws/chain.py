@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
 from benchmarks.blind_trial.generator.designs import Series
 from benchmarks.blind_trial.generator.laws.shared import ARCSEC
@@ -88,7 +89,9 @@ class ClockFault(Truth):
     def chain(self, series: Series, y: Floats, rows: list[Setting], run: int) -> Floats:
         angle = series.axes["angle"]
         order = np.argsort(angle)
-        return np.interp(angle * (1.0 + self.sign * self.a), angle[order], y[order], period=2.0 * math.pi)
+        # What the reducer does between samples is smooth.
+        curve = make_interp_spline(angle[order], y[order], k=5)
+        return np.asarray(curve(np.clip(angle * (1.0 + self.sign * self.a), angle.min(), angle.max())), np.float64)
 
     def parameters(self) -> dict[str, float]:
         return {"clock_slip": self.sign * self.a}
