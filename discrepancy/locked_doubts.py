@@ -43,7 +43,8 @@ def locked_doubts(campaign: Campaign) -> list[Finding]:
         f" by {readable(off * arcsec)} arcsec (root mean square, at most {readable(float(np.abs(apart).max()) * arcsec)}), and the noise is"
         f" {readable(noise * arcsec)} arcsec: what is named may be that"
     )
-    remedy = f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition; or measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
+    several = f'measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
+    remedy = f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition; or {several}'
     return [Finding(WARNING, "position of loops", text, remedy)]
 
 

@@ -27,7 +27,8 @@ class ChainModule(Protocol):
 
 
 STAGES = (
-    "locked_position", "torsional_resonance", "torque_ripple", "clock_slip", "encoder_eccentricity", "encoder_distortion", "sensor_gain", "sensor_offset", "sensor_drift",
+    "locked_position", "torsional_resonance", "torque_ripple", "clock_slip", "encoder_eccentricity", "encoder_distortion", "sensor_gain", "sensor_offset",
+    "sensor_drift",
 )  # fmt: skip
 MODULES = {name: cast(ChainModule, effect_modules(__name__)[name]) for name in STAGES}
 EFFECTS: dict[str, Effect] = {name: module.EFFECT for name, module in MODULES.items()}
