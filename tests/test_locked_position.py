@@ -1,5 +1,6 @@
 """Loops of one position that nobody stated: what positions change in them is a candidate of its own, beside the play that looks like it."""
 
+import re
 import tomllib
 from types import SimpleNamespace
 
@@ -8,6 +9,7 @@ import pytest
 
 from benchmarks.blind_trial.generator.designs import Design, loops, te
 from benchmarks.blind_trial.generator.folder import write_campaign
+from benchmarks.unplaced_loops import ARCSEC, Case, measured, there_and_back
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.hidden_by_position import POSITION
@@ -17,60 +19,36 @@ from discrepancy.inference.verdict import ONE, SEVERAL
 from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model
 from discrepancy.next_run import Measurement, at_a_position
-from discrepancy.prediction.bench import HELD_ANGLES, Bench
+from discrepancy.prediction.bench import HELD_ANGLES
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.positions import departures, position_scores
-from discrepancy.prediction.units import Condition
-from discrepancy.problem import CHAIN, LOCKED_AT, Candidate, Parameter, Record, is_loop, is_unplaced
+from discrepancy.problem import LOCKED_AT, Candidate, Parameter, Record, is_loop, is_unplaced
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
-from reducers.reducer import load_reducer
 from studies import coupled
 
-ARCSEC = np.radians(1.0 / 3600.0)
 RATIO = 121.0
 AMOUNTS = [f"position_{k}" for k in range(1, 6)]
 # Rivals that move in a loop as a position does, and some that do not.
 FEW = {"needle_clearance", "profile_modification", "raceway_wear.inner", "raceway_wear.outer", "first_stage_error.backlash", "first_stage_error.mesh",
-       "stribeck_friction", "support_compliance", "thermal_expansion", "sensor_gain.hysteresis", "base.tooth_backlash", POSITION, f"{POSITION}.each"}  # fmt: skip
+       "support_compliance", "thermal_expansion", "sensor_gain.hysteresis", "base.tooth_backlash", POSITION, f"{POSITION}.each"}  # fmt: skip
 
 
-def way(peak, steps=10):
-    up = (np.arange(steps) + 0.5) / (steps - 0.5) * peak
-    return np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
-
-
-def measured(folder, degrees, shares=(0.5, 0.75, 1.0), locked="", noise=0.5, **values):
-    """Two loops of the RV20E-121 at each share of its rated torque, input at so many ``degrees`` (None: the mean), with noise [arcsec]."""
-    bench, rng = Bench(load_reducer("RV20E-121"), {}), np.random.default_rng(3)
-    at = Condition(bench.rated_speed, bench.rated_load, locked_at=None if degrees is None else np.radians(degrees) / RATIO)
-    text = ['[campaign]\nname = "loops"\nreducer = "RV20E-121"\n']
-    for k, share in enumerate(shares):
-        torque = way(share * bench.rated_load)
-        # As finely as friction asks for.
-        path = np.interp(np.arange(0.0, len(torque) - 1 + 1e-9, 1.0 / 16.0), np.arange(len(torque)), torque)
-        lead = np.linspace(0.1, 1.0, 9)[:-1] * torque[0]
-        turning = bench.held(at, values, np.concatenate([lead, path]))[len(lead) :: 16] / ARCSEC
-        text.append(f'[conditions.c{k}]\ntemperature = "20 degC"\n{locked}\n')
-        for replicate in (1, 2):
-            shown = (turning + noise * rng.standard_normal(len(torque))).tolist()
-            text.append(f'[[runs]]\nid = "l{k}_{replicate}"\nquantity = "hysteresis"\ncondition = "c{k}"\nreplicate = {replicate}\ntags.locked = "input"\n'
-                        f'table.torque = {{ values = {torque.tolist()}, unit = "N.m" }}\ntable.value = {{ values = {shown}, unit = "arcsec" }}\n')  # fmt: skip
-    folder.mkdir()
-    (folder / "campaign.toml").write_text("\n".join(text))
-    return load_campaign(folder)
+def campaign_of(folder, degrees, shares=(0.5, 0.75, 1.0), locked="", noise=0.5, reducer="RV20E-121-rigid", **values):
+    """Two loops to each share of the rated torque, input at so many ``degrees`` (None: the mean), with noise [arcsec]."""
+    return measured(Case("", (degrees,) * len(shares), locked, noise, values), folder, reducer, shares)
 
 
 def answered(campaign):
-    file = load_model("RV20E-121")
+    file = load_model(campaign.reducer.name)
     model = PhysicalModel(file, campaign)
-    model.candidates = tuple(c for c in model.candidates if c.name in FEW)
+    model.candidates = tuple(c for c in model.candidates if c.name in FEW or c.name.startswith("stribeck_friction"))
     return diagnose(file, campaign, model=model)
 
 
 def loop_record(condition="a", **more):
-    torque = way(100.0)
+    torque = there_and_back(100.0)
     return Record(f"loop_{condition}", "hysteresis", "rad", condition, 1, np.zeros(len(torque)), {"torque": torque}, more.pop("factors", {}),
                   tags={"locked": "input"}, **more)  # fmt: skip
 
@@ -92,10 +70,10 @@ def test_offered_where_a_loop_is_and_nobody_says_which():
 
 
 def test_a_stated_mean_is_predicted_as_before_and_doubted_by_nobody(tmp_path):
-    mean = measured(tmp_path / "mean", None, (1.0,), 'locked_at = "mean"', 0.1)
-    unstated = measured(tmp_path / "unstated", None, (1.0,), "", 0.1)
+    mean = campaign_of(tmp_path / "mean", None, (1.0,), 'locked_at = "mean"', 0.1)
+    unstated = campaign_of(tmp_path / "unstated", None, (1.0,), "", 0.1)
     assert is_loop(mean.records[0]) and not is_unplaced(mean.records[0]) and is_unplaced(unstated.records[0])
-    models = [PhysicalModel(load_model("RV20E-121"), campaign) for campaign in (mean, unstated)]
+    models = [PhysicalModel(load_model("RV20E-121-rigid"), campaign) for campaign in (mean, unstated)]
     assert np.array_equal(models[0].predict({})[0], models[1].predict({})[0])
     assert [p.name for p in models[0].nuisances] == [p.name for p in models[1].nuisances]
     # Not even with amounts that a model file brings along.
@@ -127,7 +105,7 @@ def test_what_a_row_or_a_run_says_is_nearer_than_its_condition(tmp_path):
 
 
 def test_campaign_from_takes_the_word(tmp_path, capsys):
-    torque = way(150.0)
+    torque = there_and_back(150.0)
     rows = "\n".join(f"{t:.6g},{t / 50.0:.6g}" for t in torque)
     (tmp_path / "loop_20degC.csv").write_text(f"torque [N.m],twist [arcmin]\n{rows}\n")
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--tag", "locked=input", "--condition", "locked_at=mean"]) == 0
@@ -149,8 +127,8 @@ def test_generated_campaigns_say_that_their_loops_are_means(tmp_path):
 @pytest.mark.parametrize("share", [1.0, 0.5])
 def test_components_make_the_loop_of_every_position(tmp_path, monkeypatch, share):
     """With the amounts of that position in any loop; for an addition, whatever effects are on."""
-    campaign = measured(tmp_path / "c", 0.0, (share,), noise=0.1)
-    model = PhysicalModel(load_model("RV20E-121"), campaign)
+    campaign = campaign_of(tmp_path / "c", 0.0, (share,), noise=0.1)
+    model = PhysicalModel(load_model("RV20E-121-rigid"), campaign)
     scores = position_scores(model.bench)
     assert scores.shape == (len(AMOUNTS), HELD_ANGLES)
     assert np.mean(scores**2, axis=1) == pytest.approx(np.ones(len(AMOUNTS)))
@@ -193,37 +171,53 @@ def test_a_loop_where_the_input_is_known_to_stand_is_an_experiment():
     assert is_unplaced(plain.record)
 
 
-@pytest.mark.parametrize("degrees", [0.0, 140.0, 600.0])
+@pytest.mark.parametrize("degrees", [140.0, 600.0])
 def test_loops_of_one_position_are_named_as_that(tmp_path, degrees):
-    answer = answered(measured(tmp_path / "c", degrees))
+    answer = answered(campaign_of(tmp_path / "c", degrees))
     assert answer.verdict == ONE and [e["name"] for e in answer.effects] == [POSITION]
     [hides] = [w for w in answer.warnings if "where the input was locked hides" in w]
     assert "needle_clearance" in hides and "locked_at" in hides
 
 
+def test_what_a_position_hides_covers_what_is_there(tmp_path):
+    answer = answered(campaign_of(tmp_path / "c", 140.0, needle_clearance_added=2e-7))
+    assert POSITION in {e["name"] for e in answer.effects}
+    assert "needle_clearance" not in {e["name"] for e in answer.effects} or answer.confusable
+    [hides] = [w for w in answer.warnings if "where the input was locked hides" in w]
+    low, high = map(float, re.search(r"needle_clearance\.added of (\S+) um to (\S+) um", hides).groups())
+    assert low < 0.2 < high < 1.0
+
+
 def test_nothing_is_named_where_the_position_is_stated(tmp_path):
-    assert answered(measured(tmp_path / "c", 0.0, locked='locked_at = "0 deg"')).effects == []
+    assert answered(campaign_of(tmp_path / "c", 0.0, locked='locked_at = "0 deg"')).effects == []
 
 
-def test_more_noise_leaves_play_and_position_in_one_set(tmp_path):
-    answer = answered(measured(tmp_path / "c", 0.0, noise=2.0))
+def test_a_rig_that_was_turned_between_conditions(tmp_path):
+    answer = answered(measured(Case("", (0.0, 272.0, 600.0)), tmp_path / "c", "RV20E-121-rigid"))
+    assert [e["name"] for e in answer.effects] == [POSITION] and answer.effects[0]["variant"] == "each"
+
+
+def test_a_large_clearance_at_a_stated_position_is_named(tmp_path):
+    answer = answered(campaign_of(tmp_path / "c", 140.0, locked='locked_at = "140 deg"', needle_clearance_added=2e-6))
+    assert answer.verdict == ONE
+    low, high = answer.effects[0]["parameters"]["needle_clearance_added"]["interval"]
+    assert low < 2e-6 < high < low + 0.03e-6
+
+
+def test_friction_is_named_beside_an_unknown_position(tmp_path):
+    answer = answered(campaign_of(tmp_path / "c", 140.0, friction_coefficient=0.02))
+    assert {e["name"] for e in answer.effects} == {"stribeck_friction", POSITION}
+
+
+@pytest.mark.campaign
+def test_play_and_position_in_one_set(tmp_path):
+    answer = answered(campaign_of(tmp_path / "c", 0.0, noise=2.0, reducer="RV20E-121"))
     assert {"needle_clearance", POSITION} <= set(answer.confusable)
 
 
-@pytest.mark.parametrize("stated", [True, False])
-def test_a_clearance_that_no_position_makes_is_named(tmp_path, stated):
-    """Where the position is unknown it is less well known."""
-    answer = answered(measured(tmp_path / "c", 140.0, locked='locked_at = "140 deg"' if stated else "", needle_clearance_added=2e-6))
-    assert answer.verdict == (ONE if stated else SEVERAL)
-    assert answer.effects[0]["name"] == "needle_clearance"
-    assert {e["name"] for e in answer.effects} == ({"needle_clearance"} if stated else {"needle_clearance", POSITION})
-    found = answer.effects[0]["parameters"]["needle_clearance_added"]
-    low, high = found["interval"]
-    assert low < 2e-6 < high
-    assert (high - low < 0.03e-6) == stated
-
-
-def test_another_cause_is_named_beside_an_unknown_position(tmp_path):
-    answer = answered(measured(tmp_path / "c", 140.0, friction_coefficient=0.05))
-    assert "stribeck_friction" in {e["name"] for e in answer.effects}
-    assert all(c.part != CHAIN or c.name.startswith(POSITION) for m in answer.diagnosis.fits.members for c in m.candidates)
+@pytest.mark.campaign
+def test_a_large_clearance_is_named_at_an_unknown_position_but_is_less_well_known(tmp_path):
+    answer = answered(campaign_of(tmp_path / "c", 140.0, reducer="RV20E-121", needle_clearance_added=2e-6))
+    assert answer.verdict == SEVERAL and {e["name"] for e in answer.effects} == {"needle_clearance", POSITION}
+    low, high = answer.effects[0]["parameters"]["needle_clearance_added"]["interval"]
+    assert low < 2e-6 < high and high - low > 0.2e-6
