@@ -31,9 +31,10 @@ def hidden_by_position(doctor: Diagnostician, found: Diagnosis, tables: Sequence
     shares: dict[str, tuple[float, str]] = {}
     for block in columns.blocks:
         candidate = doctor.chosen[block.candidate]
-        # The first of an effect's blocks is that of its small amounts.
-        if len(candidate.amplitudes) == 1 and not candidate.shapes and candidate.part not in (BASE, CHAIN) and candidate.name not in {*named, *shares}:
-            shares[candidate.name] = told(doctor, holding, candidate, columns.values[:, block.columns.start], tables)
+        if len(candidate.amplitudes) == 1 and not candidate.shapes and candidate.part not in (BASE, CHAIN) and candidate.name not in named:
+            amount = told(doctor, holding, candidate, columns.values[:, block.columns.start], tables)
+            # Small amounts of a clearance change a loop otherwise than usual ones: what is hidden best counts.
+            shares[candidate.name] = min(amount, shares.get(candidate.name, amount))
     hidden = sorted((share, text) for share, text in shares.values() if share < HIDDEN)[:MOST_SAID]
     if not hidden:
         return []

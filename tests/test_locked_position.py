@@ -204,6 +204,7 @@ def test_a_large_clearance_at_a_stated_position_is_named(tmp_path):
     assert low < 2e-6 < high < low + 0.03e-6
 
 
+@pytest.mark.campaign
 def test_friction_is_named_beside_an_unknown_position(tmp_path):
     answer = answered(campaign_of(tmp_path / "c", 140.0, friction_coefficient=0.02))
     assert {e["name"] for e in answer.effects} == {"stribeck_friction", POSITION}
