@@ -70,7 +70,7 @@ CAMPAIGN = {
     "Head.seal": "checksum of an answer that is sealed", "Head.notes": "anything", "ConditionEntry.input_speed": "speed of the input",
     "ConditionEntry.output_speed": "or of the output", "ConditionEntry.load_torque": "output torque against the motion, or percent of the rated",
     "ConditionEntry.temperature": "of the housing", "ConditionEntry.hours": "operating hours at that time",
-    "ConditionEntry.locked_at": "angle of the input at which loops were measured",
+    "ConditionEntry.locked_at": "angle of the input at which loops were measured, or \"mean\" of those at positions over a turn of the cranks",
     "ConditionEntry.normal_force": "of a pin-on-disc test", "ConditionEntry.sliding_speed": "of such a test",
     "ConditionEntry.sliding_distance": "of such a test", "ConditionEntry.direction": "forward or reverse",
     "ConditionEntry.mounting": "runs of one mounting share its phases", "ConditionEntry.held_out": "kept for the judgement, never fitted",

@@ -10,15 +10,11 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign
 from discrepancy.plausible import thinned
-from discrepancy.prediction.bench import HELD_ANGLES, TORQUE_STEP, Bench
-from discrepancy.prediction.curves import NEAR_NOTHING
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.fineness import fast_noise
-from discrepancy.prediction.lives import SHORT_CYCLE
-from discrepancy.prediction.model_error import is_loop
 from discrepancy.prediction.physical_model import defined
-from discrepancy.prediction.torque_way import entered, finely
-from discrepancy.prediction.units import Condition
-from discrepancy.problem import LOCKED_AT, Record
+from discrepancy.prediction.positions import departures
+from discrepancy.problem import LOCKED_AT, MEAN, Record, is_unplaced
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.units import conversion
@@ -26,28 +22,29 @@ from fmu_src.units import conversion
 
 def locked_doubts(campaign: Campaign) -> list[Finding]:
     """One finding where loops at one position depart from their mean by more than the noise of those measured; nothing without a reducer."""
-    loops = [record for record in campaign.records if is_loop(record)]
+    loops = [record for record in campaign.records if is_unplaced(record)]
     if campaign.reducer is None or not loops:
         return []
     noise = noise_of(loops)
     # The new reducer's, over the widest of them: a life would take its time, and positions differ much alike after it.
     widest = max(loops, key=lambda record: float(np.ptp(record.axes["torque"])))
     try:
-        departures = departures_of(Bench(campaign.reducer, {}), thinned(defined(widest, campaign)))
+        apart = departures(Bench(campaign.reducer, {}), thinned(defined(widest, campaign)))
     except RunFault:
         # Where the model finds no equilibrium it can say nothing.
         return []
-    off = float(np.sqrt(np.mean(departures**2)))
+    off = float(np.sqrt(np.mean(apart**2)))
     if not 0.0 < noise < off:
         return []
     arcsec = conversion("rad", "arcsec")[0]
     count = f"{len(loops)} loops" if len(loops) > 1 else f"run {loops[0].name}"
     text = (
         f"{count}: nobody says where the input was locked. The model's loop is the mean over a turn of the cranks; one at one position departs from it"
-        f" by {readable(off * arcsec)} arcsec (root mean square, at most {readable(float(np.abs(departures).max()) * arcsec)}), and the noise is"
+        f" by {readable(off * arcsec)} arcsec (root mean square, at most {readable(float(np.abs(apart).max()) * arcsec)}), and the noise is"
         f" {readable(noise * arcsec)} arcsec: what is named may be that"
     )
-    remedy = f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition; or measure at several positions over a turn of the cranks'
+    several = f'measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
+    remedy = f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition; or {several}'
     return [Finding(WARNING, "position of loops", text, remedy)]
 
 
@@ -63,12 +60,3 @@ def noise_of(loops: Sequence[Record]) -> float:
         found.append(max(record.stated_noise or fast_noise(np.asarray(record.values, float)), float(np.median(apart)) if apart else 0.0))
     return min(found)
 
-
-def departures_of(bench: Bench, record: Record) -> Floats:
-    """Of the new reducer's loop at each position (positions, n) [rad] from the mean of all, each about its own mean: its zero is free."""
-    path, lead = entered(np.asarray(record.axes["torque"], float), bench.rated_load)
-    path, places = finely(path, TORQUE_STEP * bench.rated_load, NEAR_NOTHING * bench.rated_load)
-    turning = bench.held_turnings(Condition(bench.rated_speed, bench.rated_load), {}, path, HELD_ANGLES, SHORT_CYCLE)[:, places[lead:]]
-    departures = turning - turning.mean(axis=0)
-    found: Floats = departures - departures.mean(axis=1, keepdims=True)
-    return found

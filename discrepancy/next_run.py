@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.noise import noise_key
@@ -19,7 +20,7 @@ from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Record
+from discrepancy.problem import BASE, LOCKED_AT, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.verdict import Answer
@@ -137,6 +138,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     least = min(member.fit.chi2 for member in chosen)
     rivals = [rival_of(member, None, least) for member in chosen]
     experiments = possible(answer.model, campaign, fits.space)
+    if any(POSITION in name for name in names):
+        experiments += [at_a_position(e, campaign) for e in experiments if is_unplaced(e.record)]
 
     def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:
         return answer.model.one(experiment.record, {**answer.model.zeros, **values})
@@ -177,6 +180,13 @@ def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
     return asked[:MOST_OPEN] or [
         Asked("what is left shows no place and no dependence", "repeat the runs that are off, and measure at conditions between those that there are")
     ]
+
+
+def at_a_position(loop: Measurement, campaign: Campaign) -> Measurement:
+    """The same loop measured where the input is known to stand."""
+    settings = {**loop.settings, LOCKED_AT: 0.0}
+    record = replace(loop.record, factors={**loop.record.factors, LOCKED_AT: 0.0})
+    return replace(loop, name=f"{loop.kind} at {describe(settings, campaign)}", settings=settings, record=record)
 
 
 def at_gap(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -> Asked:
@@ -296,4 +306,6 @@ def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> st
     scale = of_axis(name, campaign)
     low, high = (f"{scale.number(v):{'.3g' if 0.0 < abs(scale.number(v)) < 10.0 else '.0f'}}" for v in span)
     unit = unit_of_axis(name, campaign)
+    if name == LOCKED_AT:
+        return f"input locked at {low} {unit}"
     return f"{low} {unit}".rstrip() if low == high else f"any {name} from {low} to {high} {unit}".rstrip()

@@ -23,6 +23,8 @@ ERROR, ORDERS = "transmission_error", "transmission_order"
 WITH_ZERO = (*FREE_ZERO, ORDERS)
 # Quantities measured with one side held, and the factor that says where that was.
 HELD, LOCKED_AT = ("hysteresis", "lost_motion", "torsional_stiffness"), "locked_at"
+# Said in place of an angle: what was measured is a mean over a turn of the cranks.
+MEAN = "mean"
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.
 BASE = "base"
 # ``part`` of an error of the instruments and not of the reducer.
@@ -54,6 +56,7 @@ class Record:
     ``tags`` say what is meant (surface, disc, crank, lobe ...).  ``zero_known``: the mean counts, too, of a quantity whose
     zero is free otherwise; ``zero_noise`` is the standard deviation by which that zero differs from run to run.
     ``of_output``: its ``angle`` is that of the output as an encoder there shows it, which lags under load behind the input over the ratio.
+    ``of_positions``: measured at positions of the input over a turn of the cranks, of which it is the mean.
     """
 
     name: str
@@ -71,11 +74,24 @@ class Record:
     zero_known: bool = False
     zero_noise: float = 0.0
     of_output: bool = False
+    of_positions: bool = False
 
     @property
     def free_zero(self) -> bool:
         """Whether the mean of its values says nothing."""
         return self.quantity in FREE_ZERO and not self.zero_known
+
+
+def is_loop(record: Record) -> bool:
+    """Whether a record is the output's turning over its torque, predicted as a mean over positions: no one of them is stated."""
+    if LOCKED_AT in record.factors or LOCKED_AT in record.axes:
+        return False
+    return record.quantity == "hysteresis" and record.tags.get("locked") != "output" and "torque" in record.axes
+
+
+def is_unplaced(record: Record) -> bool:
+    """Whether a record is such a loop and nobody said that it is a mean over positions: it may be that of one."""
+    return is_loop(record) and not record.of_positions
 
 
 @dataclass(frozen=True)

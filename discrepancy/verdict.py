@@ -13,6 +13,7 @@ from discrepancy import as_told
 from discrepancy.calibrated_doubts import calibrated_doubts
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
+from discrepancy.hidden_by_position import hidden_by_position
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
@@ -143,6 +144,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Beside what is named a number may be what it should be.
     best = found.fits.members[0] if found.fits.members else None
     doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
+    doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     warnings = beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))

@@ -13,7 +13,7 @@ from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, T
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
-from discrepancy.problem import WITH_ZERO, Parameter, Record
+from discrepancy.problem import HELD, LOCKED_AT, MEAN, WITH_ZERO, Parameter, Record
 from discrepancy.repetitions import copies
 from fmu_src.faults import InputFault
 from fmu_src.reading import reading
@@ -156,10 +156,13 @@ def require_distinct(runs: list[Run], conditions: dict[str, Condition], places: 
 
 def condition_of(name: str, entry: ConditionEntry, scales: Scales, place: str) -> Condition:
     stated = {key: getattr(entry, key) for key in FACTOR_KEYS if getattr(entry, key) is not None}
+    of_positions = stated.get(LOCKED_AT) == MEAN
+    if of_positions:
+        del stated[LOCKED_AT]
     factors = scales.factors(stated, place)
     factors["direction"] = float(DIRECTIONS[entry.direction or "forward"])
     return Condition(
-        name, factors, str(entry.mounting or "1"), entry.held_out, entry.direction is not None, tuple(entry.interventions)
+        name, factors, str(entry.mounting or "1"), entry.held_out, entry.direction is not None, tuple(entry.interventions), of_positions
     )
 
 
@@ -210,16 +213,18 @@ def require_roles(given: list[str], quantity: Quantity, place: str) -> None:
 def record_of(run: Run, condition: Condition, series: Series, scales: Scales, place: str) -> Record:
     quantity = QUANTITIES[run.quantity]
     # What a row says of itself is nearer to the truth than the condition's nominal number.
-    factors = dict(condition.factors) | scales.factors(run.actual, f"{place}.actual")
+    actual = {key: given for key, given in run.actual.items() if (key, given) != (LOCKED_AT, MEAN)}
+    of_positions = len(actual) < len(run.actual) or (condition.of_positions and LOCKED_AT not in actual and LOCKED_AT not in series)
+    factors = dict(condition.factors) | scales.factors(actual, f"{place}.actual")
     meant = {"direction", *numbers_of(quantity)}
-    factors = {name: number for name, number in factors.items() if name in meant and name not in series}
+    factors = {name: number for name, number in factors.items() if name in meant and name not in series and not (name == LOCKED_AT and of_positions)}
     if run.direction is not None:
         factors["direction"] = float(DIRECTIONS[run.direction])
     return Record(
         run.id, run.quantity, quantity.unit, run.condition, run.replicate, series[VALUE],
         {name: column for name, column in series.items() if name != VALUE}, factors,
         str(run.mounting or condition.mounting), condition.held_out if run.held_out is None else run.held_out,
-        noise_of(run, quantity, place), tags_of(run, condition, quantity, scales, place),
+        noise_of(run, quantity, place), tags_of(run, condition, quantity, scales, place), of_positions=of_positions and quantity.name in HELD,
     )  # fmt: skip
 
 

@@ -19,6 +19,8 @@ class Condition:
     held_out: bool
     direction_stated: bool
     interventions: tuple[str, ...] = ()
+    # What was held there was measured at positions over a turn of the cranks, and is the mean.
+    of_positions: bool = False
 
 
 @dataclass(frozen=True)

@@ -89,7 +89,8 @@ FACTORS = (
     Key("temperature", "temperature", "K", "40 degC", "of the housing, when steady", 0, 0.0),
     Key("hours", "hours", "s", "1000 h", "operating hours of the unit when it was measured", 0, 0.0),
     Key(LOCKED_AT, LOCKED_AT, "rad", "90 deg",
-        "angle of the input at which a loop, lost motion or stiffness was measured, positive forward; counted as the angles of the same mounting"),
+        "angle of the input at which a loop, lost motion or stiffness was measured, positive forward; counted as the angles of the same mounting;"
+        " `\"mean\"`: of positions over a turn of the cranks"),
     Key("normal_force", "normal_force", "N", "50 N", "pin-on-disc: force on the pin", 0, 0.0),
     Key("sliding_speed", "sliding_speed", "m/s", "0.1 m/s", "pin-on-disc: speed of the contact", 0, 0.0),
     Key("sliding_distance", "sliding_distance", "m", "1 km", "pin-on-disc: way of the contact", 0, 0.0),

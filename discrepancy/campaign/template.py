@@ -29,7 +29,7 @@ load_torque = "100 %"                    # of the rated torque, or "167 N.m"
 temperature = "40 degC"
 hours = "0 h"                            # operating hours of the unit so far
 direction = "forward"                    # or "reverse"
-# locked_at = "90 deg"                   # of loops: angle of the input at which it was locked, if you know it
+# locked_at = "90 deg"                   # of loops: angle of the input at which it was locked, or "mean" of positions over a turn of the cranks
 mounting = "1"                           # a new word whenever unit or encoder was taken off and put back
 {pin_on_disc}
 [conditions.half]

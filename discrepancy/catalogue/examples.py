@@ -136,6 +136,10 @@ CASES: dict[str, tuple[Case, ...]] = {
     ),
     "encoder_eccentricity": (Case("5 um on 50 mm", {"encoder_cos1": 2e-4}),),
     "torque_ripple": (Case("order 156 at 54 Hz, 1e-8 rad/(N m)", {"ripple_cos": 1e-8}),),
+    "locked_position": (
+        Case("where the first component has twice its deviation", {"position_1": 2.0}),
+        Case("where the second has", {"position_2": 2.0}),
+    ),
     "encoder_distortion": (Case("10 arcsec, three screws", {"distortion_cos": 4.8e-5}),),
     "clock_slip": (Case("0.1 %", {"clock_slip": 1e-3}),),
     "sensor_gain": (Case("5 %", {"sensor_gain": 0.05}),),
@@ -167,7 +171,7 @@ PICTURES = {
     "support_compliance": "loop", "raceway_wear": "loop", "load_exponent": "load_wear", "hardness_gradient": "hours",
     "edge_loading": "load_wear", "roller_skidding": "cage", "pin_rotation": "pin_print", "unbalance": "housing",
     "support_hysteresis": "loop", "arrhenius": "warm_wear", "pressure_threshold": "load_wear", "starvation": "hours", "wear_growth": "hours",
-    "race_spall": "burst", "sensor_gain": "trace", "sensor_offset": "trace", "sensor_drift": "trace",
+    "race_spall": "burst", "sensor_gain": "trace", "sensor_offset": "trace", "sensor_drift": "trace", "locked_position": "loop",
 }  # fmt: skip
 
 

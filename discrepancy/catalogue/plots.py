@@ -19,6 +19,7 @@ from discrepancy.catalogue.signature import (
     observed,
     rated,
     turn,
+    turned,
     worn,
 )
 from discrepancy.effects import MODULES
@@ -81,7 +82,13 @@ def curves_of(name: str, cases: tuple[Case, ...], compute: Callable[[Values], tu
 def loop(bench: Bench, name: str, cases: tuple[Case, ...]) -> Figure:
     hot = name == "thermal_expansion"
     at = conditions(bench)["40 K warmer" if hot else "rated"]
-    curves = curves_of(name, cases, lambda v: (LOOP * bench.rated_load, bench.held(at, v, LOOP * bench.rated_load) * ARCSEC))
+    torque = LOOP * bench.rated_load
+    if name in MODULES:
+        turning = bench.held(at, {}, torque)
+        curves = [Curve(WITHOUT, torque, turning * ARCSEC, GREY)]
+        curves += [Curve(c.title, torque, turned(bench, name, c, at, torque, turning) * ARCSEC, colour_of(i + 1)) for i, c in enumerate(cases)]
+    else:
+        curves = curves_of(name, cases, lambda v: (torque, bench.held(at, v, torque) * ARCSEC))
     where = "Input held, torque up and down both ways" + (", 40 K above the reference." if hot else ".")
     return chart(name, "Turning under torque", where, curves, "torque at the output [N m]", "turning [arcsec]", 12, 320)
 

@@ -7,19 +7,23 @@ given in arcsec, lost motion and lag in arcsec, depths in um.
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, part_of
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
+from discrepancy.effects.locked_position import PATTERNS
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.observe import OBSERVED
+from discrepancy.prediction.positions import position_patterns
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 from studies.coupled import COLUMNS
+from studies.hysteresis import LOST_MOTION_SHARE
 from studies.life import peak_of_circle
 
 ORDERS = (1, 2, 39, 40, 78, 80, 120, 121, 156, 234, 279, 361, 1440, 1560)
@@ -214,6 +218,8 @@ def wear_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, floa
 
 def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
     """What a sensor makes of the transmission error and of the input torque."""
+    if MODULES[name].EFFECT.signals == ("hysteresis",):
+        return held_rows(bench, name, case)
     rows, at = [], conditions(bench)
     for c in (*SPECTRUM_AT, *SHOWN_BY_SPEED.get(name, ())):
         series = turn(bench, at[c], {})
@@ -228,11 +234,34 @@ def chain_rows(bench: Bench, name: str, case: Case) -> list[Row]:
     return rows
 
 
+def held_rows(bench: Bench, name: str, case: Case) -> list[Row]:
+    """What a rig makes of a held output's turning."""
+    torque = bench.rated_load * np.array([LOST_MOTION_SHARE, -LOST_MOTION_SHARE, 0.05, 0.2, 0.5, 1.0])
+    turning = bench.held(rated(bench), {}, torque)
+    seen = [(y[0] - y[1], (torque[3] - torque[2]) / (y[3] - y[2]), (torque[5] - torque[4]) / (y[5] - y[4]))
+            for y in (turning, turned(bench, name, case, rated(bench), torque, turning))]  # fmt: skip
+    figures = (("lost motion", "arcsec", ARCSEC), ("stiffness at low torque", "N m/arcmin", 60.0 / ARCSEC), ("stiffness", "N m/arcmin", 60.0 / ARCSEC))
+    return [Row(figure, unit, "rated", factor * without, factor * present) for (figure, unit, factor), without, present in zip(figures, *seen)]
+
+
 def changed(bench: Bench, name: str, case: Case, quantity: str, condition: Condition, series: Floats) -> Floats:
     """A series over one turn as the sensor shows it."""
-    at = {**STARTS, OUTPUT_SPEED: condition.speed / abs(bench.ratio), **case.values}
     record = record_of(quantity, condition, {"angle": np.linspace(0.0, 2.0 * math.pi, len(series), endpoint=False)})
-    return MODULES[name].change(series, record, at.__getitem__, max(abs(series.mean()), series.std()))
+    return as_shown(bench, name, case, condition, record, series)
+
+
+def turned(bench: Bench, name: str, case: Case, condition: Condition, torque: Floats, turning: Floats) -> Floats:
+    """A held output's ``turning`` [rad] under torques [N m] as the rig shows it."""
+    return as_shown(bench, name, case, condition, record_of("hysteresis", condition, {"torque": torque}), turning)
+
+
+def as_shown(bench: Bench, name: str, case: Case, condition: Condition, record: Record, values: Floats) -> Floats:
+    at = {**STARTS, OUTPUT_SPEED: condition.speed / abs(bench.ratio), **case.values}
+
+    def known(parameter: str) -> Any:
+        return position_patterns(bench, record) if parameter == PATTERNS else at[parameter]
+
+    return MODULES[name].change(values, record, known, max(abs(values.mean()), values.std()))
 
 
 def tilt(series: Floats) -> float:

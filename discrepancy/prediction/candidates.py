@@ -5,7 +5,7 @@ from itertools import product
 
 from discrepancy.effects import MODULES
 from discrepancy.model_file import every_effect, halves_of
-from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record
+from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record, is_unplaced
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
 
@@ -24,9 +24,9 @@ MOST_CRANKS = 3
 SPEEDS_DIFFER = 1.1
 
 
-def parameter_of(p: EffectParameter, value: float, name: str = "") -> Parameter:
+def parameter_of(p: EffectParameter, value: float, name: str = "", prior: float | None = None) -> Parameter:
     v = p.variable
-    return Parameter(name or v.name, v.unit, value, v.minimum, v.maximum, p.scale, p.sign, None, v.description)
+    return Parameter(name or v.name, v.unit, value, v.minimum, v.maximum, p.scale, p.sign, prior, v.description)
 
 
 def shown_by(effect: Effect) -> tuple[str, ...]:
@@ -63,6 +63,7 @@ def candidates(
     quantities = list(dict.fromkeys(r.quantity for r in records))
     there = {
         "": True, "output pins": output_pins > 0, "locked output": any(r.tags.get("locked") == "output" for r in records), "speeds": several_speeds(records),
+        "unknown position": any(is_unplaced(r) for r in records),
     }  # fmt: skip
     # Groups of cranks and holes that this reducer does not have.
     beyond = {f"{part} {k}" for part in ("crank", "hole") for k in range(cranks + 1, MOST_CRANKS + 1)}
@@ -75,6 +76,9 @@ def candidates(
             effect = halves[0]
         signals = shown_by(effect)
         if (signals and not set(signals) & set(quantities)) or not there[effect.needs]:
+            continue
+        if part == CHAIN and MODULES[name].PER == "loops":
+            found += loop_candidates(name, effect, records, present.keys() | excluded)
             continue
         if part == CHAIN:
             # Where nobody knows a zero an offset shows nothing.
@@ -103,6 +107,18 @@ def several_speeds(records: Iterable[Record]) -> bool:
     """Whether transmission errors were measured at speeds that differ by more than a tenth."""
     speeds = [abs(r.factors["speed"]) for r in records if r.quantity in (ERROR, ORDERS) and "speed" in r.factors]
     return bool(speeds) and max(speeds) > SPEEDS_DIFFER * min(speeds)
+
+
+def loop_candidates(name: str, effect: Effect, records: Iterable[Record], taken_names: set[str]) -> list[Candidate]:
+    """One for a rig that stood still for all loops, and where these have several conditions one for a rig that was turned between them."""
+    conditions = list(dict.fromkeys(r.condition for r in records if is_unplaced(r) and not r.held_out))
+    found = []
+    for variant, places in (("", [""]), (".each", [f"[{condition}]" for condition in conditions if len(conditions) > 1])):
+        amplitudes = tuple(parameter_of(p, 0.0, f"{p.variable.name}{place}", MODULES[name].PRIOR) for place in places for p in effect.amplitudes())
+        if amplitudes and not any(a.name in taken_names for a in amplitudes):
+            title = f"{effect.title}, another in each condition" if variant else effect.title
+            found.append(Candidate(name + variant, title, amplitudes, (), (), effect.signals, CHAIN))
+    return found
 
 
 def chain_candidates(

@@ -2,10 +2,13 @@
 
 from collections.abc import Mapping
 from itertools import chain
+from typing import Any
 
 from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
+from discrepancy.effects.locked_position import PATTERNS
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, condition_of
+from discrepancy.prediction.positions import position_patterns
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
@@ -28,16 +31,19 @@ class Chain:
 
     def changed(self, predicted: Floats, record: Record, values: Mapping[str, float], acting: list[str], size: float) -> Floats:
         """``predicted`` as the chain of ``acting`` effects shows it; ``size`` is that of the quantity."""
-        places = {"quantity": record.quantity, "mounting": record.mounting, "campaign": ""}
+        # Loops have one position in common, or one in each condition.
+        places = {"quantity": (record.quantity,), "mounting": (record.mounting,), "campaign": ("",), "loops": ("", record.condition)}
         for name in acting:
             module = MODULES[name]
             place = places[module.PER]
 
-            def at(parameter: str, place: str = place) -> float:
+            def at(parameter: str, place: tuple[str, ...] = place) -> Any:
                 if parameter == OUTPUT_SPEED:
                     return condition_of(self.bench, record).speed / abs(self.bench.ratio)
-                key = f"{parameter}[{place}]" if place else parameter
-                return values.get(key, self.present.get(key, STARTS[parameter]))
+                if parameter == PATTERNS:
+                    return position_patterns(self.bench, record)
+                keys = [f"{parameter}[{name}]" if name else parameter for name in place]
+                return sum(values.get(key, self.present.get(key, STARTS[parameter])) for key in keys)
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):
                 predicted = module.change(predicted, record, at, size)

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Protocol, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition, places_of_zero, zero_of
@@ -182,12 +183,17 @@ class OverTorque:
         return self.along(values, self.places(values))
 
     def along(self, values: Values, torques: Floats) -> Floats:
+        path, places = self.way(values, torques)
+        return self.bench.held(self.condition, values, path)[places]
+
+    def way(self, values: Values, torques: Floats) -> tuple[Floats, npt.NDArray[np.intp] | slice]:
+        """The torques [N m] that are gone through, and where ``torques`` are among them."""
         path, lead = entered(torques, self.bench.rated_load)
         if not self.bench.remembers(values):
-            return self.bench.held(self.condition, values, path)[lead:]
+            return path, slice(lead, None)
         step, least = (share * self.bench.rated_load for share in (TORQUE_STEP if self.is_exact else self.bench.torque_step, NEAR_NOTHING))
-        path, places = self.bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
-        return self.bench.held(self.condition, values, path)[places[lead:]]
+        fine, places = self.bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
+        return fine, places[lead:]
 
 
 def moved(angles: Floats, series: Floats, by: float) -> Floats:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from discrepancy.problem import LOCKED_AT, Parameter, Record
+from discrepancy.problem import Parameter, Record, is_loop
 from fmu_src.arrays import Floats
 
 QUANTITIES = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
@@ -30,13 +30,6 @@ def place(record: Record) -> str:
 def is_error(name: str) -> bool:
     """Whether a value is one of these errors, and nothing that a reducer knows of."""
     return name.startswith("model_error")
-
-
-def is_loop(record: Record) -> bool:
-    """Whether a record is the output's turning over its torque, predicted as a mean over positions: nobody said where the input was locked."""
-    if LOCKED_AT in record.factors or LOCKED_AT in record.axes:
-        return False
-    return record.quantity == "hysteresis" and record.tags.get("locked") != "output" and "torque" in record.axes
 
 
 def parameters(records: Sequence[Record]) -> list[Parameter]:

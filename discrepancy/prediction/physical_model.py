@@ -20,10 +20,10 @@ from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import WHOLE_SWEEP
-from discrepancy.prediction.model_error import LOOPS, is_loop, with_error
+from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.observe import CHANGES, OBSERVED
 from discrepancy.prediction.order_curves import curve_of, orders_shown
-from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record
+from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table

@@ -53,6 +53,9 @@ def write_campaign(folder: Path, name: str, design: Design, runs: list[Run], sea
         lines += [f"[conditions.{key}]", f'{style.speed_at}_speed = "{speed:.6g} rpm"', f'load_torque = "{at.load:.6g} N.m"',
                   f'temperature = "{at.temperature - 273.15:.6g} degC"', f'hours = "{at.hours / HOUR:.6g} h"',
                   f'direction = "{"forward" if at.direction > 0 else "reverse"}"', f'mounting = "{design.mounting.get(key, "1")}"']  # fmt: skip
+        if any(s.quantity == "hysteresis" and s.condition == key for s in design.series):
+            # The plain reducer's loops are means over a turn of the cranks.
+            lines.append('locked_at = "mean"')
         if key in design.held_out:
             lines.append("held_out = true")
         lines.append("")

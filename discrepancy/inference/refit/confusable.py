@@ -40,9 +40,16 @@ def price(candidate: Candidate, sizes: Floats) -> float:
 
 
 def penalised(rival: Refit) -> float:
-    """Chi-square with the price of what is fitted."""
+    """Chi-square with the price of what is fitted, as far as it was not known before."""
     values = rival.fit.values
-    return rival.fit.chi2 + sum(price(c, np.array([(values[p.name] - p.off) / p.scale for p in c.amplitudes])) for c in rival.candidates)
+    whole = sum(price(c, np.array([(values[p.name] - p.off) / p.scale for p in c.amplitudes])) for c in rival.candidates)
+    return rival.fit.chi2 + whole - PER_PARAMETER * known_before(rival)
+
+
+def known_before(rival: Refit) -> float:
+    """How many of the parameters of its effects are what their priors say and not what the data say: of each the share of its variance."""
+    variances = {p.name: float(v) for p, v in zip(rival.fit.parameters, np.diag(rival.covariance))}
+    return sum(float(np.clip(variances[p.name] / p.prior**2, 0.0, 1.0)) for p in rival.own if p.prior)
 
 
 def ends_at_a_bound(rival: Refit) -> bool:
