@@ -10,6 +10,8 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
+from discrepancy.held_names import HELD as HELD
+from discrepancy.held_names import LOCKED_AT as LOCKED_AT
 from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 
@@ -21,8 +23,6 @@ FREE_ZERO = ("transmission_error", "hysteresis")
 ERROR, ORDERS = "transmission_error", "transmission_order"
 # Quantities whose zero may be said to be known; an order table has a mean then, order 0.
 WITH_ZERO = (*FREE_ZERO, ORDERS)
-# Quantities measured with one side held, and the factor that says where that was.
-HELD, LOCKED_AT = ("hysteresis", "lost_motion", "torsional_stiffness"), "locked_at"
 # Said in place of an angle: what was measured is a mean over a turn of the cranks.
 MEAN = "mean"
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.

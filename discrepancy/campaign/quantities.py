@@ -6,7 +6,7 @@ it; a new quantity is one more entry here.
 
 from dataclasses import dataclass
 
-from discrepancy.problem import HELD, LOCKED_AT
+from discrepancy.held_names import HELD, LOCKED_AT
 
 # The role of the column (or number) that holds the quantity itself.
 VALUE = "value"
