@@ -53,7 +53,7 @@ CASES = (
     Case("clearance +2 um, at 140 deg", at(140.0), values={CLEARANCE: 2e-6}),
     Case("clearance +0.2 um, at 140 deg", at(140.0), values={CLEARANCE: 2e-7}),
     Case("clearance +0.2 um, at 140 deg, noise 2 arcsec", at(140.0), noise=2.0, values={CLEARANCE: 2e-7}),
-    Case("friction of the cranks' rollers 0.02, at 140 deg", at(140.0), values={"friction_coefficient": 0.02}),
+    Case("friction of the flanks 0.05, at 140 deg", at(140.0), values={"friction_coefficient": 0.05}),
 )
 
 

@@ -206,7 +206,7 @@ def test_a_large_clearance_at_a_stated_position_is_named(tmp_path):
 
 @pytest.mark.campaign
 def test_friction_is_named_beside_an_unknown_position(tmp_path):
-    answer = answered(campaign_of(tmp_path / "c", 140.0, friction_coefficient=0.02))
+    answer = answered(campaign_of(tmp_path / "c", 140.0, friction_coefficient=0.05))
     assert {e["name"] for e in answer.effects} == {"stribeck_friction", POSITION}
 
 
