@@ -6,12 +6,13 @@ import numpy as np
 from scipy.special import ndtri
 
 from discrepancy.as_told import told_name
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.screening.screen import Columns
 from discrepancy.inference.verdict import Diagnosis
-from discrepancy.problem import BASE, CHAIN, LOCKED_AT, MEAN, Candidate
+from discrepancy.problem import BASE, CHAIN, MEAN, Candidate
 from discrepancy.scales import of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.table import Table

@@ -9,12 +9,13 @@ import numpy as np
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.plausible import thinned
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.fineness import fast_noise
 from discrepancy.prediction.physical_model import defined
 from discrepancy.prediction.positions import departures
-from discrepancy.problem import LOCKED_AT, MEAN, Record, is_unplaced
+from discrepancy.problem import MEAN, Record, is_unplaced
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.units import conversion

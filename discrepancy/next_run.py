@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
@@ -20,7 +21,7 @@ from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, LOCKED_AT, Record, is_unplaced
+from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.verdict import Answer

@@ -10,8 +10,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
-from discrepancy.held_names import HELD as HELD
-from discrepancy.held_names import LOCKED_AT as LOCKED_AT
+from discrepancy.held_names import LOCKED_AT
 from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 

@@ -12,6 +12,7 @@ from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.unplaced_loops import ARCSEC, Case, measured, there_and_back
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.next_experiment import Experiment
 from discrepancy.inference.refit.confusable import PER_PARAMETER, penalised
@@ -23,7 +24,7 @@ from discrepancy.prediction.bench import HELD_ANGLES
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.positions import departures, position_scores
-from discrepancy.problem import LOCKED_AT, Candidate, Parameter, Record, is_loop, is_unplaced
+from discrepancy.problem import Candidate, Parameter, Record, is_loop, is_unplaced
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
 from studies import coupled

@@ -13,7 +13,8 @@ from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, T
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
-from discrepancy.problem import HELD, LOCKED_AT, MEAN, WITH_ZERO, Parameter, Record
+from discrepancy.held_names import HELD, LOCKED_AT
+from discrepancy.problem import MEAN, WITH_ZERO, Parameter, Record
 from discrepancy.repetitions import copies
 from fmu_src.faults import InputFault
 from fmu_src.reading import reading

@@ -5,9 +5,10 @@ from collections.abc import Hashable, Mapping
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.units import Condition
-from discrepancy.problem import LOCKED_AT, Record
+from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
 Values = Mapping[str, float]
