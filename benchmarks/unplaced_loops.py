@@ -15,9 +15,8 @@ import numpy as np
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.model_file import load_model
-from discrepancy.prediction.bench import TORQUE_STEP, Bench
-from discrepancy.prediction.curves import NEAR_NOTHING
-from discrepancy.prediction.torque_way import entered, finely
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.torque_way import way
 from discrepancy.prediction.units import Condition
 from discrepancy.verdict import Answer, diagnose
 from fmu_src.arrays import Floats
@@ -69,10 +68,9 @@ def measured(case: Case, folder: Path, reducer: str, shares: tuple[float, ...] =
     lines = [f'[campaign]\nname = "loops"\nreducer = "{reducer}"']
     for k, (share, degrees) in enumerate(zip(shares, case.degrees)):
         torque = there_and_back(share * bench.rated_load)
-        path, lead = entered(torque, bench.rated_load)
-        path, places = finely(path, TORQUE_STEP * bench.rated_load, NEAR_NOTHING * bench.rated_load)
+        path, places = way(bench, case.values, torque)
         angle = None if degrees is None else float(np.radians(degrees)) / abs(bench.ratio)
-        turning = bench.held(Condition(bench.rated_speed, bench.rated_load, locked_at=angle), case.values, path)[places[lead:]] / ARCSEC
+        turning = bench.held(Condition(bench.rated_speed, bench.rated_load, locked_at=angle), case.values, path)[places] / ARCSEC
         lines += [f"[conditions.c{k}]", 'temperature = "20 degC"', case.stated]
         for replicate in (1, 2):
             shown = (turning + case.noise * rng.standard_normal(len(torque))).tolist()

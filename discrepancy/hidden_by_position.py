@@ -6,13 +6,14 @@ import numpy as np
 from scipy.special import ndtri
 
 from discrepancy.as_told import told_name
-from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.screening.screen import Columns
+from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
-from discrepancy.problem import BASE, CHAIN, MEAN, Candidate
+from discrepancy.locked_doubts import REMEDY
+from discrepancy.problem import BASE, CHAIN, Candidate
 from discrepancy.scales import of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.table import Table
@@ -24,7 +25,7 @@ HIDDEN, MOST_SAID = 0.1, 3
 
 def hidden_by_position(doctor: Diagnostician, found: Diagnosis, tables: Sequence[Table]) -> list[str]:
     """One sentence where a position is named: how much of what looks like it may be in the loops besides; empty where it is not."""
-    holding = next((m for m in found.fits.members if any(c.name.partition(".")[0] == POSITION for c in m.candidates)), None)
+    holding = next((m for m in found.fits.members if POSITION in map(effect_of, m.candidates)), None)
     columns: Columns | None = getattr(doctor, "columns", None)
     if holding is None or columns is None:
         return []
@@ -42,7 +43,7 @@ def hidden_by_position(doctor: Diagnostician, found: Diagnosis, tables: Sequence
     amounts = ", ".join(text for _, text in hidden)
     return [
         f"a loop at one position looks like one with other play: where the input was locked hides {amounts} (95 %), if they are there;"
-        f' state {LOCKED_AT} = "90 deg", the angle of the input, or measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
+        f" {REMEDY}"
     ]
 
 

@@ -20,6 +20,11 @@ from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.units import conversion
 
+REMEDY = (
+    f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition;'
+    f' or measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
+)
+
 
 def locked_doubts(campaign: Campaign) -> list[Finding]:
     """One finding where loops at one position depart from their mean by more than the noise of those measured; nothing without a reducer."""
@@ -44,9 +49,7 @@ def locked_doubts(campaign: Campaign) -> list[Finding]:
         f" by {readable(off * arcsec)} arcsec (root mean square, at most {readable(float(np.abs(apart).max()) * arcsec)}), and the noise is"
         f" {readable(noise * arcsec)} arcsec: what is named may be that"
     )
-    several = f'measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
-    remedy = f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition; or {several}'
-    return [Finding(WARNING, "position of loops", text, remedy)]
+    return [Finding(WARNING, "position of loops", text, REMEDY)]
 
 
 def noise_of(loops: Sequence[Record]) -> float:
@@ -60,4 +63,3 @@ def noise_of(loops: Sequence[Record]) -> float:
         apart = [float(np.std(a - b)) / np.sqrt(2.0) for a, b in combinations(runs, 2)]
         found.append(max(record.stated_noise or fast_noise(np.asarray(record.values, float)), float(np.median(apart)) if apart else 0.0))
     return min(found)
-

@@ -23,7 +23,8 @@ def doubts(campaign: "Campaign") -> list[dict[str, Any]]:
     return [as_told(finding) for finding in angle_doubts(campaign)]
 
 
-def without_doubts(warnings: Sequence[str], campaign: "Campaign") -> list[str]:
-    """Warnings of a result less those that ``doubts`` tells."""
-    told = {finding.sentence for finding in angle_doubts(campaign)}
-    return [text for text in warnings if text not in told]
+def apart(warnings: Sequence[str], campaign: "Campaign") -> tuple[list[dict[str, Any]], list[str]]:
+    """``doubts``, and the warnings of a result less those that they tell."""
+    found = angle_doubts(campaign)
+    told = {finding.sentence for finding in found}
+    return [as_told(finding) for finding in found], [text for text in warnings if text not in told]

@@ -16,7 +16,7 @@ from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
-from workbench.doubts import doubts, without_doubts
+from workbench.doubts import apart
 
 # The row of an order is drawn up to this one.
 MOST_ORDERS = 200
@@ -55,9 +55,10 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     columns = Columns()
     named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
     page = comparison.page(result)
+    doubts, warnings = apart(page.warnings, model.campaign)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
-        "doubts": doubts(model.campaign), "warnings": without_doubts(page.warnings, model.campaign), "cards": [asdict(c) for c in page.cards],
+        "doubts": doubts, "warnings": warnings, "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],

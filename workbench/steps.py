@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
-from workbench.doubts import doubts, without_doubts
+from workbench.doubts import apart
 from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
@@ -91,7 +91,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down, variant_text
 
     page = page_data(page_of(answer))
-    page["warnings"] = without_doubts(page["warnings"], answer.model.campaign)
+    doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
     effects = []
     for effect in answer.effects:
         effects.append({
@@ -109,7 +109,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [law.text for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
-        "doubts": doubts(answer.model.campaign),
+        "doubts": doubts,
     }  # fmt: skip
 
 

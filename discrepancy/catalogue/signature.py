@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 
 from discrepancy.catalogue.examples import BACKGROUND, HOUR, Case, part_of
-from discrepancy.effects import MODULES, OUTPUT_SPEED, STARTS
-from discrepancy.effects.locked_position import PATTERNS
+from discrepancy.effects import MODULES, STARTS
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.chain import ASKED
 from discrepancy.prediction.observe import OBSERVED
-from discrepancy.prediction.positions import position_patterns
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -247,21 +246,21 @@ def held_rows(bench: Bench, name: str, case: Case) -> list[Row]:
 def changed(bench: Bench, name: str, case: Case, quantity: str, condition: Condition, series: Floats) -> Floats:
     """A series over one turn as the sensor shows it."""
     record = record_of(quantity, condition, {"angle": np.linspace(0.0, 2.0 * math.pi, len(series), endpoint=False)})
-    return as_shown(bench, name, case, condition, record, series)
+    return as_shown(bench, name, case, record, series)
 
 
 def turned(bench: Bench, name: str, case: Case, condition: Condition, torque: Floats, turning: Floats) -> Floats:
     """A held output's ``turning`` [rad] under torques [N m] as the rig shows it."""
-    return as_shown(bench, name, case, condition, record_of("hysteresis", condition, {"torque": torque}), turning)
+    return as_shown(bench, name, case, record_of("hysteresis", condition, {"torque": torque}), turning)
 
 
-def as_shown(bench: Bench, name: str, case: Case, condition: Condition, record: Record, values: Floats) -> Floats:
-    at = {**STARTS, OUTPUT_SPEED: condition.speed / abs(bench.ratio), **case.values}
+def as_shown(bench: Bench, name: str, case: Case, record: Record, values: Floats) -> Floats:
+    known = {**STARTS, **case.values}
 
-    def known(parameter: str) -> Any:
-        return position_patterns(bench, record) if parameter == PATTERNS else at[parameter]
+    def at(parameter: str) -> Any:
+        return ASKED[parameter](bench, record) if parameter in ASKED else known[parameter]
 
-    return MODULES[name].change(values, record, known, max(abs(values.mean()), values.std()))
+    return MODULES[name].change(values, record, at, max(abs(values.mean()), values.std()))
 
 
 def tilt(series: Floats) -> float:

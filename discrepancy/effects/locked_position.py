@@ -27,7 +27,7 @@ PER = "loops"
 PRIOR = 1.0
 COMPONENTS = 5
 PARTS = tuple(f"position_{k}" for k in range(1, COMPONENTS + 1))
-# What ``at`` knows besides: the components at the record's samples (3, n) [rad].
+# What ``at`` knows besides: the components at the record's samples (COMPONENTS, n) [rad].
 PATTERNS = "position_patterns"
 EFFECT = Effect(
     0, "input locked at one position, not at many", "y = x + sum_k a_k p_k(T), p_k: components of what loops at single positions depart from their mean by",

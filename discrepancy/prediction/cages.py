@@ -27,9 +27,9 @@ PLACES = 64
 QUARTERS = (0.25, 0.5, 0.75)
 # A place that is known so well is looked for once more, so far to either side, at so many places.
 KNOWN, BESIDE, LOOKS = 0.9, 0.08, 17
-# Places at which the ripple is computed, at most, and what a series through twice as many misses of what one through half of them does.
+# Places at which the ripple is computed, at most; by so much a series through twice as many misses less.
 MOST_PLACES, DOUBLED = 16, 3.0
-# What that may be, of what a prediction may err.
+# What it may miss, of what a prediction may err.
 HALF = 0.5
 # Samples that one of the noise remembers.
 LAGS = 10

@@ -1,6 +1,6 @@
 """What rig and sensors make of what the reducer does, for one campaign: the effects of ``discrepancy.effects`` at a record's own values."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import chain
 from typing import Any
 
@@ -13,6 +13,10 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
 PARAMETERS = {p.variable.name for m in MODULES.values() for p in m.EFFECT.parameters}
+# By a name of its own, what the base model says of a record that an effect asks for.
+ASKED: dict[str, Callable[[Bench, Record], Any]] = {
+    OUTPUT_SPEED: lambda bench, record: condition_of(bench, record).speed / abs(bench.ratio), PATTERNS: position_patterns,
+}  # fmt: skip
 # By the parameter without which it does nothing, the effect.
 OWNERS = {p.variable.name: name for name, m in MODULES.items() for p in m.EFFECT.amplitudes()}
 
@@ -38,11 +42,9 @@ class Chain:
             place = places[module.PER]
 
             def at(parameter: str, place: tuple[str, ...] = place) -> Any:
-                if parameter == OUTPUT_SPEED:
-                    return condition_of(self.bench, record).speed / abs(self.bench.ratio)
-                if parameter == PATTERNS:
-                    return position_patterns(self.bench, record)
-                keys = [f"{parameter}[{name}]" if name else parameter for name in place]
+                if parameter in ASKED:
+                    return ASKED[parameter](self.bench, record)
+                keys = [f"{parameter}[{where}]" if where else parameter for where in place]
                 return sum(values.get(key, self.present.get(key, STARTS[parameter])) for key in keys)
 
             if any(at(p.variable.name) != 0.0 for p in module.EFFECT.amplitudes()):

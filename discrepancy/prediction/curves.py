@@ -15,13 +15,11 @@ from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition, places_of_zero, zero_of
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
-from discrepancy.prediction.torque_way import entered, finely
+from discrepancy.prediction.torque_way import NEAR_NOTHING, entered, way
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 
-# Share of the rated torque below which a loop has no nodes: the output floats.
-NEAR_NOTHING = 0.009
 # Fewer samples than these are computed where they are.
 LEAST_SAMPLES = 16
 # Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
@@ -187,13 +185,8 @@ class OverTorque:
         return self.bench.held(self.condition, values, path)[places]
 
     def way(self, values: Values, torques: Floats) -> tuple[Floats, npt.NDArray[np.intp] | slice]:
-        """The torques [N m] that are gone through, and where ``torques`` are among them."""
-        path, lead = entered(torques, self.bench.rated_load)
-        if not self.bench.remembers(values):
-            return path, slice(lead, None)
-        step, least = (share * self.bench.rated_load for share in (TORQUE_STEP if self.is_exact else self.bench.torque_step, NEAR_NOTHING))
-        fine, places = self.bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
-        return fine, places[lead:]
+        """``torque_way.way`` as finely as the bench asks for."""
+        return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step)
 
 
 def moved(angles: Floats, series: Floats, by: float) -> Floats:

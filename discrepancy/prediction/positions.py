@@ -3,10 +3,10 @@
 import numpy as np
 
 from discrepancy.effects.locked_position import COMPONENTS
-from discrepancy.prediction.bench import HELD_ANGLES, TORQUE_STEP, Bench
-from discrepancy.prediction.curves import NEAR_NOTHING, OverTorque, nodes_of
+from discrepancy.prediction.bench import HELD_ANGLES, Bench
+from discrepancy.prediction.curves import OverTorque, nodes_of
 from discrepancy.prediction.lives import SHORT_CYCLE
-from discrepancy.prediction.torque_way import entered, finely
+from discrepancy.prediction.torque_way import way
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -22,9 +22,8 @@ def departures(bench: Bench, record: Record) -> Floats:
 
 def departures_along(bench: Bench, torques: Floats) -> Floats:
     """The same under torques [N m] at rated speed and load."""
-    path, lead = entered(torques, bench.rated_load)
-    path, places = finely(path, TORQUE_STEP * bench.rated_load, NEAR_NOTHING * bench.rated_load)
-    turning = bench.held_turnings(Condition(bench.rated_speed, bench.rated_load), {}, path, HELD_ANGLES, SHORT_CYCLE)[:, places[lead:]]
+    path, places = way(bench, {}, torques)
+    turning = bench.held_turnings(Condition(bench.rated_speed, bench.rated_load), {}, path, HELD_ANGLES, SHORT_CYCLE)[:, places]
     off = turning - turning.mean(axis=0)
     found: Floats = off - off.mean(axis=1, keepdims=True)
     return found

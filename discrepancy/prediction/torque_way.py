@@ -1,12 +1,27 @@
 """The way of a held output's torque: into a loop, through it, and between its samples."""
 
+from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from fmu_src.arrays import Floats
 from studies.hysteresis import LOST_MOTION_SHARE
+
+# Share of the rated torque below which a loop has no nodes: the output floats.
+NEAR_NOTHING = 0.009
+
+
+def way(bench: Bench, values: Mapping[str, float], torques: Floats, longest: float = TORQUE_STEP) -> tuple[Floats, npt.NDArray[np.intp] | slice]:
+    """The torques [N m] that are gone through, and where ``torques`` are among them: with what remembers in steps of ``longest`` of the rated one."""
+    path, lead = entered(torques, bench.rated_load)
+    if not bench.remembers(values):
+        return path, slice(lead, None)
+    step, least = longest * bench.rated_load, NEAR_NOTHING * bench.rated_load
+    fine, places = bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
+    return fine, places[lead:]
 
 
 def entered(torques: Floats, rated: float) -> tuple[Floats, int]:

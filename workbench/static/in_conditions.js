@@ -3,8 +3,6 @@
 import { choose, h, note, table, words } from "./dom.js";
 
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
-// Measured with one side held: where that was matters.
-const HELD = ["hysteresis", "lost_motion", "torsional_stiffness"];
 const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", temperature: "degC", hours: "h", locked_at: "deg" };
 
 // What is needed first, then what is not sure: each with the place where it is answered.
@@ -75,10 +73,12 @@ function amount(key, text, onchange, id) {
 }
 
 export function conditions(bag) {
-  const { data, wish, putIn } = bag;
+  const { data, choices, wish, putIn } = bag;
   const all = data.proposal.conditions,
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
-    offered = ["load_torque", "temperature", ...(data.proposal.runs.some((r) => HELD.includes(r.quantity.value)) ? ["locked_at"] : [])];
+    // Where an input was locked matters to what is measured with it held.
+    locks = data.proposal.runs.some((r) => choices.quantities[r.quantity.value]?.roles.locked_at),
+    offered = ["load_torque", "temperature", ...(locks ? ["locked_at"] : [])];
   const keys = CONDITION.filter((k) => used.has(k) || (k === "output_speed" && !used.has("input_speed")) || offered.includes(k));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],

@@ -48,8 +48,8 @@ def penalised(rival: Refit) -> float:
 
 def known_before(rival: Refit) -> float:
     """How many of the parameters of its effects are what their priors say and not what the data say: of each the share of its variance."""
-    variances = {p.name: float(v) for p, v in zip(rival.fit.parameters, np.diag(rival.covariance))}
-    return sum(float(np.clip(variances[p.name] / p.prior**2, 0.0, 1.0)) for p in rival.own if p.prior)
+    priors = {p.name: p.prior for p in rival.own if p.prior}
+    return sum(float(np.clip(rival.covariance[k, k] / priors[p.name] ** 2, 0.0, 1.0)) for k, p in enumerate(rival.fit.parameters) if p.name in priors)
 
 
 def ends_at_a_bound(rival: Refit) -> bool:
