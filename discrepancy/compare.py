@@ -21,6 +21,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures, too_soft
+from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import ModelFile
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
@@ -79,7 +80,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     floating = floating_of(model.campaign)
     runs = [run | {"near_no_torque": floating.get(run["run"], 0)} for run in runs_of(space, predictions)]
     found = outlying(space.records)
-    doubts = [f"{d.text}; {d.remedy}" for d in doubts_of(zip(space.records, predictions), campaign)]
+    doubts = [f"{d.text}; {d.remedy}" for d in (*doubts_of(zip(space.records, predictions), campaign), *locked_doubts(campaign))]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model))

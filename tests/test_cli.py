@@ -45,7 +45,7 @@ def test_solve_options_act(capsys, options, lag):
     assert json_of(capsys, "solve", *RIGID, *options)["mean_lag_arcsec"] == pytest.approx(lag, rel=0.005)
 
 
-@pytest.mark.parametrize("arguments", [("solve", "--positions", "8"), ("hysteresis", "--steps", "4", "--angles", "1")])
+@pytest.mark.parametrize("arguments", [("solve", "--positions", "8"), ("hysteresis", "--steps", "4", "--angles", "1"), ("modes",)])
 def test_a_torque_that_no_reducer_takes_is_answered_and_doubted(capsys, arguments):
     assert main([*arguments, "--torque", "-1670", "--json"]) == 0
     said = capsys.readouterr()

@@ -12,6 +12,7 @@ from benchmarks.blind_trial.generator.folder import write_campaign
 from benchmarks.unplaced_loops import ARCSEC, Case, measured, there_and_back
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
+from discrepancy.compare import compare
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.next_experiment import Experiment
@@ -82,6 +83,9 @@ def test_a_stated_mean_is_predicted_as_before_and_doubted_by_nobody(tmp_path):
     assert locked_doubts(mean) == []
     [doubt] = locked_doubts(unstated)
     assert 'locked_at = "mean"' in doubt.remedy
+    # And beside what is compared, where a browser meets it.
+    told = [compare(model.file, campaign, model=model).warnings for model, campaign in zip(models, (mean, unstated))]
+    assert [sum("where the input was locked" in text for text in warnings) for warnings in told] == [0, 1]
 
 
 def test_what_a_row_or_a_run_says_is_nearer_than_its_condition(tmp_path):

@@ -112,11 +112,12 @@ def modes(options: argparse.Namespace) -> int:
     settings = settings_of(options, reducer)
     cases = [(held, loaded) for held in (True, False) for loaded in (True, False)] if options.every else [(not options.free, True)]
     unloaded = parse_setting("output.load_torque=0", [reducer.plant, reducer.wear])
+    beyond = told_overload(reducer, settings)
     with task("linearising the plant in motion"):
         found = {(held, loaded): natural_modes(reducer, settings if loaded else [*settings, unloaded], held) for held, loaded in cases}
     if options.json:
         told = [{"input": "held" if held else "free", "loaded": loaded, "modes": [vars(mode) for mode in some]} for (held, loaded), some in found.items()]
-        screen.json_text({"reducer": reducer.name, "cases": told} if options.every else {"reducer": reducer.name, **told[0]})
+        screen.json_text({"reducer": reducer.name} | ({"cases": told} if options.every else told[0]) | beyond)
     else:
         for (held, loaded), some in found.items():
             show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)

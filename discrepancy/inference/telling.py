@@ -85,8 +85,7 @@ class Teller:
         for r in rivals:
             if r.name not in names:
                 worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
-                rejected.append({"name": r.name, "chi2_difference": float(worse),
-                                 "reason": f"fits worse by {worse:.1f} in chi-square" if members else
+                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": why_not(r, members[0], worse) if members else
                                  "not significant after correction for multiplicity"})
         for s in self.scores.values():
             if s.name not in names and not any(x["name"] == s.name for x in rejected):
@@ -135,3 +134,11 @@ class Teller:
         after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
         held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}
         return float(before), float(after)
+
+
+def why_not(rival: Refit, first: Refit, worse: float) -> str:
+    """Why a rival whose chi-square lies so much above that of what stands first is turned down."""
+    if worse >= 0.0:
+        return f"fits worse by {worse:.1f} in chi-square"
+    more = len(rival.own) - len(first.own)
+    return f"fits better by {-worse:.1f} in chi-square, with " + (f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely")

@@ -110,13 +110,14 @@ def unsettled(rivals: Sequence[Refit], members: Sequence[Refit], final: Refit, m
 
     Mostly such a fit is a simpler effect in disguise (a seat that never slips is a spring); it stands beside that one where the data
     support it as well, or where it puts the cause elsewhere: into the reducer and not into the instruments, or the other way round.
+    A number of the base model leaves none out that is as well supported, and stands itself beside no effect.
     """
     part = final.candidates[0].part
     found = []
     for r in rivals:
         other = r.candidates[0].part
-        if r not in members and BASE not in (part, other):
-            elsewhere = (part == CHAIN) != (other == CHAIN)
+        if r not in members and other != BASE:
+            elsewhere = part != BASE and (part == CHAIN) != (other == CHAIN)
             if penalised(r) - penalised(final) <= (margin if elsewhere else SUPPORTED):
                 found.append(r)
     return found
