@@ -4,7 +4,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from scipy.special import chdtrc
+from scipy.special import chdtrc, fdtrc
 
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -16,7 +16,7 @@ from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
-from discrepancy.inference.selection import Selection
+from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, CHAIN, Candidate, Model
@@ -24,6 +24,8 @@ from fmu_src.progress import say
 
 # Level of what is gained in earnest: far from that of the screening, which is the test.
 BY_CHANCE = 0.2
+# Of a change of which calibrations leave less than this share, squared, to first order, a refit may show much more; so many effects are tried.
+HIDDEN, MOST_HIDDEN = 0.1, 3
 # So many of the nearest effects are said on the way.
 NEAREST = 3
 
@@ -132,6 +134,8 @@ class Diagnostician:
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
         p_screen = min(p_screen, p_first)
         self.say_scores()
+        if settings.sure_level <= p_screen:
+            p_screen = min(p_screen, self.p_refitted())
         p_local = min((g.p for g in local.groups), default=1.0)
         by_place = bool(local.findings)
         # where the misfit is beyond doubt, or unused runs may confirm what is named, naming needs less
@@ -196,6 +200,20 @@ class Diagnostician:
         # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
         shown = judge if len(members) > 1 else judgement.held_out(members)
         return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+
+    def p_refitted(self) -> float:
+        """p over all effects of the best refit of those that calibrations hide; 1 where none is worth one.
+
+        An effect that halves the wear, and a wear coefficient that doubles it, leave each other little: a small difference of two changes
+        that are far from linear, of which a score at the base fit sees a part.
+        """
+        hidden = sorted((s for s in self.screening.scores if s.left < HIDDEN and s.p_single < WORTHWHILE), key=lambda s: s.p_single)
+        fits = self.selection.race("fitting what calibrations hide", few_of_each(hidden)[:MOST_HIDDEN])
+        if not fits:
+            return 1.0
+        best = self.refits.renewed(min(fits, key=penalised))
+        dof = min((e.dof for e in estimates(self.space, best)), default=1e6)
+        return min(1.0, float(fdtrc(len(best.own), dof, max(best.gain, 0.0) / len(best.own))) * len(self.screening.scores))
 
     def beyond_chance(self, final: Refit) -> bool:
         """Whether a fit gains in earnest more than the best of all candidates may by chance: scores are made of rough predictions."""

@@ -19,6 +19,8 @@ from discrepancy.problem import BASE, Candidate
 # What has a name and leads to a refit.
 Named = TypeVar("Named", Score, Refit)
 
+# Level of one effect alone from which a refit is worthwhile.
+WORTHWHILE = 0.05
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
@@ -70,7 +72,7 @@ class Selection:
     # one ----------------------------------------------------------------------------------
     def singles(self) -> list[Refit]:
         """Refits of the candidates that may win alone."""
-        scores = [s for s in self.screening.scores if s.p_single < 0.05]
+        scores = [s for s in self.screening.scores if s.p_single < WORTHWHILE]
         if not scores:
             return []
         top = scores[0].statistic

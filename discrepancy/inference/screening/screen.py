@@ -48,7 +48,8 @@ class Columns:
 
 @dataclass(frozen=True)
 class Score:
-    """Result of one candidate.  ``start`` are parameter values from which to refit."""
+    """Result of one candidate.  ``start`` are parameter values from which to refit, ``left`` the share of their change, squared, that calibrations
+    leave to first order."""
 
     name: str
     statistic: float
@@ -57,6 +58,7 @@ class Score:
     start: dict[str, float]
     second_start: dict[str, float] | None
     best_block: int
+    left: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -280,7 +282,10 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         made = [_start(candidates[k], columns.blocks[i], a) for _, i, a in starts]
         second = next((m for (t, i, _), m in zip(starts[1:], made[1:])
                        if columns.blocks[i].shape != columns.blocks[starts[0][1]].shape and t > 0.6 * starts[0][0]), None)
-        scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1]))
+        own, amplitude = columns.blocks[starts[0][1]].columns, starts[0][2]
+        whole = float(np.sum((columns.values[:, own] @ amplitude) ** 2))
+        left = float(amplitude @ gram[own, own] @ amplitude) / whole if whole > 0.0 else 1.0
+        scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1], left))
     scores.sort(key=lambda s: (-s.statistic))
     return Screen(scores, columns.blocks)
 
