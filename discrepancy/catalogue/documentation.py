@@ -93,8 +93,8 @@ A diagnosis fits amplitudes and shapes together, each within its bounds. It look
 start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
 measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` has
 a line for each parameter: its unit, the one that answers give it in, and whether it is fitted, within which bounds. A file's unit is SI,
-because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m), rpm for rad/s, um for m), always with
-the unit beside the number, and JSON has the SI value as `si`, too.
+because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m),
+rpm for rad/s, um for m), always with the unit beside the number, and JSON has the SI value as `si`, too.
 
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
