@@ -59,7 +59,6 @@ def run_from(options: argparse.Namespace) -> int:
     from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.design import Design
     from discrepancy.campaign.findings import copied
-    from discrepancy.campaign.guess.positions import positions_asked
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -89,8 +88,8 @@ def run_from(options: argparse.Namespace) -> int:
         said = "is written, but lacks what is needed; say it in the file, or once more on the command line"
         print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal.needs)}")
     else:
-        if unplaced := positions_asked([(run.condition, run.guessed) for run in proposal.runs], proposal.conditions):
-            print(f"where the input was locked is said by\n  {again(options, unplaced)}")
+        if proposal.unplaced:
+            print(f"where the input was locked is said by\n  {again(options, proposal.unplaced)}")
         if proposal.doubts or findings:
             command = f"{shlex.join(['rvwear', 'campaign', 'check', str(folder)])}\n  {command}"
         print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")

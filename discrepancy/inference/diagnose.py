@@ -155,7 +155,7 @@ class Diagnostician:
         self.doing = f"looking for what could stand in place of {final.name}"
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
-        dof = min((e.dof for e in estimates(self.space, final)), default=1e6)
+        dof = self.least_dof(final)
         alternatives: dict[str, list[str]] = {}
         open_ones: list[Refit] = []
         # What is left speaks for none of the rivals; it may have hidden no more than all of it.
@@ -212,8 +212,11 @@ class Diagnostician:
         if not fits:
             return 1.0
         best = self.refits.renewed(min(fits, key=penalised))
-        dof = min((e.dof for e in estimates(self.space, best)), default=1e6)
-        return min(1.0, float(fdtrc(len(best.own), dof, max(best.gain, 0.0) / len(best.own))) * len(self.screening.scores))
+        return min(1.0, float(fdtrc(len(best.own), self.least_dof(best), max(best.gain, 0.0) / len(best.own))) * len(self.screening.scores))
+
+    def least_dof(self, result: Refit) -> float:
+        """Degrees of freedom of the noise for the parameter of which it is known least."""
+        return min((e.dof for e in estimates(self.space, result)), default=1e6)
 
     def beyond_chance(self, final: Refit) -> bool:
         """Whether a fit gains in earnest more than the best of all candidates may by chance: scores are made of rough predictions."""

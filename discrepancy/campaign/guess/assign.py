@@ -196,9 +196,7 @@ def of_quantity(quantity: str, columns: list[Column], numbers: Mapping[str, str]
         if quantity == "hysteresis" and value.shape.steady and not by_name[roles["torque"].value].shape.steady:
             # What runs on while the torque goes up and down is no twist.
             continue
-        guessed = {} if quantity == "hysteresis" else row_factors(rest, quantity)
-        speed_given = any(role.endswith("put_speed") for role in given)
-        factors = {role: guess for role, guess in guessed.items() if not (speed_given and role.endswith("put_speed"))} | given
+        factors = ({} if quantity == "hysteresis" else row_factors(rest, quantity, given)) | given
         if quantity == "temperature" and any(c.meaning in BESIDE_TEMPERATURE and not c.shape.constant for c in columns):
             # One of the conditions of something else.
             points -= UNIT + NAME
@@ -238,8 +236,8 @@ def because(why: list[str], count: int) -> str:
     return ", ".join(why) or ("the column that is left" if count == 2 else "nothing speaks for another")
 
 
-def row_factors(columns: list[Column], quantity: str) -> dict[str, Guess[str]]:
-    """Numbers of the condition that change from row to row."""
+def row_factors(columns: list[Column], quantity: str, given: Mapping[str, Guess[str]]) -> dict[str, Guess[str]]:
+    """Numbers of the condition that change from row to row, beside those that are ``given``."""
     found: dict[str, Guess[str]] = {}
     places = FACTOR_KEYS.keys() & roles_of(QUANTITIES[quantity]).keys()
     for column in sorted(columns, key=lambda c: ASKED.search(c.name) is not None):
@@ -250,8 +248,8 @@ def row_factors(columns: list[Column], quantity: str) -> dict[str, Guess[str]]:
         if meaning == "speed":
             side = speed_role(max(abs(column.shape.low), abs(column.shape.high)))
             meaning, guess = side.value, Guess(column.name, f"its name says speed; {side.reason}", False)
-        both_speeds = {meaning, *found} >= {"input_speed", "output_speed"}
-        if meaning and meaning in places and meaning not in (quantity, *found) and fits_kind(column, meaning) and not both_speeds:
+        both_speeds = {meaning, *found, *given} >= {"input_speed", "output_speed"}
+        if meaning and meaning in places and meaning not in (quantity, *found, *given) and fits_kind(column, meaning) and not both_speeds:
             found[meaning] = guess
     return found
 

@@ -40,7 +40,8 @@ class PlacedRun:
 
 @dataclass(frozen=True)
 class Proposal:
-    """``data``: folder that all files lie in.  ``needs`` must be given before a model can be held against the campaign."""
+    """``data``: folder that all files lie in.  ``needs`` must be given before a model can be held against the campaign; ``unplaced``: of the
+    doubts those of loops of which nobody says where the input was locked."""
 
     name: str
     reducer: str | None
@@ -50,6 +51,7 @@ class Proposal:
     runs: tuple[PlacedRun, ...]
     doubts: tuple[Doubt, ...]
     needs: tuple[Doubt, ...]
+    unplaced: tuple[Doubt, ...]
 
     def as_json(self) -> dict[str, Any]:
         return {
@@ -94,10 +96,11 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     for run in runs:
         measured[run.condition].append(run.guessed.quantity.value)
     doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
-    doubts += positions_asked([(run.condition, run.guessed) for run in runs], conditions)
+    in_conditions = [(run.condition, run.guessed) for run in runs]
+    unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), tuple(doubts), needs_of(runs, conditions, wishes),
+        tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced),
     )  # fmt: skip
 
 
@@ -228,9 +231,9 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
     return [Doubt(files[0] + (f" and {len(files) - 1} more" if len(files) > 1 else ""), text, remedy) for (text, remedy), files in places.items()]
 
 
-def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
-    """What has to be given before a model can be held against the campaign."""
-    found = lacking([(run.condition, run.guessed) for run in runs], conditions)
+def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
+    """What has to be given before a model can be held against the campaign.  ``runs``: condition and run."""
+    found = lacking(runs, conditions)
     if not wishes.reducer:
         found.append(Doubt("campaign", "which reducer it is has to be said", f"--reducer {OPEN} (rvwear reducer list shows all), or a reducer file"))
     return tuple(found)
