@@ -108,6 +108,11 @@ class ModelFile:
     steps: tuple[dict[str, Any], ...] = ()
     path: Path | None = None
 
+    @property
+    def heading(self) -> str:
+        """Its name, and that of its file where this is another: several files may carry on one model."""
+        return self.name if self.path is None or self.path.stem == self.name else f"{self.path.name} ({self.name})"
+
     def values(self) -> dict[str, float]:
         """Everything that differs from the reducer file: settings and effects' parameters."""
         found = dict(self.settings)
@@ -212,7 +217,7 @@ def parameter_of(effect: Effect, written: str, place: str) -> str:
         return short[base] + bracket + rest
     new = next((name for name, old in short.items() if old == base), None)
     if new is None:
-        raise InputFault(f"{place}.{shown(written)}: the effect has {', '.join(sorted(short))}{nearest(base, short, 1)}")
+        raise InputFault(f"{place}.{shown(written)}: there is no such parameter; the effect's: {', '.join(sorted(short))}{nearest(base, short, 1)}")
     warn_of_old_name(base, new, place)
     return written
 

@@ -22,6 +22,8 @@ CONDITIONAL = "reproduced under a stated condition"
 CONTRADICTED = "contradicted"
 NOT_TESTABLE = "not testable"
 VERDICTS = (REPRODUCED, CONDITIONAL, CONTRADICTED, NOT_TESTABLE)
+# Of a claim whose grounds no longer hold, as with other numbers than the sources'.
+FALLEN = "no longer carried by the numbers"
 
 TOOTH = "tooth-profile document (BX-40E)"
 NEEDLE = "needle-bearing document (RV20E-121)"
@@ -123,6 +125,11 @@ class Claim:
         return all(holds for _, holds in self.grounds)
 
     @property
+    def outcome(self) -> str:
+        """The verdict, as far as the numbers still carry it."""
+        return self.verdict if self.stands else FALLEN
+
+    @property
     def held(self) -> list[Number]:
         """Numbers of the source, with ours beside them."""
         return [number for number in self.numbers if number.published is not None]
@@ -131,6 +138,12 @@ class Claim:
     def discrepancies(self) -> list[Number]:
         """Numbers that do not confirm the independent check."""
         return [number for number in self.numbers if number.agrees is False]
+
+
+def counts_of(claims: Iterable[Claim]) -> dict[str, int]:
+    """How many claims came out how; those that have fallen, if any, are counted for themselves."""
+    outcomes = [claim.outcome for claim in claims]
+    return {verdict: outcomes.count(verdict) for verdict in (*VERDICTS, *([FALLEN] if FALLEN in outcomes else []))}
 
 
 Finder = Callable[[Context], Finding]

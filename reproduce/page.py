@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pages.render import rendered, written
-from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, SOURCES, VERDICTS, Claim
+from pages.words import counted
+from reproduce.claim import CONDITIONAL, CONTRADICTED, FALLEN, NOT_TESTABLE, REPRODUCED, SOURCES, Claim, counts_of
 from reproduce.table import audited_text, off_text, ours_text, range_text, span_text, unit_text, value_text
 
 TEMPLATE = Path(__file__).with_name("claims.html")
-TONES = {REPRODUCED: "good", CONDITIONAL: "fair", CONTRADICTED: "bad", NOT_TESTABLE: "open"}
+TONES = {REPRODUCED: "good", CONDITIONAL: "fair", CONTRADICTED: "bad", NOT_TESTABLE: "open", FALLEN: "plain"}
 
 
 def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
@@ -19,9 +20,9 @@ def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
         TEMPLATE, [figure for claim in claims for figure in claim.figures],
         groups=[(source, found) for source, found in groups if found], tones=TONES, number=value_text, audited=audited_text,
         ours=ours_text, off=off_text, range=range_text, span=span_text, unit=unit_text, held=[(c, n) for c in claims for n in c.held],
-        counts=[(v, TONES[v], sum(c.verdict == v for c in claims)) for v in VERDICTS], total=len(claims),
+        counts=[(v, TONES[v], count) for v, count in counts_of(claims).items()], total=counted(len(claims), "claim"),
         changes=changes, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
-        discrepancies=[] if changes else [(c, n) for c in claims for n in c.discrepancies],
+        discrepancies=[(c, n) for c in claims for n in c.discrepancies],
     )  # fmt: skip
 
 

@@ -47,7 +47,7 @@ def hertz(context: Context) -> Finding:
 def largest_pressure(context: Context) -> Finding:
     numbers, grounds, curves = [], [], []
     for name in (BX, RV):
-        for label, texts in (("rigid bearings", RIGID_BEARINGS), ("as given", ())):
+        for label, texts in (("rigid bearings", RIGID_BEARINGS), ("soft bearings", ())):
             contacts = context.contacts(name, *texts)
             g = contacts.geometry
             place = float(MIDDLES[contacts.pressure_along.argmax()])
@@ -74,7 +74,7 @@ def largest_pressure(context: Context) -> Finding:
 def valley(context: Context) -> Finding:
     numbers, shares, valleys = [], [], []
     for name in (BX, RV):
-        for label, texts in (("rigid bearings", RIGID_BEARINGS), ("as given", ())):
+        for label, texts in (("rigid bearings", RIGID_BEARINGS), ("soft bearings", ())):
             contacts = context.contacts(name, *texts)
             phase = contacts.geometry.inflection
             share = share_at(phase, contacts)

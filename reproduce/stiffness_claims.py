@@ -176,7 +176,7 @@ def catalogue_lost_motion(context: Context) -> Finding:
         needed = closing(context, name, "SI", target)
         soft = f"effects.support_compliance.crank_support_compliance={1.0 / needed!r}m/N"
         found[name] = context.stiffness(name).lost_motion_arcmin, context.stiffness(name, soft).lost_motion_arcmin
-        numbers += [held(f"{name}, as given", "arcmin", found[name][0], (0.0, 1.0)),
+        numbers += [held(f"{name}, on rigid supports", "arcmin", found[name][0], (0.0, 1.0)),
                     held(f"{name}, with the supports of C01", "arcmin", found[name][1], (0.0, 1.0)),
                     Number(f"{name}, supports and modified profile", "arcmin",
                            context.stiffness(name, soft, *MODIFIED).lost_motion_arcmin)]
@@ -187,7 +187,7 @@ def catalogue_lost_motion(context: Context) -> Finding:
     return Finding(
         CONDITIONAL, "The assumed needle clearance alone makes most of it; a few micrometres more, or the"
         " modification that every disc has, exceed the catalogue.", numbers,
-        [("below an arcminute as given", worst < 1.0)], "needle clearance of about 3 µm or less, ideal profile",
+        [("below an arcminute, on rigid supports and with those of C01", worst < 1.0)], "needle clearance of about 3 µm or less, ideal profile",
     )  # fmt: skip
 
 
@@ -217,7 +217,7 @@ def catalogue_efficiency(context: Context) -> Finding:
         ideal.append(efficiency(name, 1.0))
         rated.append(efficiency(name, 1.0, friction, seals[name]))
         tenth.append(efficiency(name, 0.1, friction, seals[name]))
-        numbers += [Number(f"{name}, as given", "%", ideal[-1]),
+        numbers += [Number(f"{name}, without friction", "%", ideal[-1]),
                     Number(f"{name}, sliding friction 0.06 alone", "%", efficiency(name, 1.0, friction)),
                     held(f"{name}, with seals too, rated load", "%", rated[-1], (80.0, 90.0)),
                     held(f"{name}, with seals too, a tenth of it", "%", tenth[-1], (50.0, 60.0))]

@@ -11,11 +11,11 @@ from rich.text import Text
 from exports.tables import Table as Export
 from exports.tables import rows_table
 from pages.look import Figure
-from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, VERDICTS, Audited, Claim, Number
+from reproduce.claim import CONDITIONAL, CONTRADICTED, FALLEN, NOT_TESTABLE, REPRODUCED, Audited, Claim, Number, counts_of
 
 # Wide enough for the table, also where the output goes to a file.
 WIDTH = 100
-STYLES = {REPRODUCED: "green", CONDITIONAL: "yellow", CONTRADICTED: "red", NOT_TESTABLE: "dim"}
+STYLES = {REPRODUCED: "green", CONDITIONAL: "yellow", CONTRADICTED: "red", NOT_TESTABLE: "dim", FALLEN: "magenta"}
 
 
 def value_text(value: float | None) -> str:
@@ -58,23 +58,22 @@ def off_text(number: Number) -> str:
     return "" if math.isnan(number.off) else f"{100.0 * number.off:+.3g} % ({100.0 * number.tolerance:.3g} %)"
 
 
-def print_table(claims: list[Claim], checked: bool = True) -> None:
-    """One row per claim, their figures and ours, and below what the independent check does not confirm, where it is one of these numbers."""
+def print_table(claims: list[Claim]) -> None:
+    """One row per claim, their figures and ours, and below what the independent check does not confirm."""
     console = Console(width=max(Console().width, WIDTH), markup=False)
     table = Table(title="Claims of the sources against the computation", title_justify="left", show_lines=True, expand=True)
     for head in ("id", "claim", "verdict", "cause"):
         table.add_column(head, ratio={"claim": 3, "verdict": 2, "cause": 7}.get(head))
     for claim in claims:
-        verdict = claim.verdict if claim.stands else f"{claim.verdict}: NO LONGER CARRIED BY THE NUMBERS"
+        verdict = claim.outcome if claim.stands else f"{claim.outcome} (was: {claim.verdict})"
         condition = f"{claim.condition}. " if claim.condition else ""
         condition = f"Condition: {condition}" if condition else ""
-        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.verdict]), condition + claim.why)
+        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.outcome]), condition + claim.why)
     console.print(table)
     if any(claim.held for claim in claims):
         console.print(figures_table(claims))
-    counts = {verdict: sum(c.verdict == verdict for c in claims) for verdict in VERDICTS}
-    console.print("  ".join(f"{name} {count}" for name, count in counts.items()), highlight=False)
-    if checked and any(claim.discrepancies for claim in claims):
+    console.print("  ".join(f"{name} {count}" for name, count in counts_of(claims).items()), highlight=False)
+    if any(claim.discrepancies for claim in claims):
         console.print(unconfirmed_table(claims))
 
 
@@ -103,15 +102,14 @@ def judged_table(title: str, heads: dict[str, int], rows: Sequence[tuple[Claim, 
         table.add_column(head, ratio=ratio)
     for claim, lines in rows:
         for k, cells in enumerate(lines):
-            verdict = Text(claim.verdict if claim.stands else "FALLEN", STYLES[claim.verdict]) if k == 0 else Text("")
+            verdict = Text(claim.outcome, STYLES[claim.outcome]) if k == 0 else Text("")
             table.add_row(claim.id if k == 0 else "", *cells, verdict, end_section=k == len(lines) - 1)
     return table
 
 
 def as_json(claims: list[Claim]) -> dict[str, Any]:
     """Everything but the figures as plain data."""
-    return {"claims": [claim_data(c) for c in claims],
-            "verdicts": {v: sum(c.verdict == v for c in claims) for v in VERDICTS}}
+    return {"claims": [claim_data(c) for c in claims], "verdicts": counts_of(claims)}
 
 
 def claim_data(c: Claim) -> dict[str, Any]:
@@ -139,11 +137,11 @@ def plain(value: Audited | None) -> float | list[float] | None:
 def tables_of(claims: list[Claim]) -> list[Export]:
     """Verdicts, and every number computed, published, printed and checked, for other programs."""
     verdicts = [
-        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict, "condition": c.condition, "why": c.why} for c in claims
+        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.outcome, "condition": c.condition, "why": c.why} for c in claims
     ]  # fmt: skip
     numbers = [
         {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "low": nan(n.low), "high": nan(n.high), "theirs": span_text(n.published),
-         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.verdict, "cause": c.why}
+         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.outcome, "cause": c.why}
         for c in claims for n in c.numbers
     ]  # fmt: skip
     return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]

@@ -1,10 +1,13 @@
-"""Units of figures, which their names end in: ``peak_pin_force_N``."""
+"""Units of figures, which their names end in, ``peak_pin_force_N``, and what a figure is that others read otherwise."""
 
 # Unit and meaning of the figures' name endings.
 FIGURE_UNITS = {
     "_N": "N", "_Nm": "N.m", "_MPa": "MPa", "_arcsec": "arcsec", "_um": "um", "_deg": "deg", "_mm_s": "mm/s", "_s": "s",
     "_per_arcmin": "N.m/arcmin", "_arcmin": "arcmin", "_percent": "%", "_Hz": "Hz", "_Nm_arcmin": "N.m.arcmin",
 }  # fmt: skip
+# Two stiffnesses of one reducer: what friction holds is none of the running one's.
+RUNNING = "stiffness: running, between half and all of the torque; with the input held, rvwear hysteresis"
+HELD = "stiffness: input held, loading, between half and all of the torque; running, rvwear solve"
 
 
 def figure_unit(name: str) -> str:

@@ -12,7 +12,7 @@ from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
 from studies.hysteresis import hysteresis
 from studies.standard.evaluation import TESTS, Way, turning_points
-from studies.standard.procedures import PROCEDURES, rated_of, ratio_of
+from studies.standard.procedures import PROCEDURES, rated_of, ratio_of, run
 
 RIGID = ("--reducer", "RV20E-121-rigid")
 ARCMIN = np.radians(1.0) / 60.0
@@ -86,6 +86,17 @@ def test_without_errors_a_reducer_without_load_has_no_transmission_error_and_pla
     assert light < 1e-6 and 5.0 < loaded < 9.0
     dynamic = figures("dynamic-lost-motion", *PROCEDURES["dynamic-lost-motion"](rv20e, []).values())["dynamic_lost_motion"]
     assert dynamic == pytest.approx(hysteresis(rv20e, []).lost_motion_arcmin, rel=0.02)
+
+
+def test_what_a_rigs_drag_holds_shows_clearances_and_exactly_no_load_does_not(rv20e, capsys):
+    """6 um: 3.7e-10 arcsec stood in the row of 0 N.m without a word; a tenth of a newton metre has what the rated torque has."""
+    loose = [parse_setting("bearing.clearance=6um", [rv20e.plant, rv20e.wear])]
+    held = run(rv20e, loose, rv20e.topology.lobes, 0.1, 209.4)
+    assert figures("transmission-error", held)["transmission_error"] == pytest.approx(12.7, rel=0.01)
+    floats = run(rv20e, loose, rv20e.topology.lobes, 0.0, 209.4)
+    assert figures("transmission-error", floats)["transmission_error"] < 1e-6
+    assert "0 N.m is exactly none: the output floats" in TESTS["transmission-error"].text
+
 
 
 def test_measured_file_gives_the_number_of_the_bench_that_it_came_from(rv20e, tmp_path, capsys):

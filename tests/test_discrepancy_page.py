@@ -74,7 +74,7 @@ def model_of(hidden=None, held=True, extra=None):
                 if extra and axes:
                     values = values + extra(load)
                 records.append(replace(record, values=values + size * rng.normal(size=values.size)))
-    file = SimpleNamespace(name="gearbox <7>", effects={})
+    file = SimpleNamespace(name="gearbox <7>", heading="gearbox <7>", effects={})
     return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, records=(), copies={}, speed_at="output", ratio=100.0))
 
 

@@ -24,7 +24,11 @@ from pages import look
 from pages.charts import Curve, chart, polar
 from pages.look import Figure
 from pages.paper import drawn, save, width_of, write_pictures
+from pages.words import number
+from reducers.reducer import load_reducer
 from studies.ensemble.tables import tables_of as ensemble_tables
+from studies.report.turn import turn_figures
+from studies.turn import crank_turn
 from tests.test_discrepancy_page import compared, model_of
 
 DATASET = xr.Dataset(
@@ -169,6 +173,15 @@ def test_a_picture_shows_what_the_page_shows():
     upper, lower = split.get_axes()
     assert upper.get_lines() == [] or upper.collections
     assert lower.get_xlabel() == "x" and upper.get_xlabel() == ""
+
+
+def test_what_is_drawn_about_its_mean_says_so_and_the_mean():
+    """A picture has no title: a lag of 134 arcsec was drawn about 0 without a word."""
+    turn = crank_turn(load_reducer("RV20E-121-rigid"), [], 24).dataset()
+    figure = turn_figures(turn)[0]
+    lag = float(turn["lag"].mean())
+    assert [trace["name"] for trace in figure.data][1] == f"lag of the carrier, less {number(lag)} arcsec"
+    assert "about its mean" in figure.layout["yaxis"]["title"]["text"]
 
 
 def test_what_is_altered_says_so_wherever_it_goes(tmp_path):

@@ -247,8 +247,16 @@ def test_a_model_file_is_written_with_the_names_that_it_is_read_with(tmp_path):
 def test_a_wrong_parameter_of_an_effect_is_told_those_there_are(tmp_path):
     path = tmp_path / "wrong.toml"
     path.write_text(MODEL.replace("CLEARANCE", "bearing.clearance").replace("LAW", "contact.law").replace("ADDED", "more"), encoding="utf-8")
-    with pytest.raises(InputFault, match=r"wrong.toml: effects.needle_clearance.more: the effect has added"):
+    with pytest.raises(InputFault, match=r"wrong.toml: effects.needle_clearance.more: there is no such parameter; the effect's: added"):
         load_model(path)
+
+
+def test_a_heading_tells_a_model_from_the_one_that_it_goes_on_from(tmp_path):
+    """`RV20E-121 against banco` stood over both."""
+    path = tmp_path / "better.toml"
+    path.write_text('[model]\nname = "RV20E-121"\nreducer = "RV20E-121"\n', encoding="utf-8")
+    assert load_model(path).heading == "better.toml (RV20E-121)" and load_model("RV20E-121").heading == "RV20E-121"
+    assert load_model(path.rename(tmp_path / "RV20E-121.toml")).heading == "RV20E-121"
 
 
 def test_nuisances_and_scatter_are_written_as_tools_show_them():

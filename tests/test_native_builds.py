@@ -66,11 +66,13 @@ def test_c_program_runs_the_unit_without_python(rv20e, native_fmus, tmp_path):
                           text=True, env={"PATH": os.devnull})
     assert done.returncode == 0, done.stderr
     inside = InProcess("plant", rv20e.specification("rv_plant"))
+    inside.set("bearing_clearance", 3e-6)
     inside.enter_initialisation(0.0)
     inside.exit_initialisation()
     for n in range(100):
         inside.step(1e-3 * n, 1e-3)
-    assert done.stdout.splitlines()[-1] == f"0.100 s  lag {inside.get('lag'):.17g} rad"
+    force = inside.get("mesh_force[1,30]")
+    assert force > 0.0 and done.stdout.splitlines()[-1] == f"0.100 s  lag {inside.get('lag'):.17g} rad  force {force:.17g} N"
 
 
 @pytest.fixture(scope="module")

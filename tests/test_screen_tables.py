@@ -14,6 +14,8 @@ def test_a_lifes_numbers_are_whole_however_much_has_worn(capsys, monkeypatch):
     shown = capsys.readouterr().out
     assert shown.count("38153") == len(LIFE_COLUMNS)
     assert "…" not in shown
+    # Of two stiffnesses the running one.
+    assert "stiffness: running, between half and all of the torque" in " ".join(shown.split())
 
 
 def test_key_figures_are_whole_beside_long_names(capsys):

@@ -339,6 +339,15 @@ def test_numbers_of_a_form_are_said_where_they_are_wrong():
         positive({"torque": "-1"}, "torque")
 
 
+def test_a_life_says_which_stiffness_it_shows():
+    """44.3 of a life stood beside 50.0 of a loop without a word."""
+    from workbench.life_step import PANES, curves
+
+    shown = curves([0.0], [{name: 1.0 for _, _, lines in PANES for name, _ in lines}])
+    assert "running, between half and all of the torque; with the input held" in shown["how"]
+    assert [line["name"] for line in shown["panes"][-1]["lines"]] == ["running stiffness"]
+
+
 def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
     from concurrent.futures import ThreadPoolExecutor
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
 from reducers.library import LIBRARY
+from studies.figure_units import RUNNING
 from workbench.folder import Folder
 from workbench.form import exactly, number, settings_of
 from workbench.told import write_json
@@ -19,7 +20,7 @@ PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
     ("lag of the carrier", "arcsec", (("mean_lag_arcsec", "lag"),)),
     ("transmission error, peak to peak", "arcsec", (("transmission_error_pp_arcsec", "transmission error"),)),
-    ("torsional stiffness", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "stiffness"),)),
+    ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Of hours, and of a torque [N m].
 USUAL_HOURS, MOST = 10_000.0, 1e6
@@ -68,9 +69,9 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
 
 
 def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any]:
-    """Of each pane its lines over the hours."""
+    """Of each pane its lines over the hours, and which of two stiffnesses it is."""
     return {
-        "hours": list(hours),
+        "hours": list(hours), "how": RUNNING,
         "panes": [{"title": title, "unit": unit, "lines": [{"name": text, "values": [f[name] for f in figures]} for name, text in lines]}
                   for title, unit, lines in PANES],
     }  # fmt: skip

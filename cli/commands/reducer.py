@@ -13,10 +13,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-# Two stiffnesses of one reducer: what friction holds is none of the running one's.
-RUNNING = "stiffness: running, between half and all of the torque; with the input held, rvwear hysteresis"
-HELD = "stiffness: input held, loading, between half and all of the torque; running, rvwear solve"
-
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     turn = sub.add_parser("solve", help="forces, pressure, lag and stiffness over a crank turn")
@@ -48,6 +44,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     from cli import screen
+    from studies.figure_units import RUNNING
     from studies.turn import crank_turn
 
     check_exports(options)
@@ -68,6 +65,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     import math
 
     from cli import screen
+    from studies.figure_units import HELD
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset, loop_figures
 

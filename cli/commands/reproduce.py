@@ -46,7 +46,7 @@ def reproduce(options: argparse.Namespace) -> int:
     if options.json:
         screen.json_text(as_json(claims) | {"page": str(page), "set": options.set})
     else:
-        print_table(claims, checked=not options.set)
+        print_table(claims)
         if note:
             print(note)
         print(f"page  {page}")

@@ -49,7 +49,7 @@ def ratio_colour(ratio: float, held_out: bool) -> str:
 
 def show_comparison(comparison: Comparison) -> None:
     out = console(WIDTH)
-    table = Table(title=f"{comparison.model.file.name} against {comparison.model.campaign.name}", title_justify="left")
+    table = Table(title=f"{comparison.model.file.heading} against {comparison.model.campaign.name}", title_justify="left")
     for name in ("signal", "runs", "", "error", "noise", "error/noise"):
         table.add_column(name, justify="left" if name in ("signal", "") else "right")
     for row in comparison.signals:
@@ -172,9 +172,9 @@ def show_extension(extension: Extension) -> None:
 def show_ladder(file: ModelFile) -> None:
     out = console(WIDTH)
     if not file.steps:
-        out.print(f"{file.name} has no steps yet: rvwear extend adds them")
+        out.print(f"{file.heading} has no steps yet: rvwear extend adds them")
         return
-    table = Table(title=f"{file.name}: error over noise in the patterns that carry the misfit, step by step", title_justify="left")
+    table = Table(title=f"{file.heading}: error over noise in the patterns that carry the misfit, step by step", title_justify="left")
     for name in ("step", "campaign", "fitted runs", "unused runs", "verdict"):
         table.add_column(name, justify="left")
     for step in file.steps:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import xarray as xr
 
 from cli.screen import BETWEEN, WIDTH, console, dense
+from studies.figure_units import RUNNING
 from studies.life import Life
 
 
@@ -57,6 +58,7 @@ def life_table(dataset: xr.Dataset) -> None:
     ]  # fmt: skip
     widths = [max(map(len, [*head.split("\n"), *column])) for head, column in zip(heads, zip(*rows))]
     table = dense(dataset.attrs["title"])
+    table.caption, table.caption_justify = RUNNING, "left"
     for head, width in zip(heads, widths):
         table.add_column(head, justify="right", no_wrap=True, min_width=width)
     for row in rows:

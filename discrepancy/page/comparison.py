@@ -51,7 +51,7 @@ def page(result: Comparison) -> Page:
 
 
 def title(result: Comparison | Answer) -> str:
-    name, campaign = result.model.file.name, result.model.campaign.name
+    name, campaign = result.model.file.heading, result.model.campaign.name
     return f"{name} against {campaign}" if campaign else name
 
 

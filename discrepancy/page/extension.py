@@ -25,7 +25,7 @@ def extension_page(result: Extension) -> Page:
     warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
     return Page(
         "An effect added to a model",
-        result.file.name,
+        result.file.heading,
         f"judged on campaign {step.campaign}",
         finding,
         cards(step),
@@ -37,7 +37,7 @@ def extension_page(result: Extension) -> Page:
 def model_page(file: ModelFile) -> Page:
     steps = steps_of(file.steps)
     if not steps:
-        return Page("Ladder of a model", file.name, conditions(file), "No step yet: rvwear extend adds them.", [], [parameters(file)], [])
+        return Page("Ladder of a model", file.heading, conditions(file), "No step yet: rvwear extend adds them.", [], [parameters(file)], [])
     kept = [s for s in steps if s.kept]
     judged = [s.held_out for s in kept if s.held_out]
     finding = f"{len(kept)} of {len(steps)} steps are part of the model."
@@ -65,7 +65,7 @@ def model_page(file: ModelFile) -> Page:
         ),
         parameters(file),
     ]
-    return Page("Ladder of a model", file.name, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+    return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
 
 
 def left_sentence(step: Step) -> str:

@@ -49,7 +49,7 @@ def cards(result: Result) -> list[Card]:
         "mean_loaded_teeth": ("Loaded teeth per disc", "", ""),
         "mean_lag_arcsec": ("Mean lag", "arcsec", ""),
         "transmission_error_pp_arcsec": ("Transmission error (p-p)", "arcsec", ""),
-        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness", "N·m/arcmin", ""),
+        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness, running", "N·m/arcmin", ""),
     }
     made = []
     for name, (label, unit, note) in texts.items():
@@ -169,7 +169,7 @@ def accuracy(result: Result) -> list[str]:
     if number(lag[0]) == number(lag[1]):
         before = f"still stands {number(lag[1])} arcsec behind its ideal angle"
     error = moves("the transmission error", result, "transmission_error_pp_arcsec", "arcsec peak to peak")
-    stiffness = moves("torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
+    stiffness = moves("running torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
     return [f"The carrier {before}; {error}, and {stiffness}."]
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
+from studies.figure_units import RUNNING
 from studies.report.result import Result
 
 SURFACE_KEYS = [(text, colour, dash) for text, colour, dash in look.SURFACES.values()]
@@ -28,7 +29,7 @@ def figures(result: Result) -> list[Figure]:
               "Its swing over one crank turn."),
         small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/arcmin]",
               [("torsional_stiffness_Nm_per_arcmin", "second stage", LOAD, "solid")],
-              "Secant between half and full torque, contacts of the second stage alone."),
+              f"Contacts of the second stage alone. {RUNNING[0].upper()}{RUNNING[1:]}."),
         small(result, "growth_force", "Peak forces", "force [N]", [("peak_pin_force_N", "pin", LOAD, "solid"),
               ("peak_roller_force_N", "roller", SECOND, "dash")], "Largest force on any pin and on any roller."),
         small(result, "growth_pressure", "Peak contact pressure", "Hertz pressure [MPa]",

@@ -20,17 +20,22 @@ def turn_figures(turn: xr.Dataset) -> list[Figure]:
         values: Floats = np.asarray(turn[variable].values, float).reshape(len(angle), -1)[:, 0]
         return values
 
-    lag, error = over("lag") - over("lag").mean(), over("transmission_error") - over("transmission_error").mean()
-    errors = [Curve("transmission error at the input", angle, error), Curve("lag of the carrier", angle, lag, dash="dash")]
+    unit = turn["lag"].attrs["units"]
+    lag, error = over("lag"), over("transmission_error")
+    # A picture has no title: what was taken off stands in the legend and at the axis.
+    errors = [
+        Curve("transmission error at the input", angle, error - error.mean()),
+        Curve(f"lag of the carrier, less {number(lag.mean())} {unit}", angle, lag - lag.mean(), dash="dash"),
+    ]
     forces = [Curve("largest pin force", angle, over("largest_pin_force")), Curve("largest roller force", angle, over("largest_roller_force"), dash="dash")]
     pins = turn["mesh_force"].values[0]
     discs = [Curve(f"disc {k + 1}", np.arange(1, pins.shape[1] + 1), row, mode="lines+markers") for k, row in enumerate(pins)]
-    unit = turn["mesh_force"].attrs["units"]
+    force = f"force [{turn['mesh_force'].attrs['units']}]"
     return [
-        chart("turn_error", f"{name}: errors about their means", "", errors, CRANKS, f"error [{turn['lag'].attrs['units']}]"),
-        chart("turn_force", f"{name}: forces", "", forces, CRANKS, f"force [{unit}]"),
+        chart("turn_error", f"{name}: errors about their means", "", errors, CRANKS, f"error about its mean [{unit}]"),
+        chart("turn_force", f"{name}: forces", "", forces, CRANKS, force),
         chart("turn_teeth", f"{name}: loaded teeth", "", [Curve("loaded teeth", angle, over("loaded_teeth"))], CRANKS, "loaded teeth"),
-        chart("turn_pins", f"{name}: force of each pin", "", discs, "pin", f"force [{unit}]"),
+        chart("turn_pins", f"{name}: force of each pin", "", discs, "pin", force),
     ]
 
 

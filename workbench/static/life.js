@@ -104,6 +104,7 @@ export function show(root, context) {
         result ? result.title : `${now.model}: ${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} h`,
       ),
       h("p", { class: "lead" }, last.join(" · ")),
+      h("p", { class: "quiet small" }, now.how ?? ""),
       result
         ? null
         : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`),
