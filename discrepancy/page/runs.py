@@ -17,7 +17,7 @@ from fmu_src.arrays import Floats, Mask
 class Run:
     """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included.
 
-    Where a quantity's zero is free, both curves count from ``zero`` of what was written: repetitions lie over each other then.
+    ``outlying`` says which of them stand far off.  Where a quantity's zero is free, both curves count from ``zero`` of what was written: repetitions lie over each other then.
     """
 
     record: Record
@@ -25,9 +25,15 @@ class Run:
     measured: Floats
     predicted: Floats
     noise: Floats
+    outlying: Mask
     # How the campaign tells a speed.
     speed: Scale = AXES["speed"]
     zero: float = 0.0
+
+    @property
+    def inside(self) -> Floats:
+        """What was measured, without samples that stand far off (NaN)."""
+        return np.where(self.outlying, np.nan, self.measured)
 
     @property
     def series(self) -> bool:
@@ -59,7 +65,7 @@ def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list
         measured, y = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0), np.asarray(y, float)
         # The mean of a prediction with a free zero is fitted: it is that of the run.
         zero = float(y.mean()) if record.free_zero and axis_name(record) else 0.0
-        found.append(Run(record, kept, measured[kept] - zero, y[kept] - zero, whitener.scale * np.sqrt(1.0 + whitener.between), speed, zero))
+        found.append(Run(record, kept, measured[kept] - zero, y[kept] - zero, whitener.scale * np.sqrt(1.0 + whitener.between), space.outlying[i][kept], speed, zero))
     return found
 
 
