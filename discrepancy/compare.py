@@ -122,11 +122,11 @@ def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFi
 
 
 def runs_of(space: Workspace, predictions: Sequence[Floats]) -> list[dict[str, Any]]:
-    """Error and noise floor of every run, root mean square in SI units, for the predicted values of all records; without samples that stand far off."""
+    """Error and noise floor of every run, root mean square in SI units, for the predicted values of all records."""
     runs = []
-    for i, (record, predicted, whitener) in enumerate(zip(space.records, predictions, space.noise.whiteners)):
-        kept, told = whitener.kept, space.told(i)
-        error = float(np.sqrt(np.mean((record.values - predicted)[told] ** 2))) if told.any() else float("nan")
+    for record, predicted, whitener in zip(space.records, predictions, space.noise.whiteners):
+        kept = whitener.kept
+        error = float(np.sqrt(np.mean((record.values - predicted)[kept] ** 2))) if kept.any() else float("nan")
         floor = whitener.floor
         runs.append({
             "run": record.name, "signal": stream_of(record), "condition": record.condition, "replicate": record.replicate,

@@ -6,7 +6,7 @@ repetitions differ by, or what the noise of the samples makes of it where there 
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -19,7 +19,7 @@ from discrepancy.inference.noise.series import position_of, spacing_of, stream_o
 from discrepancy.prediction.support import reversals
 from discrepancy.problem import ORDERS as TABLE
 from discrepancy.problem import Record
-from fmu_src.arrays import Floats, Mask
+from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 from studies.hysteresis import LOST_MOTION_SHARE
 
@@ -73,7 +73,7 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
     groups: dict[tuple[str, str], list[int]] = defaultdict(list)
     for i, record in enumerate(space.records):
         groups[stream_of(record), record.condition].append(i)
-    readings = {key: [reading_of(space.records[i], orders, rated, space.outlying[i]) for i in indices] for key, indices in groups.items()}
+    readings = {key: [reading_of(space.records[i], orders, rated) for i in indices] for key, indices in groups.items()}
     measured = {key: [r(np.asarray(space.records[i].values, float)) for i, r in zip(groups[key], own)] for key, own in readings.items()}
     spread = between_runs(measured)
     found = []
@@ -169,14 +169,14 @@ def carry_on(slow: Floats, rho: float, share: float) -> None:
         slow[i] = before
 
 
-def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: float, outlying: Mask) -> Reading:
-    """How figures are read from values of a record, from the samples that it has without those that stand far off (``outlying``)."""
-    good = np.isfinite(record.values) & ~outlying
+def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: float) -> Reading:
+    """How figures are read from values of a record, from the samples that it has without those that stand far off."""
+    good = np.isfinite(record.values) & record.counted
     if record.quantity == "hysteresis" and "torque" in record.axes:
         by_branches = of_loop(np.asarray(record.axes["torque"], float)[good], rated)
         return lambda values: by_branches(values[good])
     if record.quantity in DRAG:
-        return of_drag(replace(record, values=np.where(outlying, np.nan, record.values)))
+        return of_drag(record)
     if record.quantity == "transmission_error" and "angle" in record.axes:
         by_orders = orders_over(np.asarray(record.axes["angle"], float)[good], orders)
         return lambda values: by_orders(values[good])

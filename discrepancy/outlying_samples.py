@@ -1,17 +1,16 @@
 """Single samples that stand far off: a slip of an instrument or of a transmission of data, neither noise nor the reducer.
 
 A sample is held against its neighbours, where repetitions stand at the same places in what a run differs from them by: what the
-reducer does shows in all of them then.  The fit hardly counts such samples (``inference.noise``: Huber's weights); what is said of
-a run, its error, its peak to peak and the axes that it is drawn over, leaves them out.
+reducer does shows in all of them then.  Such samples count for nothing: not in the fit, not in what is said of a run (its error, its
+peak to peak), not in the axis that it is drawn over.
 """
 
 from collections import defaultdict
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from discrepancy.inference.noise.outliers import robust_scale
 from discrepancy.inference.noise.series import fast_part, path_of, stream_of
 from discrepancy.problem import ORDERS, Record
 from discrepancy.repetitions import same_axes
@@ -60,10 +59,13 @@ def outlying_samples(records: Sequence[Record]) -> list[OutlyingSamples]:
     for members in groups.values():
         together = len(members) > 1 and same_axes(members)
         values = np.array([r.values for r in members], float)
+        pair = together and len(members) == 2
+        # Of two the other, of more what most of them say.
+        middle = values[::-1] if pair else np.median(values, axis=0) if together else np.zeros_like(values[0])
         for k, record in enumerate(members):
-            compared = values[k] - np.median(np.delete(values, k, axis=0), axis=0) if together else values[k]
-            off, noise = standing_alone(path_of(record), compared, values[k], 1.0 / (len(members) - 1) if together else 0.0)
-            if together and len(members) == 2:
+            compared = values[k] - np.broadcast_to(middle, values.shape)[k]
+            off, noise = standing_alone(path_of(record), compared, values[k], 1.0 if pair else 0.0)
+            if pair:
                 off[~blamed(path_of(record), values[k], values[1 - k])] = 0.0
             rows = np.flatnonzero(off)
             if 0 < len(rows) <= max(MOST * len(off), 1.0):
@@ -78,7 +80,8 @@ def standing_alone(path: Floats, values: Floats, measured: Floats, more: float) 
     ``values`` (n,) are ``measured`` or what these differ from their repetitions by, whose variance is ``more`` beside that of one; along the ``path``.
     """
     inner, fast = fast_part(path, values)
-    noise = max(robust_scale(fast) / float(np.sqrt(1.0 + more)), noise_of(measured), EXACT * float(np.ptp(np.quantile(measured, (0.01, 0.99)))), 1e-300)
+    scatter = 1.4826 * float(np.median(np.abs(fast))) / float(np.sqrt(1.0 + more))
+    noise = max(scatter, noise_of(measured), EXACT * float(np.ptp(np.quantile(measured, (0.01, 0.99)))), 1e-300)
     steps = np.diff(values)
     off = np.zeros(len(values))
     for i in inner[np.abs(fast) > 0.5 * FAR * noise]:
@@ -102,12 +105,15 @@ def blamed(path: Floats, own: Floats, other: Floats) -> Mask:
     return found
 
 
-def masks_of(records: Sequence[Record]) -> list[Mask]:
-    """Of each record which of its samples (n,) stand far off."""
-    rows = {found.run: list(found.rows) for found in outlying_samples(records)}
-    masks = []
-    for record in records:
-        mask = np.zeros(len(record.values), bool)
-        mask[rows.get(record.name, [])] = True
-        masks.append(mask)
-    return masks
+def bridged(record: Record) -> Record:
+    """A record with its samples that stand far off on the line between their neighbours, for what needs all of them."""
+    if not record.far_off:
+        return record
+    rows, counted = np.arange(len(record.values)), record.counted
+    return replace(record, values=np.where(counted, record.values, np.interp(rows, rows[counted], record.values[counted])), far_off=())
+
+
+def marked(records: Sequence[Record]) -> list[Record]:
+    """The records, each with the rows of its samples that stand far off."""
+    rows = {found.run: tuple(sorted(found.rows)) for found in outlying_samples(records)}
+    return [replace(record, far_off=rows[record.name]) if record.name in rows else record for record in records]

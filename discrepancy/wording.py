@@ -178,8 +178,7 @@ def unused_within_noise(answer: Answer) -> bool:
     for i, predicted in zip(space.held_out, predictions):
         whitener = space.noise.whiteners[i]
         between = 1.0 + sum(space.noise.streams[whitener.quantity].patterns.values())
-        told = space.told(i)
-        error = ((space.records[i].values - predicted)[told] / whitener.scale[told[whitener.kept]]) ** 2 / between
+        error = ((space.records[i].values - predicted)[whitener.kept] / whitener.scale) ** 2 / between
         if error.size:
             ratios.append(float(error.mean()) ** 0.5)
     return bool(ratios) and max(ratios) <= WITHIN_NOISE

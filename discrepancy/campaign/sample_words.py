@@ -8,7 +8,7 @@ from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from discrepancy.outlying_samples import OutlyingSamples
 from fmu_src.units import conversion
 
-REMEDY = "such samples hardly count in the fit; errors, key figures and axes of charts leave them out; look for the cause at the instrument"
+REMEDY = "left out of fit, errors, key figures and axes of charts; look for the cause at the instrument"
 # Axes that say where a sample is, the plainest first, and the unit in which benches read them.
 PLACES = {"angle": "deg", "torque": "N.m", "time": "s", "depth_angle": "deg", "hours": "h"}
 # Samples of a run whose places are named.
@@ -24,8 +24,8 @@ def words_of(found: OutlyingSamples, campaign: Campaign) -> str:
     named = [f"by {readable(factor * off)}{unit}{place_of(found, row, campaign)} (sample {row + 1:,})" for row, off in zip(found.rows, found.off)]
     some = ", ".join(named[:MOST_NAMED]) + (" ..." if count > MOST_NAMED else "")
     return (
-        f"run {found.run}{campaign.place(found.run, VALUE)}: {count} of {found.samples:,} samples {'stand' if count > 1 else 'stands'} {sizes} times the noise off"
-        f" {'their' if count > 1 else 'its'} neighbours, {some}"
+        f"run {found.run}{campaign.place(found.run, VALUE)}: {count} of {found.samples:,} samples {'stand' if count > 1 else 'stands'} {sizes} times"
+        f" the noise off {'their' if count > 1 else 'its'} neighbours, {some}"
     )
 
 

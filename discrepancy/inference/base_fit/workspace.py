@@ -7,9 +7,8 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.predictions import Predictions
 from discrepancy.inference.noise.noise import Noise, estimate
-from discrepancy.outlying_samples import masks_of
 from discrepancy.problem import Candidate, Model, OnThreads, Parameter
-from fmu_src.arrays import Floats, Mask
+from fmu_src.arrays import Floats
 from fmu_src.threads import Threads
 
 STEP = 0.01
@@ -39,17 +38,11 @@ class Workspace:
     def __init__(self, model: Model):
         self.model, self.threads = model, model.threads if isinstance(model, OnThreads) else Threads()
         self.records = list(model.records)
-        # Of each record the samples that stand far off.
-        self.outlying = masks_of(self.records)
         self.predictions = Predictions(model)
         self.training = [i for i, r in enumerate(self.records) if not r.held_out]
         self.held_out = [i for i, r in enumerate(self.records) if r.held_out]
         if not self.training:
             raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
-
-    def told(self, i: int) -> Mask:
-        """(n,) Samples of a record by which its error is told: those that are usable and do not stand far off."""
-        return self.noise.whiteners[i].kept & ~self.outlying[i]
 
     # rows ---------------------------------------------------------------------------------
     def lay_out(self) -> None:

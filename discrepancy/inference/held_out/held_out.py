@@ -157,9 +157,9 @@ class HeldOutJudge:
         for i, b, n in zip(self.indices, base, now):
             record, whitener = self.space.records[i], self.space.noise.whiteners[i]
             cell = sums[stream_of(record)]
-            told = self.space.told(i)
-            cell["before"].append(float(np.mean((record.values - b)[told] ** 2)))
-            cell["after"].append(float(np.mean((record.values - n)[told] ** 2)))
+            kept = whitener.kept
+            cell["before"].append(float(np.mean((record.values - b)[kept] ** 2)))
+            cell["after"].append(float(np.mean((record.values - n)[kept] ** 2)))
             cell["floor"].append(whitener.floor**2)
         return {s: {k: float(np.sqrt(np.mean(v))) for k, v in cell.items()} for s, cell in sums.items()}
 
