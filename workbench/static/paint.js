@@ -217,7 +217,7 @@ function drawCursors(plot, c, px, foot) {
   plot.cursorButton.textContent = `cursor ${plot.active.toUpperCase()}`;
 }
 
-function fitting(c, text, room) {
+export function fitting(c, text, room) {
   if (c.measureText(text).width <= room) return text;
   let short = text;
   while (short.length > 4 && c.measureText(`${short}…`).width > room) short = short.slice(0, -1);

@@ -14,7 +14,7 @@ export function recolour() {
 
 // A line without the samples that stretch no axis.
 function inside(line) {
-  if (!line.aside) return line;
+  if (!line.aside?.length) return line;
   if (!line.inside) {
     const y = Float32Array.from(line.y);
     for (const i of line.aside) y[i] = NaN;
