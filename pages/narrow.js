@@ -33,7 +33,7 @@ function thinned(data, layout, width) {
   const kept = [];
   for (const i of names.map((_, k) => k).sort((p, q) => tall(q) - tall(p)))
     if (kept.every((k) => Math.abs(k - i) * cell > ((names[k].length + names[i].length) / 2 + 1) * LETTER)) kept.push(i);
-  return kept.length < names.length ? { xaxis: { ...layout.xaxis, tickmode: "array", tickvals: kept.map((i) => names[i]) } } : {};
+  return kept.length < names.length ? { xaxis: { ...layout.xaxis, tickmode: "array", tickvals: kept.sort((p, q) => p - q).map((i) => names[i]) } } : {};
 }
 
 // What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
