@@ -236,7 +236,11 @@ def test_a_sample_aside_stretches_no_axis(bench):
 
 def test_a_reducer_that_is_read_says_so(bench):
     page, held = bench.page, []
-    page.route("**/reducer", held.append)
+
+    def asked(route):
+        held.append(route)
+
+    page.route("**/reducer", asked)
     page.goto(f"{bench.address}#reducer")
     page.get_by_text("Reading the reducer…").wait_for()
     held[0].continue_()
