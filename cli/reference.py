@@ -14,7 +14,7 @@ from cli.schemas import KINDS, explained, schema_of, settable
 from fmu_src.project import NAME
 from fmu_src.source_hash import ROOT
 from reducers.reducer import every_table, must_be_stated
-from reproduce import has_figure, stated
+from reproduce.statements import stated
 
 REFERENCE, SCHEMAS = ROOT / "docs" / "reference", ROOT / "docs" / "schema"
 PLAIN_KINDS = {"string": "text", "number": "number", "integer": "whole number", "boolean": "`true`, `false`", "object": "table"}
@@ -164,8 +164,8 @@ def claims_page() -> str:
     lines = [MADE + "# Claims\n", "What the two source documents, catalogues and later literature say, held against the computation by `rvwear reproduce ID`;"
              " [a tutorial](../tutorials/paper_figure.md) shows one.\n"]  # fmt: skip
     sources: dict[str, list[str]] = {}
-    for name, (source, title, says) in stated().items():
-        sources.setdefault(source, []).append(f"| {name} | {cell(title)} | {'yes' if has_figure(name) else ''} | {cell(says)} |")
+    for name, one in stated().items():
+        sources.setdefault(one.source, []).append(f"| {name} | {cell(one.title)} | {'yes' if one.has_figure else ''} | {cell(one.says)} |")
     for source, rows in sources.items():
         lines += [f"\n## {source[:1].upper()}{source[1:]}\n", "| id | claim | figure | what the source says |", "|---|---|---|---|", *rows]
     return "\n".join(lines) + "\n"

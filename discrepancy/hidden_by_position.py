@@ -6,13 +6,13 @@ import numpy as np
 from scipy.special import ndtri
 
 from discrepancy.as_told import told_name
+from discrepancy.campaign.unplaced import REMEDY
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.screening.screen import Columns
 from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
-from discrepancy.locked_doubts import REMEDY
 from discrepancy.problem import BASE, CHAIN, Candidate
 from discrepancy.scales import of_parameter
 from fmu_src.arrays import Floats

@@ -9,21 +9,16 @@ import numpy as np
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign
-from discrepancy.held_names import LOCKED_AT
+from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.plausible import thinned
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.fineness import fast_noise
 from discrepancy.prediction.physical_model import defined
 from discrepancy.prediction.positions import departures
-from discrepancy.problem import MEAN, Record, is_unplaced
+from discrepancy.problem import Record, is_unplaced
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.units import conversion
-
-REMEDY = (
-    f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition;'
-    f' or measure at positions over a turn of the cranks and state {LOCKED_AT} = "{MEAN}"'
-)
 
 
 def locked_doubts(campaign: Campaign) -> list[Finding]:
@@ -45,7 +40,7 @@ def locked_doubts(campaign: Campaign) -> list[Finding]:
     arcsec = conversion("rad", "arcsec")[0]
     count = f"{len(loops)} loops" if len(loops) > 1 else f"run {loops[0].name}"
     text = (
-        f"{count}: nobody says where the input was locked. The model's loop is the mean over a turn of the cranks; one at one position departs from it"
+        f"{count}: {QUESTION}. The model's loop is the mean over a turn of the cranks; one at one position departs from it"
         f" by {readable(off * arcsec)} arcsec (root mean square, at most {readable(float(np.abs(apart).max()) * arcsec)}), and the noise is"
         f" {readable(noise * arcsec)} arcsec: what is named may be that"
     )

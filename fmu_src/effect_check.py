@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Any
 
 from fmu_src.faults import InputFault, nearest
@@ -288,7 +288,7 @@ def of_kernels(source: Source, effect: Any, frame: Frame) -> list[Finding]:
     for hook in frame.hooks:
         if hook not in source.functions:
             continue
-        reading = read_hook(source, hook, dimensions)
+        reading = read_hook(source, hook, dimensions, counts_of(hook, known, frame))
         findings += [Finding(t.file, t.line, t.text) for t in reading.troubles]
         for use in reading.uses:
             rule = of_reading if use.action == "read" else of_change
@@ -307,8 +307,18 @@ def of_others(frame: Frame) -> list[Variable]:
     return [v for other, _ in frame.effects.values() for v in other.variables()]
 
 
-def read_hook(source: Source, hook: str, dimensions: Mapping[str, int]) -> Reading:
-    reading = Reading(source, dimensions)
+def counts_of(hook: str, known: Mapping[str, Variable], frame: Frame) -> dict[str, str]:
+    """What a hook gets the number of discs, cranks, rollers ... from: the length of a field, one of those that it may change if any has it."""
+    changed = [name for changes in (frame.allowed[hook], *frame.allowed.values()) for name in changes if name in known]
+    counts: dict[str, str] = {}
+    for v in (*(known[name] for name in changed), *frame.own):
+        for number, axis in enumerate(v.axes):
+            counts.setdefault(f"{axis.replace(' ', '_')}s", f"{v.name}.shape[{number}]")
+    return counts
+
+
+def read_hook(source: Source, hook: str, dimensions: Mapping[str, int], counts: Mapping[str, str] = MappingProxyType({})) -> Reading:
+    reading = Reading(source, dimensions, counts)
     others = len(source.functions[hook].args.args) - 1
     reading.follow(source, hook, (RECORD, *(frozenset() for _ in range(others))))
     return reading

@@ -9,7 +9,7 @@ import ast
 import builtins
 import importlib.util
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -116,10 +116,14 @@ def imported_source(module: str) -> Source | None:
 
 @dataclass
 class Reading:
-    """Everything that following one or several kernels of ``source`` has shown; ``dimensions`` counts each field's indices."""
+    """Everything that following one or several kernels of ``source`` has shown; ``dimensions`` counts each field's indices.
+
+    ``counts`` says of names of counts, which no record has (``discs``), what has them: ``roller_gap_now.shape[0]``.
+    """
 
     source: Source
     dimensions: Mapping[str, int]
+    counts: Mapping[str, str] = field(default_factory=dict)
     uses: set[Use] = field(default_factory=set)
     troubles: set[Trouble] = field(default_factory=set)
     # Names of kernels in ``source`` that were met.
@@ -231,7 +235,7 @@ class Call:
             return NOTHING
         if isinstance(node, ast.Name):
             if node.id not in self.known:
-                self.trouble(node, f"{node.id} is not defined" + nearest(node.id, self.known - set(dir(builtins)), 1))
+                self.trouble(node, f"{node.id} is not defined" + self.meant(node.id, self.known - set(dir(builtins))))
             return self.stands_for.get(node.id, NOTHING)
         if isinstance(node, ast.Attribute):
             return self.attribute(node)
@@ -254,8 +258,14 @@ class Call:
     def has_field(self, node: ast.Attribute) -> bool:
         if node.attr in self.reading.dimensions:
             return True
-        self.trouble(node, f"the record has no field {node.attr}" + nearest(node.attr, self.reading.dimensions, 1))
+        self.trouble(node, f"the record has no field {node.attr}" + self.meant(node.attr, self.reading.dimensions))
         return False
+
+    def meant(self, name: str, known: Iterable[str]) -> str:
+        """What was perhaps meant by a name that is not there, as the end of a message."""
+        if name in self.reading.counts:
+            return f"; how many there are is the length of a field: r.{self.reading.counts[name]}"
+        return nearest(name, known, 1)
 
     def attribute(self, node: ast.Attribute) -> Parts:
         parts = self.value(node.value)

@@ -10,7 +10,7 @@ from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 from reducers.completion.complete import UNITS, ring_doubt
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
-from reducers.completion.given import Given
+from reducers.completion.given import SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
 from reducers.reducer import Reducer, numbers_of
 from reducers.usual import DERIVED, USUAL, stale
@@ -164,7 +164,10 @@ def faults_of(reducer: Reducer, n: dict[str, float], ring: float, pin: float, th
         if t.output_pins or stage <= 0.0 or t.cranks < 2:
             check_profile(t.pins, ring, pin, throw)
         else:
-            given = Given(float(total_ratio(stage, t.pins, t.lobes)), t.pins, max(1.0, abs(n["output.load_torque"])), cranks=t.cranks, rollers=t.rollers)
+            ratio, torque = float(total_ratio(stage, t.pins, t.lobes)), max(1.0, abs(n["output.load_torque"]))
+            # What a file leaves out is usual, and none of its own teeth.
+            sun = {SUN: n[SUN]} if SUN in n else {}
+            given = Given(ratio, t.pins, torque, cranks=t.cranks, rollers=t.rollers, known=sun)
             check_geometry(given, {name: MM * value for name, value in n.items()})
     except InputFault as fault:
         return [re.sub("|".join(KEYS), lambda found: KEYS[found[0]], str(fault))]

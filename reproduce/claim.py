@@ -7,7 +7,6 @@ number of a finding comes out of a kernel, a run or a printed form at that momen
 the verdict no longer stands, and table, page and tests say so.
 """
 
-import inspect
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -136,20 +135,12 @@ class Claim:
 
 Finder = Callable[[Context], Finding]
 REGISTRY: dict[str, Callable[[Context], Claim]] = {}
-# Of each claim its source, title, and what the source says.
-STATED: dict[str, tuple[str, str, str]] = {}
-
-
-def has_figure(identity: str) -> bool:
-    """Whether a claim draws anything, as its function says: nothing is computed."""
-    return "figures=" in inspect.getsource(REGISTRY[identity])
 
 
 def states(identity: str, source: str, title: str, says: str) -> Callable[[Finder], Finder]:
-    """Register the function below as the claim ``identity`` of a source."""
+    """Register the function below as the claim ``identity`` of a source; ``statements`` reads what stands here."""
     if identity in REGISTRY:
         raise ValueError(f"claim {identity} is registered twice")
-    STATED[identity] = source, title, says
 
     def register(function: Finder) -> Finder:
         @wraps(function)

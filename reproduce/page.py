@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from pages.render import rendered
+from pages.render import rendered, written
 from reproduce.claim import CONDITIONAL, CONTRADICTED, NOT_TESTABLE, REPRODUCED, SOURCES, VERDICTS, Claim
 from reproduce.table import audited_text, off_text, ours_text, range_text, span_text, unit_text, value_text
 
@@ -23,3 +23,8 @@ def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
         changes=changes, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
         discrepancies=[] if changes else [(c, n) for c in claims for n in c.discrepancies],
     )  # fmt: skip
+
+
+def write_page(claims: list[Claim], path: Path, changes: Sequence[str] = ()) -> Path:
+    """Write the claims as one HTML file that opens offline."""
+    return written(page_of(claims, changes), path)

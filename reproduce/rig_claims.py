@@ -6,6 +6,7 @@ from reproduce import rig
 from reproduce.claim import LITERATURE, NOT_TESTABLE, REPRODUCED, Finding, Number, held, states
 from reproduce.context import REAL_RV, RV, Context, amplitude
 from reproduce.prototypes import part_errors, peak_to_peak
+from reproduce.rig import SUMMARY
 from reproduce.stiffness_claims import ERRORS
 from rv_plant.gear_stage import total_ratio
 
@@ -59,7 +60,7 @@ def rig_of_81(context: Context) -> Finding:
 
 
 @states("L40", LITERATURE, "Compensation of the transmission error", "Robotics Comput.-Integr. Manuf. 2025, 102838, 10.1016/j.rcim.2024.102838, by"
-        f" {rig.SUMMARY}: feeding back orders 0, 1 and 39 lowers the rms error in motion by 83.3 % (a robot's profile) and 94.0 % (a cycloid's).")
+        f" {SUMMARY}: feeding back orders 0, 1 and 39 lowers the rms error in motion by 83.3 % (a robot's profile) and 94.0 % (a cycloid's).")
 def compensation(context: Context) -> Finding:
     lowered = [100.0 * (1.0 - after / before) for before, after in zip(rig.NOTHING_FITTED, rig.FITTED)]
     return Finding(
@@ -71,7 +72,7 @@ def compensation(context: Context) -> Finding:
     )  # fmt: skip
 
 
-@states("L42", LITERATURE, "Orders of pins and discs", f"Bauer et al., ICIT 2025, 10.1109/ICIT63637.2025.10965256, by {rig.SUMMARY}: of a cycloid drive of 46"
+@states("L42", LITERATURE, "Orders of pins and discs", f"Bauer et al., ICIT 2025, 10.1109/ICIT63637.2025.10965256, by {SUMMARY}: of a cycloid drive of 46"
         " pins and 45 lobes orders 46 k from k = 1 on count, orders 45 k from k = 2 on.")
 def disc_orders(context: Context) -> Finding:
     throw, ring = (context.output_turn(RV, *ERRORS[what]) for what in ("throw of one lobe +3 µm", "pin ring 5 µm eccentric"))

@@ -56,6 +56,6 @@ def page_of(claims: list[Claim]) -> str:
 
 
 if __name__ == "__main__":
-    from reproduce import run
+    from reproduce.judging import run
 
     PAGE.write_text(page_of(run(["L", "C"], print)), encoding="utf-8")

@@ -76,7 +76,7 @@ def test_what_two_quantities_need_is_asked_once(tmp_path, capsys):
     pd.DataFrame({"input_speed [rpm]": [200.0, 600, 1000], "efficiency [%]": [60.0, 61, 62]}).to_csv(folder / "efficiency.csv", index=False)
     assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm", "--held-out"]) == 1
     command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
-    assert command.count("load_torque=167 N.m") == 1 and "--held-out" in command
+    assert command.count("load_torque=...") == 1 and "--held-out" in command
 
 
 def test_files_that_fit_no_pattern_are_guessed_and_said(tmp_path):

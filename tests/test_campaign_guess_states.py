@@ -1,5 +1,7 @@
 """Facts that stand in a file are not asked again: the unit of a torque, the side that was held, that nothing loaded it, whose speed it is."""
 
+import shlex
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,6 +9,7 @@ from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, FRICTION, SPEEDS, TORQUE, 
 
 from cli.main import main
 from discrepancy.campaign.guess.column_words import meaning_of, quantities_named
+from discrepancy.campaign.guess.locked_words import angle_named, locked_angle
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.unit_words import unit_in
@@ -117,3 +120,77 @@ def test_who_says_which_side_was_locked_speaks_of_loops(tmp_path, tags, sure):
     pd.DataFrame({"moment": np.linspace(0, 167, 100), "winkel": np.linspace(0, 3, 100)}).to_csv(tmp_path / "m.csv", index=False)
     quantity = propose([tmp_path], Wishes("RV20E-121", tags=tags)).runs[0].guessed.quantity
     assert quantity.value == "hysteresis" and quantity.sure == sure
+
+
+@pytest.mark.parametrize("text, angle", [
+    ("Ingresso bloccato a 40°", "40 deg"), ("Eingang gesperrt bei 40 Grad", "40 deg"), ("Antrieb bei 40,5 Grad gesperrt", "40.5 deg"), ("input locked at 40 deg", "40 deg"),
+    ("Input shaft: locked at -40 degrees", "-40 deg"), ("entrée bloquée à 40°", "40 deg"), ("Arbre d'entrée bloqué à l'angle 40 degrés", "40 deg"), ("entrada bloqueada a 40°", "40 deg"),
+    ("Ingresso bloccato all'angolo 40 gradi", "40 deg"), ("motor clamped at 0.7 rad", "0.7 rad"), ("# Input locked: 40 deg", "40 deg"), ("Input locked at;40;deg", "40 deg"),
+    ("入力軸固定：40°", "40 deg"), ("入力軸を40°で固定", "40 deg"), ("输入轴锁定在40°", "40 deg"), ("loop_input_locked_at_40deg_1", "40 deg"),
+    # A temperature, a torque, the other side, another part, two angles, or nothing that leads to the number.
+    ("Ingresso bloccato a 40 °C", None), ("Eingang gesperrt, 40 Grad", None), ("Eingang gesperrt bei 40 Grad Celsius", None), ("input locked at 40 Nm", None),
+    ("input locked at 40", None), ("uscita bloccata a 40°", None), ("Eingang frei, Abtrieb gesperrt bei 40°", None), ("Encoder fixed at 40 deg", None), ("入力軸固定 40℃", None),
+    ("input locked at 40 deg, then input locked at 80 deg", None), ("isteresi_40gradi", None),
+])  # fmt: skip
+def test_where_the_input_was_locked(text, angle):
+    assert locked_angle([text]) == angle
+
+
+def test_an_angle_in_a_name_is_one_that_may_be_meant():
+    assert [angle_named(name) for name in ("isteresi_40gradi_prova1", "loop-300deg-1", "loop_40degC_1", "loop_2_15rpm")] == ["40 deg", "300 deg", None, None]
+
+
+def italian_loops(folder, **heads):
+    """``isteresi_NAME.csv``, each with its line above the table, and a transmission error whose name has a kind of two words."""
+    head = "Banco prova\n{}\nVelocità uscita: 15 giri/min\n\n"
+    for name, said in heads.items():
+        table = pd.DataFrame({"coppia [Nm]": TORQUE, "torsione [arcmin]": TWIST / ARCMIN, "temperatura [°C]": 35.0 + 0.001 * np.arange(len(TORQUE))})
+        (folder / f"isteresi_{name}.csv").write_text(head.format(said) + table.to_csv(index=False, sep=";", decimal=","), encoding="cp1252")
+    for load in (84, 167):
+        table = pd.DataFrame({"angolo uscita [°]": np.degrees(ANGLE), "errore [arcsec]": ERROR / ARCSEC, "temperatura [°C]": 35.0 + 0.001 * np.arange(len(ANGLE))})
+        (folder / f"errore_trasmissione_{load}Nm.csv").write_text(head.format("") + table.to_csv(index=False, sep=";", decimal=","), encoding="cp1252")
+    return folder
+
+
+def test_a_position_in_the_head_is_the_condition_s_and_nothing_is_asked(tmp_path, capsys):
+    folder = italian_loops(tmp_path, **{"40gradi_prova1": "Ingresso bloccato a 40°", "300gradi": "Ingresso bloccato a 300°"})
+    proposal = propose([folder], Wishes("RV20E-121"))
+    assert proposal.conditions["40gradi"]["locked_at"] == "40 deg" and proposal.conditions["300gradi"]["locked_at"] == "300 deg" and not proposal.doubts
+    factors = {record.name: record.factors.get("locked_at") for record in checked(proposal).records}
+    assert factors["isteresi_300gradi"] == pytest.approx(np.radians(300)) and factors["errore_trasmissione_84Nm"] is None
+    # Where nothing else tells conditions apart the angles name them.
+    for k, path in enumerate(sorted(folder.glob("isteresi*")), 1):
+        path.rename(folder / f"isteresi_prova{k}.csv")
+    assert {"40deg", "300deg"} <= {name.removesuffix("_15rpm") for name in propose([folder], Wishes("RV20E-121")).conditions}
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 0
+    assert capsys.readouterr().out.rstrip().endswith(f"next:\n  rvwear compare RV20E-121 {folder}")
+
+
+def test_a_position_that_nobody_says_is_asked_with_the_command_that_says_it(tmp_path, capsys):
+    folder = italian_loops(tmp_path, **{"40gradi": "Ingresso bloccato", "caldo": "Ingresso bloccato"})
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 0
+    out = capsys.readouterr().out
+    assert "nobody says where the input was locked" in out
+    assert out.rstrip().endswith(f"look at what is not sure, then:\n  rvwear campaign check {folder}\n  rvwear compare RV20E-121 {folder}")
+    (command,) = (shlex.split(line) for line in out.splitlines() if line.startswith("  rvwear campaign from"))
+    assert command[-4:] == ["--condition", "40gradi:locked_at=40 deg", "--condition", "caldo:locked_at=..."]
+    assert main(command[1:]) == 2
+    assert "--condition caldo:locked_at=...: put what it is in place of the dots, as in locked_at=90 deg" in capsys.readouterr().err
+    assert main([*command[1:-1], "caldo:locked_at=mean"]) == 0
+    assert "not sure" not in capsys.readouterr().out
+    # With the output locked there is nothing to ask.
+    assert not propose([folder], Wishes("RV20E-121", tags={"locked": "output"})).doubts
+
+
+def test_kinds_of_files_are_left_out_of_the_names_of_conditions_whole(tmp_path):
+    folder = italian_loops(tmp_path, **{"40gradi": "Ingresso bloccato a 40°"})
+    assert sorted(propose([folder], Wishes("RV20E-121")).conditions) == ["167N.m", "40gradi", "84N.m"]
+    # Words of a kind that nobody knows as one go where numbers tell all apart, and stay where they alone do.
+    for load in (84, 167):
+        (folder / f"errore_trasmissione_{load}Nm.csv").rename(folder / f"errore_grezzo_{load}Nm.csv")
+    assert sorted(propose([folder], Wishes("RV20E-121")).conditions) == ["167N.m", "40gradi", "84N.m"]
+    for state in ("freddo", "caldo"):
+        for load in (84, 167):
+            text = (folder / f"errore_grezzo_{load}Nm.csv").read_bytes()
+            (folder / f"errore_{state}_{load}Nm.csv").write_bytes(text)
+    assert {"freddo_84N.m", "caldo_84N.m"} <= propose([folder], Wishes("RV20E-121")).conditions.keys()

@@ -4,8 +4,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-from bench_files import ANGLE, ARCSEC, ERROR
+from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
+from cli.main import main
 from discrepancy.campaign.guess.file_names import suggested
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
@@ -59,3 +60,59 @@ def test_a_stated_column_that_nothing_follows_is_refused(tmp_path, columns, said
     pd.DataFrame({"out [deg]": np.degrees(ANGLE), "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
     with pytest.raises(InputFault, match=said):
         propose([tmp_path], Wishes("RV20E-121", columns=columns))
+
+
+def loop_and_error(folder):
+    """A loop and a transmission error, each with a column of the housing's temperature."""
+    warm = {"T_housing [degC]": 35.0 + 0.001 * np.arange(len(TORQUE))}
+    pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN, **warm}).to_csv(folder / "loop_1.csv", index=False)
+    warm = {"T_housing [degC]": 35.0 + 0.001 * np.arange(len(ANGLE))}
+    pd.DataFrame({"angle [deg]": np.degrees(ANGLE), "te [arcsec]": ERROR / ARCSEC, **warm}).to_csv(folder / "te_50Nm_15rpm_1.csv", index=False)
+    return folder
+
+
+def test_a_number_of_the_condition_is_a_column_of_every_quantity_and_changes_none(tmp_path):
+    """Loops became input torques, whose load was asked for."""
+    folder = loop_and_error(tmp_path)
+    plain = propose([folder], Wishes("RV20E-121", tags={"locked": "output"}))
+    assert [run.guessed.left_out for run in plain.runs] == [("T_housing [degC]",), ()]
+    proposal = propose([folder], Wishes("RV20E-121", columns={"temperature": "T_housing"}, tags={"locked": "output"}))
+    assert [run.guessed.quantity.value for run in proposal.runs] == ["hysteresis", "transmission_error"] and not proposal.needs and proposal.doubts == plain.doubts
+    assert [run.guessed.quantity.value for run in plain.runs] == ["hysteresis", "transmission_error"]
+    for record in checked(proposal).records:
+        assert record.axes["temperature"] == pytest.approx(273.15 + 35.0 + 0.001 * np.arange(len(record.values)))
+    assert propose([folder], Wishes("RV20E-121", columns={"temperature": "T_housing", "value": "twist"})).runs[0].guessed.columns.keys() == {"value", "torque", "temperature"}
+
+
+def test_where_each_row_s_input_was_locked_is_a_column(tmp_path):
+    table = {"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN, "motor [deg]": np.full(len(TORQUE), 40.0)}
+    pd.DataFrame(table).to_csv(tmp_path / "loop.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", columns={"locked_at": "motor [deg]"}, tags={"locked": "input"}))
+    assert not proposal.doubts and checked(proposal).records[0].axes["locked_at"] == pytest.approx(np.radians(40.0))
+
+
+def test_a_column_of_some_files_only(tmp_path):
+    folder = loop_and_error(tmp_path)
+    (folder / "loop_2.csv").write_text((folder / "loop_1.csv").read_text())
+    proposal = propose([folder], Wishes("RV20E-121", columns={"loop_2*:temperature": "T_housing"}))
+    assert ["temperature" in run.guessed.columns for run in proposal.runs if run.guessed.quantity.value == "hysteresis"] == [False, True]
+    for key, column, said in (
+        ("lop*:temperature", "T_housing", r"--column lop\*:temperature=T_housing: no file is named lop\*; there are loop_1.csv"),
+        ("loop*:temprature", "T_housing", "there is no such role.*did you mean temperature"), ("loop*:temperature", "te", "no file has a column 'te' of numbers; there are T_housing"),
+    ):  # fmt: skip
+        with pytest.raises(InputFault, match=said):
+            propose([folder], Wishes("RV20E-121", columns={key: column}))
+
+
+def test_columns_without_a_part_are_named(tmp_path, capsys):
+    assert main(["campaign", "from", str(loop_and_error(tmp_path)), "--reducer", "RV20E-121", "--dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert out.count("left out: ") == 1 and "left out: 'T_housing [degC]'; --column 'ROLE=COLUMN' gives one a part" in out
+
+
+def test_what_some_conditions_lack_is_asked_of_them_alone_and_nothing_is_made_up(tmp_path, capsys):
+    folder = loop_and_error(tmp_path)
+    (folder / "te_kalt.csv").write_text((folder / "te_50Nm_15rpm_1.csv").read_text())
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 1
+    command = capsys.readouterr().out.rstrip().splitlines()[-1]
+    assert command.endswith("--overwrite --condition 'kalt:output_speed=...' --condition 'kalt:load_torque=...'")

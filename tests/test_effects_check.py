@@ -96,6 +96,10 @@ def test_a_good_effect_and_all_of_the_catalogue_pass(tmp_path):
     ("x = r.ring_scale", "before reads r.ring_scale, a state (pin circle radius over that at the reference temperature), on which other"),
     ("r.my_state[0] = r.slider[0]", "which the effect stribeck_friction changes in the same stage"),
     ("r.ring_scale *= r.rign_scale", "the record has no field rign_scale; did you mean ring_scale?"),
+    ("for d in range(r.discs): pass", "the record has no field discs; how many there are is the length of a field: r.roller_gap_now.shape[0]"),
+    ("for d in range(r.rollers): pass", "the record has no field rollers; how many there are is the length of a field: r.roller_gap_now.shape[2]"),
+    ("for d in range(r.pins): pass", "the record has no field pins; how many there are is the length of a field: r.pin_x.shape[0]"),
+    ("for d in range(cranks): pass", "cranks is not defined; how many there are is the length of a field: r.roller_gap_now.shape[1]"),
     ("r.ring_scale *= sise", "sise is not defined"),
     ("r.ring_scale *= math.coss(1.0)", "math has no coss; did you mean cos?"),
     ("r.ring_scale *= planet_radius(1.0)", "planet_radius takes 2 arguments (crank_circle_radius, first_stage_ratio), not 1"),
@@ -372,12 +376,15 @@ def after(r):
 """
 
 
-def test_check_says_which_shapes_a_diagnosis_fits_and_the_units_of_answers(tmp_path, capsys):
-    assert main(["effects", "--check", str(written(tmp_path, LAW, name="lip"))]) == 0
-    said = capsys.readouterr().out
-    # A third of the start lies below the bounds.
-    assert "lip_speed is fitted within 12 to 300 rad/s, from 30, 90" in said
-    # What an answer tells in another unit says so, and how many make one.
-    assert "lip_speed is in rad/s here, for kernels; answers give it in rpm at its usual size: 1 rad/s is 9.5493 rpm" in said
-    assert "lip_power is in" not in said and "lip_torque is in mN" not in said
-    assert "lip_power is held at 1 1, not fitted: held=True" not in said and "lip_power is held at 1, not fitted: held=True" in said
+def test_check_says_of_every_parameter_its_units_and_what_a_diagnosis_does_with_it(tmp_path, capsys):
+    law = LAW.replace('"known", held=True)', '"known", held=True),\n     shape("lip_onset", "K", "T0", 303.15, 273.15, 353.15, "assumed")')
+    assert main(["effects", "--check", str(written(tmp_path, law, name="lip"))]) == 0
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "  lip_torque: in N.m, here and in answers; amplitude, fitted within 0 to 5 N.m",
+        # A third of the start lies below the bounds.
+        "  lip_speed: in rad/s here, for kernels, in rpm in answers at its usual size (1 rad/s is 9.5493 rpm);"
+        " shape, fitted within 12 to 300 rad/s, from 30, 90",
+        "  lip_power: a number without a unit; shape, held at 1, not fitted: held=True",
+        "  lip_onset: in K here, for kernels, in degC in answers at its usual size (0 degC is 273.15 K);"
+        " shape, fitted within 273.15 to 353.15 K, from 303.15",
+    ]

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from reproduce import run
 from reproduce.context import Context
 from reproduce.individuality_claims import marks_of, others, spread
+from reproduce.judging import run
 
 
 @pytest.fixture(scope="module")

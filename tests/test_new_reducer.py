@@ -107,6 +107,9 @@ def test_undercut_begins_where_the_published_condition_says():
     ({"known": {"inner_race.radius": 20.0, "roller.radius": 3.0, "outer_race.radius": 27.0}}, r"do not fit each other.*make 26 mm"),
     ({"known": {"roller.radius": 6.0}}, r"roller.radius = 6 mm: 16 rollers do not fit"),
     ({"known": {"roller.length": 30.0}}, r"roller.length = 30 mm: longer than the disc is wide \(mesh.width = 17.39 mm\)"),
+    ({"ratio": 141.0, "pins": 48, "known": {"first_stage.sun_teeth": 13.0}},
+     r"first_stage.sun_teeth = 13: with --ratio 141 and --pins 48 the planets would have 37.92 teeth; whole planets go with a sun of 12 or 24 teeth"),
+    ({"known": {"first_stage.sun_teeth": 12.5}}, r"first_stage.sun_teeth = 12.5: .* the planets would have 25 teeth; .* a sun of 12 or 13 teeth"),
     ({"diameter": 150.0, "known": {"pin.circle_radius": 80.0}}, r"--diameter 150 mm: a ring of pins of \d+.* mm does not fit inside"),
 ])  # fmt: skip
 def test_what_makes_no_reducer_is_told_option_value_unit_and_remedy(change, said):

@@ -69,6 +69,8 @@ def test_a_stated_number_wins_and_a_stale_one_is_told(tmp_path):
     ([("value = 2.5, unit", "value = 5.5, unit")], r"pin\.radius = 5\.5 mm: 40 pins .* overlap.*topology\.pins smaller"),
     ([("value = 1.1, unit", "value = 1.6, unit")], r"crank\.eccentricity = 1\.6 mm: K1 = .* makes loops"),
     ([("value = 1.1, unit", "value = 1.49, unit"), ("value = 2.5, unit", "value = 4.4, unit")], "the flank is undercut"),
+    ([('source = "39 over 15 teeth" }', 'source = "39 over 15 teeth" }\nsun_teeth = { value = 14, unit = "1", source = "counted" }')],
+     r"first_stage\.sun_teeth = 14: with ratio 105 and topology\.pins 40 the planets would have 36\.4 teeth; .* a sun of 10 or 15 teeth"),
     ([("rollers = 16", "rollers = 40")], r"40 rollers do not fit .*fewer topology\.rollers"),
 ])  # fmt: skip
 def test_what_cannot_be_made_is_said_where_and_how_to_mend_it(tmp_path, capsys, changes, said):

@@ -10,11 +10,13 @@ import pytest
 
 from cli.main import main
 from fmu_src.faults import InputFault
-from reproduce import as_json, available_claims, print_table, rig, run, tables_of, wall, write_page
 from reproduce import printed_forms as printed
+from reproduce import rig, wall
 from reproduce.claim import CONDITIONAL, SOURCES, VERDICTS, Number
-from reproduce.page import page_of
-from reproduce.table import curves_of, span_text, value_text
+from reproduce.judging import run
+from reproduce.page import page_of, write_page
+from reproduce.statements import available_claims, stated
+from reproduce.table import as_json, curves_of, print_table, span_text, tables_of, value_text
 
 # Claims that need no life run.
 QUICK = ["T01", "T02", "T03", "T04", "T05", "T06", "T07", "T08", "T09", "T10", "T11", "T13", "T14", "T17", "T18",
@@ -49,6 +51,8 @@ def check_complete(claims):
             assert all(np.isfinite(v) for v in (number.value, number.printed, number.low, number.high) if v is not None), (claim.id,
                 number.label)
             assert (number.low is None) == (number.high is None) and (number.low is None or number.low <= number.high), (claim.id, number.label)
+        said = stated()[claim.id]
+        assert (said.source, said.title, said.says) == (claim.source, claim.title, claim.says) and said.has_figure == bool(claim.figures), claim.id
         for figure in claim.figures:
             assert figure.data and figure.layout
 

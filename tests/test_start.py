@@ -38,6 +38,12 @@ def test_help_loads_nothing_heavy(command):
     assert seconds < SOON
 
 
+def test_the_list_of_claims_loads_nothing_that_computes_or_draws():
+    loaded, _, text = modules_after(["reproduce", "--list"])
+    assert "T18" in text
+    assert not loaded & {"numpy", "llvmlite", "pandas", "xarray", "plotly", "matplotlib", "scipy", "pydantic", "pint"}
+
+
 @pytest.mark.parametrize("shell, word", [("bash", "complete "), ("zsh", "compdef"), ("fish", "complete ")])
 def test_completion_prints_what_the_shell_sources(shell, word):
     loaded, seconds, text = modules_after(["completion", shell])

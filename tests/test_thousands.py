@@ -37,7 +37,7 @@ def test_where_nothing_tells_the_next_line_is_not_carefree(tmp_path, capsys):
     (tmp_path / "loop_1.csv").write_text(f"torque [Nmm];twist [arcsec]\n{rows}")
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--tag", "locked=input"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "nothing in the file tells which; look at the ranges; if they are fractions: decimal = " in said and "look at what is not sure, then: rvwear compare" in said
+    assert "nothing in the file tells which; look at the ranges; if they are fractions: decimal = " in said and f"look at what is not sure, then: rvwear campaign check {tmp_path} rvwear compare" in said
 
 
 @pytest.mark.parametrize("fields, decimal", [

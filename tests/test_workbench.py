@@ -149,6 +149,23 @@ def test_an_angle_of_the_motor_is_doubted_in_its_row_and_mended(tmp_path, capsys
     assert not view(folder)["same"] and view(folder)["wishes"]["columns"] == {"angle": "Winkel [deg]"}
 
 
+def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_1.csv", CSV.encode())
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}})
+    question = "nobody says where the input was locked"
+    assert [d["place"] for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == ["single"]
+    save(folder)
+    (finding,) = (f for f in view(folder)["findings"] if question in f["text"])
+    assert finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"single:locked_at": "40 deg"}})
+    save(folder)
+    found = view(folder)
+    assert not any(question in said["text"] for said in (*found["proposal"]["doubts"], *found["findings"]))
+
+
 def test_a_head_that_says_motor_needs_no_mending(tmp_path):
     from workbench.intake import wish
 

@@ -20,6 +20,7 @@ from discrepancy.campaign.guess.write import campaign_text, checked, name_of, wr
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
+from discrepancy.campaign.unplaced import unplaced
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available
@@ -208,10 +209,10 @@ def cells_of(folder: Folder) -> dict[str, Any]:
 
 
 def checked_campaign(folder: Folder) -> dict[str, Any]:
-    """What campaign.toml holds as it is read, and what ``rvwear campaign check`` finds."""
+    """What campaign.toml holds as it is read, and what ``rvwear campaign check`` finds without computing."""
     try:
         campaign = load_campaign(folder.root)
-        check = check_campaign(campaign)
+        check = check_campaign(campaign, unplaced(campaign))
     except InputFault as fault:
         return {"fault": str(fault).replace(f"{folder.root}/", "")}
     return {

@@ -15,11 +15,12 @@ from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
-    from discrepancy.campaign.guess.propose import Proposal
+    from discrepancy.campaign.guess.said import Doubt
     from discrepancy.campaign.guess.wishes import Wishes
 
-# The option that a remedy begins with, and what belongs to it.
-FIRST_OPTION = re.compile(r"--[a-z-]+ (?:'[^']*'|[^\s,;]+)")
+# The options that a remedy begins with, and what belongs to them.
+OPTION = r"--[a-z-]+ (?:'[^']*'|[^\s,;]+)"
+FIRST_OPTIONS = re.compile(rf"{OPTION}(?: {OPTION})*")
 
 
 def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -36,7 +37,8 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )  # fmt: skip
     for option, form, text in (
         ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),
-        ("--column", "ROLE=COLUMN", "what a column is: value, angle, input_angle, torque, time, output_speed ... (docs/campaigns.md)"),
+        ("--column", "ROLE=COLUMN", "what a column is: value, angle, input_angle, torque, time, output_speed, temperature ... (docs/campaigns.md);"
+         " FILES:ROLE=COLUMN for some files"),
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
@@ -57,6 +59,7 @@ def run_from(options: argparse.Namespace) -> int:
     from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.design import Design
     from discrepancy.campaign.findings import copied
+    from discrepancy.campaign.guess.positions import positions_asked
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 
@@ -84,14 +87,18 @@ def run_from(options: argparse.Namespace) -> int:
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")
     elif proposal.needs:
         said = "is written, but lacks what is needed; say it in the file, or once more on the command line"
-        print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal)}")
+        print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal.needs)}")
     else:
+        if unplaced := positions_asked([(run.condition, run.guessed) for run in proposal.runs], proposal.conditions):
+            print(f"where the input was locked is said by\n  {again(options, unplaced)}")
+        if proposal.doubts or findings:
+            command = f"{shlex.join(['rvwear', 'campaign', 'check', str(folder)])}\n  {command}"
         print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")
     return code
 
 
-def again(options: argparse.Namespace, proposal: "Proposal") -> str:
-    """The command as it was given, to be completed by what is needed; names that could say a torque are asked to."""
+def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
+    """The command as it was given, to be completed by what is asked; names that could say a torque are asked to."""
     words = ["rvwear", "campaign", "from", *options.files]
     for option in ("output", "reducer"):
         words += [f"--{option}", given] if (given := getattr(options, option)) else []
@@ -99,7 +106,7 @@ def again(options: argparse.Namespace, proposal: "Proposal") -> str:
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
     if options.held_out is not None:
         words += ["--held-out", *options.held_out]
-    needed = dict.fromkeys(match[0] for need in proposal.needs if (match := FIRST_OPTION.match(need.remedy)))
+    needed = dict.fromkeys(match[0] for need in asked if (match := FIRST_OPTIONS.match(need.remedy)))
     return " ".join([shlex.join([*words, "--overwrite"]), *needed])
 
 

@@ -11,6 +11,7 @@ from fmu_src.progress import task
 if TYPE_CHECKING:
     from discrepancy.catalogue.catalogue import Entry
     from discrepancy.catalogue.signature import Signature
+    from fmu_src.effect import EffectParameter
     from fmu_src.effect_check import Finding
 
 
@@ -78,22 +79,37 @@ def check_files(files: list[Path], as_json: bool) -> int:
 
 
 def of_parameters(file: Path) -> list[str]:
-    """Of a sound effect's parameters the unit that answers give them in, where it is none of the file's, and of each shape whether a diagnosis fits it."""
-    from discrepancy.scales import of_parameter
+    """A line for each parameter of a sound effect: its unit, the unit that answers give it in, and what a diagnosis does with it."""
     from fmu_src.effect_check import imported
 
-    module, texts = imported(file.absolute(), file.absolute().parent.name)[0], []
-    for p in module.EFFECT.parameters if module else ():
-        v, unit = p.variable, "" if p.variable.unit == "1" else f" {p.variable.unit}"
-        told = of_parameter(abs(p.scale) if p.kind == "amplitude" else abs(float(v.start)), v.unit)
-        if told.unit not in (v.unit, "1"):
-            same = "" if told.offset else f": 1 {v.unit} is {told.factor:.6g} {told.unit}"
-            texts.append(f"{v.name} is in {v.unit} here, for kernels; answers give it in {told.unit} at its usual size{same}")
-        if p.is_held:
-            texts.append(f"{v.name} is held at {float(v.start):g}{unit}, not fitted: held=True")
-        elif p.kind == "shape":
-            texts.append(f"{v.name} is fitted within {v.minimum:g} to {v.maximum:g}{unit}, from {', '.join(f'{value:g}' for value in p.grid)}")
-    return texts
+    module = imported(file.absolute(), file.absolute().parent.name)[0]
+    return [f"{p.variable.name}: {units_of(p)}; {use_of(p)}" for p in (module.EFFECT.parameters if module else ())]
+
+
+def units_of(p: "EffectParameter") -> str:
+    """The unit of a parameter's file and that of answers, where that is another."""
+    from discrepancy.scales import of_parameter
+
+    v = p.variable
+    told = of_parameter(abs(p.scale) if p.kind == "amplitude" else abs(float(v.start)), v.unit)
+    if v.unit == "1":
+        return "a number without a unit"
+    if told.unit == v.unit:
+        return f"in {v.unit}, here and in answers"
+    same = f"0 {told.unit} is {-told.offset:g} {v.unit}" if told.offset else f"1 {v.unit} is {told.factor:.6g} {told.unit}"
+    return f"in {v.unit} here, for kernels, in {told.unit} in answers at its usual size ({same})"
+
+
+def use_of(p: "EffectParameter") -> str:
+    """Whether a diagnosis fits a parameter, within which bounds, and from where."""
+    v = p.variable
+    unit = "" if v.unit == "1" else f" {v.unit}"
+    if p.kind == "choice":
+        return f"chosen by you, not fitted: {', '.join(v.choices) or f'{v.minimum:g} to {v.maximum:g}'}"
+    if p.is_held:
+        return f"shape, held at {float(v.start):g}{unit}, not fitted: held=True"
+    grid = f", from {', '.join(f'{value:g}' for value in p.grid)}" if p.kind == "shape" else ""
+    return f"{p.kind}, fitted within {v.minimum:g} to {v.maximum:g}{unit}{grid}"
 
 
 def tried(file: Path) -> "list[Finding]":

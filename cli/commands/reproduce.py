@@ -25,16 +25,18 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def reproduce(options: argparse.Namespace) -> int:
     """``rvwear reproduce``: the sources' claims, judged."""
-    from cli import screen
-    from cli.altered import note_of, noted_figure, noted_tables
-    from reproduce import as_json, available_claims, chosen, has_figure, print_table, tables_of, write_page
-    from reproduce import run as judge
-
     if options.listed:
         return show_list(options)
+    from cli import screen
+    from cli.altered import note_of, noted_figure, noted_tables
+    from reproduce.judging import run as judge
+    from reproduce.page import write_page
+    from reproduce.statements import stated
+    from reproduce.table import as_json, print_table, tables_of
+
     check_exports(options)
-    if options.picture and not any(map(has_figure, chosen(options.claims or None))):
-        drawn = ", ".join(filter(has_figure, available_claims()))
+    if options.picture and not any(one.has_figure for one in stated(options.claims or None).values()):
+        drawn = ", ".join(name for name, one in stated().items() if one.has_figure)
         raise InputFault(f"--picture {options.picture[0]}: {', '.join(options.claims)} has no figure; these claims have: {drawn}")
     page, note = Path(options.output), note_of(options.set)
     require_place(page, "--output", ".html")
@@ -65,17 +67,17 @@ def require_settings(changes: list[str]) -> None:
 def show_list(options: argparse.Namespace) -> int:
     """Id, title and words of each claim, and whether it draws anything."""
     from cli import screen
-    from reproduce import has_figure, stated
+    from reproduce.statements import stated
 
     found = stated(options.claims or None)
     if options.json:
-        told = {name: {"source": source, "title": title, "says": says, "figure": has_figure(name)} for name, (source, title, says) in found.items()}
+        told = {name: {"source": one.source, "title": one.title, "says": one.says, "figure": one.has_figure} for name, one in found.items()}
         screen.json_text({"claims": told})
         return 0
     table = screen.dense("")
     for head in ("id", "claim", "figure", "what the source says"):
         table.add_column(head, overflow="fold")
-    for name, (_, title, says) in found.items():
-        table.add_row(name, title, "yes" if has_figure(name) else "", says)
+    for name, one in found.items():
+        table.add_row(name, one.title, "yes" if one.has_figure else "", one.says)
     screen.console(screen.WIDTH).print(table)
     return 0

@@ -28,6 +28,8 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
                 out.print(f"  {role}: column {entry.header!r}, {entry.column.reason}; unit {entry.unit.value}: {entry.unit.reason}")
             for tag, guess in run.guessed.tags.items():
                 out.print(f"  {tag} = {guess.value}: {guess.reason}")
+            if run.guessed.left_out:
+                out.print(f"  left out: {', '.join(map(repr, run.guessed.left_out))}; --column 'ROLE=COLUMN' gives one a part")
             if over_output(run):
                 out.print(f'  angle_of = "output": {WHOSE_ANGLE}')
     for name, stated in proposal.conditions.items():
@@ -44,4 +46,4 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
 def columns_key(run: PlacedRun) -> tuple[object, ...]:
     """Equal for runs whose columns and tags were taken alike."""
     columns = ((role, entry.header, entry.unit.value) for role, entry in run.guessed.columns.items())
-    return run.guessed.quantity.value, *columns, *((tag, guess.value) for tag, guess in run.guessed.tags.items())
+    return run.guessed.quantity.value, *columns, *((tag, guess.value) for tag, guess in run.guessed.tags.items()), run.guessed.left_out

@@ -91,10 +91,10 @@ leading words that the effect's name has too. An effect must vanish at its ampli
 
 A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without:
 start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
-measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` says
-of each shape which of the two it is, and of each parameter the unit that answers give it in: a file's unit is SI, because kernels get the number
-as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m), rpm for rad/s, um for m), always with
-the unit beside the number, and JSON has the SI value as `si`, too.
+measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` has
+a line for each parameter: its unit, the one that answers give it in, and whether it is fitted, within which bounds. A file's unit is SI,
+because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m),
+rpm for rad/s, um for m), always with the unit beside the number, and JSON has the SI value as `si`, too.
 
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
@@ -110,6 +110,17 @@ Each of the fields, by what its indices count. Places and directions are those o
 angles counter-clockwise, at output angle 0; a disc's lobes are counted in its own frame.
 
 FIELDS
+
+A kernel gets how many discs, cranks, rollers or pins there are from a field that they index, and runs over each index in a loop of its own:
+
+```python
+@kernel
+def before(r):
+    for disc in range(r.roller_gap_now.shape[0]):
+        for crank in range(r.roller_gap_now.shape[1]):
+            for roller in range(r.roller_gap_now.shape[2]):
+                r.roller_gap_now[disc, crank, roller] += r.loosening
+```
 
 What changes with the angle has a rate beside it, which bodies in motion (`numerics.fidelity = "dynamic"`) need: an effect that adds to a
 gap, a play or a crank's turning sets both, or its teeth close without a speed, and the damping of their contact is wrong;

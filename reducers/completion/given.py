@@ -9,6 +9,7 @@ from fmu_src.faults import InputFault
 # Teeth of a sun, and of planet over sun, that one may expect (assumed: suns of RV reducers have 10 to 40 teeth).
 SUN_TEETH = range(10, 41)
 FIRST_STAGE = (0.5, 8.0)
+SUN = "first_stage.sun_teeth"
 # From this rated torque on three cranks are usual (assumed: the RV-E series changes between its sizes 80 and 110 to 160).
 THREE_CRANKS = 1000.0
 
@@ -65,21 +66,33 @@ class Given:
         return self.cranks or (3 if self.rated >= THREE_CRANKS else 2)
 
     @property
+    def stage(self) -> float:
+        """Planet over sun teeth that the ratio 1 + pins z2/z1 asks for."""
+        return (self.ratio - 1.0) / self.pins
+
+    @property
     def teeth(self) -> tuple[int, int]:
-        """Teeth (planet, sun) of a first stage that makes the ratio 1 + pins z2/z1, as few as possible; InputFault where none does."""
-        wanted = (self.ratio - 1.0) / self.pins
+        """Teeth (planet, sun) of a first stage that makes the ratio, with the known sun or as few as possible; InputFault where none does."""
+        fitting = [sun for sun in SUN_TEETH if self.makes_whole_planets(sun)] if FIRST_STAGE[0] <= self.stage <= FIRST_STAGE[1] else []
+        if not fitting:
+            raise InputFault(
+                f"--ratio {self.ratio:g} with --pins {self.pins}: the first stage would need {self.stage:.4g} = planet over sun teeth, which no sun of"
+                f" {SUN_TEETH[0]} to {SUN_TEETH[-1]} teeth and no stage from {FIRST_STAGE[0]:g} to {FIRST_STAGE[1]:g} has; the ratio with the carrier as"
+                f" output is 1 + pins z2/z1: with {self.pins} pins the nearest is {self.nearest():g}; count the pins, or give the ratio of shaft rotation"
+            )
+        sun = self.known.get(SUN, fitting[0])
+        if not self.makes_whole_planets(sun):
+            nearest = " or ".join(str(one) for one in sorted(sorted(fitting, key=lambda one: abs(one - sun))[:2]))
+            raise InputFault(
+                f"{SUN} = {sun:g}: with --ratio {self.ratio:g} and --pins {self.pins} the planets would have {self.stage * sun:.4g} teeth;"
+                f" whole planets go with a sun of {nearest} teeth; count the teeth, or look at ratio and pins"
+            )
+        return round(self.stage * sun), int(sun)
+
+    def makes_whole_planets(self, sun: float) -> bool:
         # A ratio that a catalogue rounds, 127.7, is met within its last digit.
         allowed = 0.051 / self.pins if self.ratio % 1.0 else 1e-9
-        if FIRST_STAGE[0] <= wanted <= FIRST_STAGE[1]:
-            for sun in SUN_TEETH:
-                planet = round(wanted * sun)
-                if abs(planet / sun - wanted) <= allowed:
-                    return planet, sun
-        raise InputFault(
-            f"--ratio {self.ratio:g} with --pins {self.pins}: the first stage would need {wanted:.4g} = planet over sun teeth, which no sun of"
-            f" {SUN_TEETH[0]} to {SUN_TEETH[-1]} teeth and no stage from {FIRST_STAGE[0]:g} to {FIRST_STAGE[1]:g} has; the ratio with the carrier as"
-            f" output is 1 + pins z2/z1: with {self.pins} pins the nearest is {self.nearest():g}; count the pins, or give the ratio of shaft rotation"
-        )
+        return sun % 1.0 == 0.0 and abs(round(self.stage * sun) / sun - self.stage) <= allowed
 
     def nearest(self) -> float:
         """The ratio nearest to the one given that whole teeth make."""

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from discrepancy.campaign.guess import unit_words as u
 from discrepancy.campaign.guess.column_words import meaning_of
@@ -11,7 +12,8 @@ from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.guess.shape import Shape, shape_of
 from discrepancy.campaign.guess.table import Table
 from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
-from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
+from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE, roles_of
+from discrepancy.held_names import LOCKED_AT
 
 # By the reader's name of a column.
 Roles = dict[str, Guess[str]]
@@ -19,7 +21,7 @@ Roles = dict[str, Guess[str]]
 # Kind of unit of an axis or value; words that mean it.
 KINDS = {
     "angle": u.ANGLE, "input_angle": u.ANGLE, "time": u.TIME, "torque": u.TORQUE, "order": u.SHARE, "depth_angle": u.ANGLE, "load_torque": u.TORQUE,
-    "input_speed": u.SPEED, "output_speed": u.SPEED, "temperature": u.TEMPERATURE, "hours": u.TIME,
+    "input_speed": u.SPEED, "output_speed": u.SPEED, "temperature": u.TEMPERATURE, "hours": u.TIME, LOCKED_AT: u.ANGLE,
     "transmission_error": u.ANGLE, "hysteresis": u.ANGLE, "lost_motion": u.ANGLE, "torsional_stiffness": u.STIFFNESS, "input_torque": u.TORQUE,
     "no_load_torque": u.TORQUE, "efficiency": u.SHARE, "vibration": u.ACCELERATION, "vibration_order": u.ACCELERATION, "wear_profile": u.LENGTH,
     "wear_depth": u.LENGTH, "mass_loss": u.MASS, "debris_iron": u.SHARE, "cage_speed": u.SPEED,
@@ -136,9 +138,10 @@ class Assignment:
     roles: Mapping[str, Guess[str]]
 
 
-def assignments(columns: list[Column], named: list[str], tags: Container[str] = ()) -> list[Assignment]:
-    """All quantities that the columns could be, the likeliest first; ``named``: those that the file's name speaks of; ``tags`` that are given."""
-    found = [a for quantity in QUANTITIES if quantity in KINDS for a in of_quantity(quantity, columns)]
+def assignments(columns: list[Column], named: list[str], tags: Container[str] = (), numbers: Mapping[str, str] = MappingProxyType({})) -> list[Assignment]:
+    """All quantities that the columns could be, the likeliest first; ``named``: those that the file's name speaks of; ``tags`` that are given;
+    ``numbers``: role -> column of numbers of the condition that are given, which any quantity takes."""
+    found = [a for quantity in QUANTITIES if quantity in KINDS for a in of_quantity(quantity, columns, numbers)]
     # The file's name decides among what the columns allow.
     points = {q: FILE_NAME - 0.5 * named.index(q) for q in named} | dict.fromkeys(QUANTITIES.keys() - {*named}, 0.0)
     # Who says which side was locked speaks of loops.
@@ -159,17 +162,19 @@ def doubtful(a: Assignment) -> Assignment:
     return Assignment(a.quantity, a.points, roles)
 
 
-def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
+def of_quantity(quantity: str, columns: list[Column], numbers: Mapping[str, str]) -> Iterator[Assignment]:
     axes = QUANTITIES[quantity].axes
     by_name = {column.name: column for column in columns}
+    given = {role: Guess(name, "given") for role, name in numbers.items() if role in roles_of(QUANTITIES[quantity]) and role != quantity}
+    others = [c for c in columns if c.name not in {guess.value for guess in given.values()}]
     if quantity == "transmission_error":
-        yield from both_encoders(columns)
+        yield from (Assignment(a.quantity, a.points, {**a.roles, **given}) for a in both_encoders(others))
     over = OVER.get(quantity)
     # Where nothing tells them apart the value stands last.
-    for value in reversed(columns):
+    for value in reversed(others):
         if (own := fit(value, quantity)) is None or value.shape.constant:
             continue
-        rest = [c for c in columns if c is not value]
+        rest = [c for c in others if c is not value]
         if len(columns) > FEW and value.meaning not in MEANT.get(quantity, ()) and not value.stated:
             # Among many columns a curve alone says nothing.
             continue
@@ -191,7 +196,9 @@ def of_quantity(quantity: str, columns: list[Column]) -> Iterator[Assignment]:
         if quantity == "hysteresis" and value.shape.steady and not by_name[roles["torque"].value].shape.steady:
             # What runs on while the torque goes up and down is no twist.
             continue
-        factors = {} if quantity == "hysteresis" else row_factors(rest, quantity)
+        guessed = {} if quantity == "hysteresis" else row_factors(rest, quantity)
+        speed_given = any(role.endswith("put_speed") for role in given)
+        factors = {role: guess for role, guess in guessed.items() if not (speed_given and role.endswith("put_speed"))} | given
         if quantity == "temperature" and any(c.meaning in BESIDE_TEMPERATURE and not c.shape.constant for c in columns):
             # One of the conditions of something else.
             points -= UNIT + NAME
@@ -234,6 +241,7 @@ def because(why: list[str], count: int) -> str:
 def row_factors(columns: list[Column], quantity: str) -> dict[str, Guess[str]]:
     """Numbers of the condition that change from row to row."""
     found: dict[str, Guess[str]] = {}
+    places = FACTOR_KEYS.keys() & roles_of(QUANTITIES[quantity]).keys()
     for column in sorted(columns, key=lambda c: ASKED.search(c.name) is not None):
         meaning = {"torque": "load_torque"}.get(column.meaning or "", column.meaning)
         if meaning == "time" and column.stated and column.stated[0] == "h":
@@ -243,7 +251,7 @@ def row_factors(columns: list[Column], quantity: str) -> dict[str, Guess[str]]:
             side = speed_role(max(abs(column.shape.low), abs(column.shape.high)))
             meaning, guess = side.value, Guess(column.name, f"its name says speed; {side.reason}", False)
         both_speeds = {meaning, *found} >= {"input_speed", "output_speed"}
-        if meaning in FACTOR_KEYS and meaning not in (quantity, *found) and fits_kind(column, meaning) and not both_speeds:
+        if meaning and meaning in places and meaning not in (quantity, *found) and fits_kind(column, meaning) and not both_speeds:
             found[meaning] = guess
     return found
 

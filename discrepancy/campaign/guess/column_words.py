@@ -42,8 +42,8 @@ AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IG
 
 # Quantity -> words of a file's name or of lines above its table.
 QUANTITY_WORDS = {
-    "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.de.transmission)?"
-    r"|errore(?:.di.trasmissione)?|error(?:.de.transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
+    "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.(?:de.)?transmission)?"
+    r"|errore(?:.(?:di.)?trasmissione)?|error(?:.(?:de.)?transmisi[óo]n)?|传动误差|傳動誤差|角度伝達誤差",
     "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|ramps?|torqueramp|rampe|rampa"
     r"|stiff(?:ness)?|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
     "wear_profile": r"profiles?|wear.?profile|profilo?|perfil|verschlei(?:ß|ss)profil|轮廓",

@@ -1,6 +1,7 @@
 """Conditions, repetitions and held-out conditions of several files."""
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -24,23 +25,31 @@ def named_conditions(states: Sequence[State]) -> dict[State, str]:
     """A name for each different state; files that say nothing belong to the only one there is."""
     distinct = list(dict.fromkeys(states))
     speaking = [s for s in distinct if s.speaks]
-    names: dict[State, str] = {}
-    for state in distinct:
-        if state not in speaking and len(speaking) == 1:
-            names[state] = name_of(speaking[0], speaking)
-        else:
-            names[state] = name_of(state, distinct)
-    return names
+    only = len(speaking) == 1
+    full = {state: name_of(speaking[0], speaking) if only and not state.speaks else name_of(state, distinct) for state in distinct}
+    # Without words that several share, as those of a kind of file, where numbers tell all apart.
+    shared = {state for state in distinct if state.label and sum(other.label == state.label for other in distinct) > 1}
+    short = {state: joined(numbers_of(state, distinct)) if state in shared else name for state, name in full.items()}
+    taken = Counter(short.values())
+    return {state: short[state] if short[state] and taken[short[state]] == 1 else name for state, name in full.items()}
 
 
 def name_of(state: State, others: Sequence[State]) -> str:
     """Its words; else what differs between it and the others."""
-    common = set.intersection(*(set(other.stated) for other in others)) if len(others) > 1 else set()
-    own = [value for key_value in state.stated if key_value not in common for value in key_value[1:]]
+    own = numbers_of(state, others)
     alone = sum(other.label == state.label for other in others) == 1
-    parts = [state.label] if state.label and alone else [state.label, *own] if state.label else own
+    return joined([state.label] if state.label and alone else [state.label, *own] if state.label else own) or "single"
+
+
+def numbers_of(state: State, others: Sequence[State]) -> list[str]:
+    """What is stated of it and not of all others alike."""
+    common = set.intersection(*(set(other.stated) for other in others)) if len(others) > 1 else set()
+    return [value for key_value in state.stated if key_value not in common for value in key_value[1:]]
+
+
+def joined(parts: Sequence[str]) -> str:
     text = "_".join(re.sub(r"[^\w.+-]", "", part.replace("%", "pct").replace("/", "per")) for part in parts if part)
-    return re.sub(r"^[\W_]+", "", text) or "single"
+    return re.sub(r"^[\W_]+", "", text)
 
 
 def held_out(conditions: Mapping[str, Mapping[str, str]], quantities: Mapping[str, Sequence[str]]) -> dict[str, Guess[bool]]:

@@ -32,7 +32,8 @@ NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
     "essai", "mesure", "prova", "misura", "ensayo", "prueba",
-    "data", "export", "rep", "speed", "depth", "motion", "lost",
+    "data", "export", "rep", "speed", "depth", "motion", "lost", "torsional", "torsionale", "torsionnelle", "trasmissione", "transmisión", "transmision",
+    "ingresso", "ciclo", "cycle", "di", "de",
 }  # fmt: skip
 # Dates and times, which differ from file to file and say nothing of the condition.
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d|\d\d[-.]\d\d[-.]\d{4}|\d{8}T?|\d{6}|\d\d[-.h]\d\d(?:[-.m]\d\ds?)?$")
@@ -76,6 +77,9 @@ def proposed(path: Path) -> Parsed:
     replicate, direction = None, None
     whole = stem(path)
     parts = with_units((PARTS if re.search(r"[_\s]", whole) else HYPHENS).split(whole))
+    # A word within those of a kind ("errore_di_trasmissione") names no condition either.
+    kinds = [match.span() for fits in (*IN_NAMES.values(), *ON_SURFACE.values()) for match in fits.finditer(whole)]
+    place = 0
     last = max((k for k in range(0, len(parts), 2) if parts[k]), default=0)
     for k, part in enumerate(parts):
         if k % 2 or not part:
@@ -97,8 +101,9 @@ def proposed(path: Path) -> Parsed:
             pattern += match[1] + "{replicate}"
         else:
             pattern += part
-            if not is_quantity(part):
+            if not is_quantity(part) and not any(first <= place and place + len(part) <= end for first, end in kinds):
                 words.append(part)
+        place += len(part)
     return Parsed(pattern, numbers, replicate, direction, None, "_".join(words))
 
 

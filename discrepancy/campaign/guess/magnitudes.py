@@ -4,6 +4,7 @@ import math
 
 from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.guess.shape import Shape
+from discrepancy.held_names import LOCKED_AT
 
 # Ranges that reducers of robot joints have [rad]: transmission errors of catalogues are about an arcmin from peak to peak; a loop at
 # rated torque turns by some arcmin (RV-20E: 167 N.m at 49 N.m/arcmin, either way).
@@ -17,7 +18,7 @@ CLOCKS = {"ns": 1e18, "us": 1e15, "ms": 1e12, "s": EPOCH}
 USUAL = {
     "load_torque": "N.m", "torque": "N.m", "input_torque": "N.m", "no_load_torque": "N.m", "hours": "h", "time": "s", "input_speed": "rpm",
     "output_speed": "rpm", "cage_speed": "rpm", "order": "1", "input_order": "1", "vibration": "m/s^2", "vibration_order": "m/s^2",
-    "torsional_stiffness": "N.m/arcmin", "mass_loss": "mg", "debris_iron": "ppm",
+    "torsional_stiffness": "N.m/arcmin", LOCKED_AT: "deg", "mass_loss": "mg", "debris_iron": "ppm",
 }  # fmt: skip
 
 

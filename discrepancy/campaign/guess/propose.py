@@ -2,31 +2,29 @@
 
 import os
 import re
-import shlex
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
 from discrepancy.campaign.guess.counted import with_repetitions
-from discrepancy.campaign.guess.file_names import by_pattern, stem, suggested
+from discrepancy.campaign.guess.file_names import by_pattern, stem
+from discrepancy.campaign.guess.lacking import lacking
+from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
-from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.wishes import OPEN, Wishes
 from discrepancy.campaign.measurement_files import measurement_files
-from discrepancy.campaign.quantities import FACTOR_KEYS, FACTOR_NAMES, QUANTITIES, RUNNING, keys_for, roles_of
+from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
-
-# Examples for what has to be given.
-EXAMPLES = {"speed": "output_speed=15 rpm", "load": "load_torque=167 N.m", "hours": "hours=0 h", "temperature": "temperature=40 degC"}
-PIN_ON_DISC = {"normal_force": "normal_force=50 N", "sliding_speed": "sliding_speed=0.1 m/s", "sliding_distance": "sliding_distance=1 km"}
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class Proposal:
                     "replicate": run.replicate.as_json(), "where": run.where, "reading": run.guessed.reading, "names": run.guessed.name.pattern,
                     "columns": {role: entry.as_json() for role, entry in run.guessed.columns.items()},
                     "tags": {tag: guess.as_json() for tag, guess in run.guessed.tags.items()},
-                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()},
+                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()}, "left_out": list(run.guessed.left_out),
                 }
                 for run in self.runs
             ],
@@ -96,6 +94,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     for run in runs:
         measured[run.condition].append(run.guessed.quantity.value)
     doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
+    doubts += positions_asked([(run.condition, run.guessed) for run in runs], conditions)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
         tuple(runs), tuple(doubts), needs_of(runs, conditions, wishes),
@@ -141,16 +140,20 @@ def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
 def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     """InputFault for a ``--column`` that no file follows: a role or a column that there is not, or that its quantity has no place for."""
     known = sorted({role for quantity in QUANTITIES.values() for role in roles_of(quantity)})
-    headers = sorted({header for run in runs for header in run.headers})
-    for role, header in wishes.columns.items():
+    for key, header in wishes.columns.items():
+        pattern, colon, role = key.rpartition(":")
         if role not in known:
-            raise InputFault(f"--column {role}={header}: there is no such role; choose from {', '.join(known)}{nearest(role, known)}")
+            raise InputFault(f"--column {key}={header}: there is no such role; choose from {', '.join(known)}{nearest(role, known)}")
+        meant = [run for run in runs if not colon or fnmatch(run.path.name, pattern)]
+        if not meant:
+            raise InputFault(f"--column {key}={header}: no file is named {pattern}; there are {', '.join(run.path.name for run in runs)}")
+        headers = sorted({header for run in meant for header in run.headers})
         if name_of(header) not in headers:
-            raise InputFault(f"--column {role}={header}: no file has a column {header!r} of numbers; there are {', '.join(headers)}{nearest(header, headers)}")
-        if not any(role in run.columns and is_meant(header, run.columns[role].column.value, run.columns[role].header) for run in runs):
-            quantities = ", ".join(sorted({run.quantity.value for run in runs}))
+            raise InputFault(f"--column {key}={header}: no file has a column {header!r} of numbers; there are {', '.join(headers)}{nearest(header, headers)}")
+        if not any(role in run.columns and is_meant(header, run.columns[role].column.value, run.columns[role].header) for run in meant):
+            quantities = ", ".join(sorted({run.quantity.value for run in meant}))
             remedy = "say by --quantity what the files hold, or take another role"
-            raise InputFault(f"--column {role}={header}: the files are taken for {quantities}, which has no place for this column as {role}; {remedy}")
+            raise InputFault(f"--column {key}={header}: the files are taken for {quantities}, which has no place for this column as {role}; {remedy}")
 
 
 def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
@@ -226,31 +229,8 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 
 def needs_of(runs: Sequence[PlacedRun], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
-    """What the quantities need to know and nobody has said.
-
-    Where names differ by a number that nobody understood, it is asked whether that is the load: one value for all would be wrong then.
-    """
-    found: dict[tuple[str, str, str], Doubt] = {}
-    patterns: dict[str, list[str]] = defaultdict(list)
-    for run in runs:
-        if not run.guessed.name.given:
-            patterns[run.guessed.quantity.value].append(run.guessed.name.pattern)
-    for run in runs:
-        quantity = QUANTITIES[run.guessed.quantity.value]
-        for factor in (f for f in quantity.factors if f in FACTOR_NAMES):
-            keys = keys_for(factor)
-            if not any(key in conditions[run.condition] or key in run.guessed.columns for key in keys):
-                remedy = f"--condition '{(EXAMPLES | PIN_ON_DISC)[factor]}', or a {{{factor}}} in --names"
-                if factor == "load" and (asked := suggested(patterns[quantity.name], "load_torque")):
-                    remedy = f"{shlex.join(['--names', asked])} if the number in the names is the load, else {remedy}"
-                found[run.condition, factor, remedy] = Doubt(run.condition, f"{quantity.name} needs {' or '.join(keys)}", remedy)
+    """What has to be given before a model can be held against the campaign."""
+    found = lacking([(run.condition, run.guessed) for run in runs], conditions)
     if not wishes.reducer:
-        needed = "which reducer it is has to be said"
-        found["", "reducer", ""] = Doubt("campaign", needed, "--reducer RV20E-121 (rvwear reducer list shows all), or a reducer file")
-    whole: dict[tuple[str, str], list[Doubt]] = {}
-    for need in found.values():
-        whole.setdefault((need.text, need.remedy), []).append(need)
-    return tuple(
-        Doubt(", ".join(need.place for need in alike), text, remedy if len(alike) == 1 else f"{remedy}; for one of them --condition 'NAME:KEY=VALUE'")
-        for (text, remedy), alike in whole.items()
-    )
+        found.append(Doubt("campaign", "which reducer it is has to be said", f"--reducer {OPEN} (rvwear reducer list shows all), or a reducer file"))
+    return tuple(found)

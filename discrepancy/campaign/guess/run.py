@@ -2,7 +2,7 @@
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +12,15 @@ from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assign
 from discrepancy.campaign.guess.column_words import quantities_named, surface_named
 from discrepancy.campaign.guess.file_names import Parsed, parsed, stem
 from discrepancy.campaign.guess.lines_above import stated_above
+from discrepancy.campaign.guess.locked_words import locked_angle
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
 from discrepancy.campaign.guess.unit_words import COUNTS, name_of, unknown_in
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.campaign.quantities import QUANTITIES, VALUE
+from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
+from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 
@@ -44,7 +46,7 @@ class Entry:
 @dataclass(frozen=True)
 class GuessedRun:
     """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
-    ``headers``: of every column that holds numbers, without units."""
+    ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part."""
 
     path: Path
     quantity: Guess[str]
@@ -56,10 +58,12 @@ class GuessedRun:
     repeated: tuple[str, tuple[int, ...]] | None
     doubts: tuple[Doubt, ...]
     headers: tuple[str, ...]
+    left_out: tuple[str, ...]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     """InputFault with the file's name where nothing can be made of it."""
+    wishes = replace(wishes, columns=wishes.columns_for(path.name))
     table = table_of(path)
     name = parsed(path, wishes.names)
     columns = columns_of(table, wishes.units_for(path.name))
@@ -69,7 +73,13 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     named = quantities_named(speaking) or quantities_named(path.parent.name)
     if unloaded(text) and "no_load_torque" not in named:
         named = [*named, "no_load_torque"]
-    found = assignments(given_roles(columns, table, wishes), named, wishes.tags)
+    stated = stated_roles(table, wishes)
+    numbers = {role: name for role, name in stated.items() if role in FACTOR_KEYS}
+    known = given_roles(columns, stated)
+    found = assignments(axes_only(known, stated), named, wishes.tags, numbers)
+    if VALUE in stated and not any(VALUE in a.roles and a.roles[VALUE].value == stated[VALUE] for a in found):
+        # Beside columns that say nothing a value without name or unit is none.
+        found = assignments([c for c in known if c.name in stated.values()], named, wishes.tags, numbers) or found
     if wanted:
         found = [a for a in found if a.quantity == wanted]
     if not found:
@@ -78,7 +88,6 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
             f"{path.name}: {holds}: no quantity{f' {wanted}' if wanted else ''} of a campaign fits; give units by --unit 'COLUMN=UNIT', what it is by"
             f" --quantity '{path.name}=QUANTITY' ({', '.join(QUANTITIES)}), or a column by --column value=COLUMN"
         )
-    stated = stated_roles(table, wishes)
     found = as_stated(found, stated)
     best = found[0]
     quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *unfitting(path, name, wishes), *not_taken(path, best, stated)]
@@ -87,7 +96,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     by_name = {c.name: c for c in columns}
     entries = {}
     for role, guess in best.roles.items():
-        if role in wishes.columns:
+        if stated.get(role) == guess.value:
             guess = Guess(guess.value, "given")
         entries[role], more = entry(by_name[guess.value], role, quantity.value, guess, table, wishes)
         doubts += [Doubt(path.name, text, remedy) for text, remedy in more]
@@ -97,15 +106,19 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     factors, speed_doubts = factors_of(name, table, path)
     if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
         factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
+    of_input = quantity.value in HELD and LOCKED_AT not in entries and ("locked" not in tags or tags["locked"].value == "input")
+    if of_input and (at := locked_angle((path.parent.name, speaking, *table.above, *table.headers.values()))):
+        factors[LOCKED_AT] = Guess(at, "the file's name or head says so")
     headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
-    return GuessedRun(
-        path, quantity, entries, tags, dict(table.reading), name, factors, repetitions(table, columns), (*doubts, *more_doubts, *speed_doubts), headers
-    )
+    repeated = repetitions(table, columns)
+    used = {guess.value for guess in best.roles.values()} | {repeated[0] if repeated else ""}
+    left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
+    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out)
 
 
-def given_roles(columns: list[Column], table: Table, wishes: Wishes) -> list[Column]:
+def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
     """Columns as ``--column ROLE=HEADER`` says: they mean their role and nothing else does."""
-    named = {name: role for role, name in stated_roles(table, wishes).items()}
+    named = {name: role for role, name in stated.items()}
     found = []
     for c in columns:
         role = named.get(c.name)
@@ -113,8 +126,13 @@ def given_roles(columns: list[Column], table: Table, wishes: Wishes) -> list[Col
         if role == VALUE:
             meaning = {"angle": "error", "torque": "input_torque", "length": "wear"}.get(c.stated[1] if c.stated else "")
         found.append(Column(c.name, meaning, c.stated, c.shape))
-    kept = [c for c in found if c.name in named]
-    return kept if VALUE in wishes.columns and len(kept) > 1 else found
+    return found
+
+
+def axes_only(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
+    """Those that are stated, where value and an axis are: no other is either then."""
+    axes = stated.keys() - FACTOR_KEYS.keys()
+    return [c for c in columns if c.name in stated.values()] if VALUE in axes and len(axes) > 1 else columns
 
 
 def stated_roles(table: Table, wishes: Wishes) -> dict[str, str]:

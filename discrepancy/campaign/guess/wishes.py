@@ -7,12 +7,15 @@ from fnmatch import fnmatch
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
 from fmu_src.faults import InputFault, nearest
 
+# What stands in a proposed option for what only the bench knows.
+OPEN = "..."
+
 
 @dataclass(frozen=True)
 class Wishes:
     """``names``: patterns of file names.  ``units``: header, or pattern of file names:header -> unit.
 
-    ``columns``: role -> header.  ``counts``: header -> steps a turn.
+    ``columns``: role, or pattern of file names:role -> header.  ``counts``: header -> steps a turn.
 
     ``quantities``: pattern of file names (``*.csv``) -> quantity.  ``conditions``: key of a condition -> number with unit, for all
     files that do not say otherwise, or condition's name:key for that one.
@@ -38,12 +41,25 @@ class Wishes:
             for name in given:
                 if name not in choices:
                     raise InputFault(f"{option} {name}: there is no such thing; choose from {', '.join(choices)}{nearest(name, choices)}")
+        for key, text in self.conditions.items():
+            if text == OPEN:
+                example = FACTOR_KEYS[own].example if (own := key.rpartition(":")[2]) in FACTOR_KEYS else "..."
+                raise InputFault(f"--condition {key}={OPEN}: put what it is in place of the dots, as in {own}={example}")
 
     def quantity_for(self, name: str) -> str | None:
         return next((quantity for pattern, quantity in self.quantities.items() if fnmatch(name, pattern)), None)
 
     def units_for(self, name: str) -> dict[str, str]:
         """Header -> unit for a file; what is given for its name wins."""
-        parted = [(*key.rpartition(":"), unit) for key, unit in self.units.items()]
-        general = {header: unit for _, colon, header, unit in parted if not colon}
-        return general | {header: unit for pattern, colon, header, unit in parted if colon and fnmatch(name, pattern)}
+        return for_file(self.units, name)
+
+    def columns_for(self, name: str) -> dict[str, str]:
+        """Role -> header for a file; what is given for its name wins."""
+        return for_file(self.columns, name)
+
+
+def for_file(given: Mapping[str, str], name: str) -> dict[str, str]:
+    """Of ``KEY`` and ``PATTERN:KEY`` those that hold for a file's name, by KEY; a pattern wins."""
+    parted = [(*key.rpartition(":"), value) for key, value in given.items()]
+    general = {key: value for _, colon, key, value in parted if not colon}
+    return general | {key: value for pattern, colon, key, value in parted if colon and fnmatch(name, pattern)}

@@ -1,0 +1,28 @@
+"""Loops of which no file says where the input was locked: asked, with the options that say it."""
+
+from collections.abc import Iterable, Mapping
+
+from discrepancy.campaign.guess.file_names import stem
+from discrepancy.campaign.guess.locked_words import angle_named
+from discrepancy.campaign.guess.run import GuessedRun
+from discrepancy.campaign.guess.said import Doubt
+from discrepancy.campaign.guess.wishes import OPEN
+from discrepancy.campaign.unplaced import QUESTION
+from discrepancy.held_names import LOCKED_AT
+
+
+def positions_asked(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]]) -> list[Doubt]:
+    """One doubt for all conditions; an angle that their names hold stands in the option.  ``runs``: condition and run."""
+    angles: dict[str, set[str | None]] = {}
+    for condition, run in runs:
+        held = run.quantity.value == "hysteresis" and run.tags["locked"].value == "input"
+        if held and LOCKED_AT not in conditions[condition] and LOCKED_AT not in run.columns:
+            angles.setdefault(condition, set()).add(angle_named(stem(run.path)))
+    if not angles:
+        return []
+    named = {condition: found.pop() if len(found) == 1 else None for condition, found in angles.items()}
+    options = " ".join(f"--condition '{condition}:{LOCKED_AT}={angle or OPEN}'" for condition, angle in named.items())
+    text = f"{QUESTION} ({LOCKED_AT} of the condition); these loops are predicted as the mean over a turn of the cranks"
+    if any(named.values()):
+        text += f"; their names say {', '.join(dict.fromkeys(angle for angle in named.values() if angle))}, which may be that angle"
+    return [Doubt(", ".join(angles), text, f"{options}; {LOCKED_AT}=mean where loops at positions over a turn were averaged; leave it where nobody knows")]

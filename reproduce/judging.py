@@ -1,0 +1,47 @@
+"""Claims judged, one after the other."""
+
+import time
+from collections.abc import Callable, Sequence
+
+from reproduce import (  # noqa: F401  each registers its claims
+    bearing_claims,
+    coefficient_claims,
+    completion_claims,
+    flank_wear_claims,
+    force_claims,
+    geometry_claims,
+    individuality_claims,
+    literature_claims,
+    loading_claims,
+    loss_claims,
+    motion_claims,
+    pin_wear_claims,
+    pressure_claims,
+    prototype_claims,
+    raceway_claims,
+    raceway_law_claims,
+    recent_claims,
+    rig_claims,
+    rigidity_claims,
+    sliding_claims,
+    stiffness_claims,
+)  # fmt: skip
+from reproduce.claim import REGISTRY, Claim
+from reproduce.context import Context
+from reproduce.statements import chosen
+
+
+def run(selected: list[str] | None = None, progress: Callable[[str], None] = lambda _: None, changes: Sequence[str] = ()) -> list[Claim]:
+    """Judge the claims of the given ids or id prefixes ("T", "N1"), or all; ``progress`` gets lines of text.
+
+    ``changes``: other numbers of the reducers than the sources', ``name=value``; what the sources' numbers carry need not hold then.
+    """
+    ids = chosen(selected)
+    context = Context(lambda text: progress(f"  run   {text}"), changes)
+    claims = []
+    for i, name in enumerate(ids, 1):
+        begun = time.perf_counter()
+        claims.append(REGISTRY[name](context))
+        progress(f"{i:3d}/{len(ids)}  {name}  {claims[-1].title}: {claims[-1].verdict} "
+                 f" ({time.perf_counter() - begun:.1f} s)")
+    return claims
