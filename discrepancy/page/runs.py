@@ -63,7 +63,7 @@ def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
         # What stands far off is drawn with the noise of the others.
         kept = whitener.kept | ~record.counted
-        noise = np.full(kept.size, float(np.median(whitener.scale)) if whitener.size else 0.0)
+        noise = np.full(kept.size, float(np.median(whitener.scale)) if whitener.scale.size else 0.0)
         noise[whitener.kept] = whitener.scale
         measured, y = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0), np.asarray(y, float)
         # The mean of a prediction with a free zero is fitted: it is that of the run.
