@@ -15,6 +15,7 @@ from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
+from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
@@ -23,6 +24,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures, too_soft
 from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import ModelFile
+from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import FLOATING, PhysicalModel, defined_at
@@ -169,12 +171,13 @@ def another_reducer(model: PhysicalModel) -> Reducer | None:
 
 
 def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
-    """What is said before anything is fitted: another reducer, wrong angles, a base that is too soft, conditions that leave something out."""
+    """What is said before anything is fitted: another reducer, wrong angles, samples far off, a base that is too soft, conditions that leave something out."""
     named = another_reducer(model)
     made_of = model.file.reducer.name
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
     angles = [found.sentence for found in angle_doubts(model.campaign)]
-    return [*other, *angles, *too_soft(figures), *incomplete(model.campaign)]
+    samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
+    return [*other, *angles, *samples, *too_soft(figures), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

@@ -16,7 +16,7 @@ END = 0.05
 
 def of_drag(record: Record) -> Callable[[Floats], dict[str, float]]:
     """How figures [N m] are read from torques (n,) of a record; those of both ends where its speed varies."""
-    good = np.isfinite(record.values)
+    good = np.isfinite(record.values) & record.counted
     speed = np.asarray(record.axes.get("speed", np.zeros(len(good))), float)
     rows = {MEAN: good}
     if good.any() and np.size(speed) == len(good) and np.ptp(speed[good]) > 0.0:

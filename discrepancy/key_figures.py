@@ -170,8 +170,8 @@ def carry_on(slow: Floats, rho: float, share: float) -> None:
 
 
 def reading_of(record: Record, orders: Mapping[str, Sequence[float]], rated: float) -> Reading:
-    """How figures are read from values of a record, from the samples that it has."""
-    good = np.isfinite(record.values)
+    """How figures are read from values of a record, from the samples that it has without those that stand far off."""
+    good = np.isfinite(record.values) & record.counted
     if record.quantity == "hysteresis" and "torque" in record.axes:
         by_branches = of_loop(np.asarray(record.axes["torque"], float)[good], rated)
         return lambda values: by_branches(values[good])

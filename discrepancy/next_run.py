@@ -295,7 +295,7 @@ def blank(example: Record, condition: dict[str, float]) -> Record:
         axes = {k: v for k, v in example.axes.items() if k in ("torque", "depth_angle", "order", "part")}
     size = len(next(iter(axes.values()))) if axes else 1
     factors = {**example.factors, **condition}
-    return replace(example, name="proposed", values=np.zeros(size), axes=axes, factors=factors, held_out=False)
+    return replace(example, name="proposed", values=np.zeros(size), axes=axes, factors=factors, held_out=False, far_off=())
 
 
 def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[str, tuple[float, float]] | None = None) -> str:

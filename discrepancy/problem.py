@@ -10,8 +10,10 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+
 from discrepancy.held_names import LOCKED_AT
-from fmu_src.arrays import Floats
+from fmu_src.arrays import Floats, Mask
 from fmu_src.threads import Threads
 
 # Values that were predicted before, of which the next are a little beside: where a model that iterates may start.
@@ -55,6 +57,7 @@ class Record:
     ``tags`` say what is meant (surface, disc, crank, lobe ...).  ``zero_known``: the mean counts, too, of a quantity whose
     zero is free otherwise; ``zero_noise`` is the standard deviation by which that zero differs from run to run.
     ``of_output``: its ``angle`` is that of the output as an encoder there shows it, which lags under load behind the input over the ratio.
+    ``far_off`` are the rows of samples that stand alone, far off: nothing counts them.
     ``of_positions``: measured at positions of the input over a turn of the cranks, of which it is the mean.
     """
 
@@ -74,6 +77,14 @@ class Record:
     zero_noise: float = 0.0
     of_output: bool = False
     of_positions: bool = False
+    far_off: tuple[int, ...] = ()
+
+    @property
+    def counted(self) -> Mask:
+        """(n,) Samples that do not stand far off."""
+        counted = np.ones(np.size(self.values), bool)
+        counted[list(self.far_off)] = False
+        return counted
 
     @property
     def free_zero(self) -> bool:

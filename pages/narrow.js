@@ -24,12 +24,24 @@ function ticks(names, width) {
   return { axis: { tickmode: "array", tickvals: names, ticktext: texts.map((t) => t.join("<br>")) }, lines: Math.max(...texts.map((t) => t.length)), texts };
 }
 
+// The axis of upright bars with names that would run together: the tallest keep theirs, as far as these stand apart.
+function thinned(data, layout, width) {
+  const bars = data.filter((trace) => trace.type === "bar" && named(trace.x));
+  if (!bars.length || layout.xaxis?.tickangle !== 0) return {};
+  const names = bars[0].x, cell = (width - (layout.margin?.l ?? 80) - (layout.margin?.r ?? 80)) / names.length;
+  const tall = (i) => Math.max(...bars.map((trace) => Math.abs(trace.y[i] ?? 0)));
+  const kept = [];
+  for (const i of names.map((_, k) => k).sort((p, q) => tall(q) - tall(p)))
+    if (kept.every((k) => Math.abs(k - i) * cell > ((names[k].length + names[i].length) / 2 + 1) * LETTER)) kept.push(i);
+  return kept.length < names.length ? { xaxis: { ...layout.xaxis, tickmode: "array", tickvals: kept.sort((p, q) => p - q).map((i) => names[i]) } } : {};
+}
+
 // What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
 function narrowed(figure, data, layout, width) {
   const bar = data.find((trace) => trace.type === "bar" && trace.orientation === "h");
   const map = data.find((trace) => trace.type === "heatmap" && named(trace.y));
   const names = [...new Set((bar ?? map)?.y ?? [])];
-  if (!named(names)) return { data, layout, height: figure.height };
+  if (!named(names)) return { data, layout: { ...layout, ...thinned(data, layout, width) }, height: figure.height };
   const narrow = width < NARROW;
   if (!narrow && longest(names) * LETTER < SHARE * width) return { data, layout, height: figure.height };
   const rows = ticks(names, SHARE * width);

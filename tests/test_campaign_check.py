@@ -240,3 +240,21 @@ def test_each_quantity_of_which_nothing_is_held_out_is_said(tmp_path):
     assert said.text == "efficiency: none of its 3 conditions is held out: an effect that shows in efficiency alone cannot be proven"
     conditions["s10"] += "\nheld_out = true"
     assert "no held-out condition" not in codes(campaign(tmp_path, conditions, runs + two))
+
+
+def test_sample_far_off_is_named_with_run_file_place_and_size(tmp_path):
+    rng = np.random.default_rng(1)
+    angle = np.arange(0.0, 3600.0, 6.0)
+    runs = []
+    for k in range(2):
+        error = 4.0 * np.sin(np.radians(2 * angle)) + 0.4 * rng.standard_normal(len(angle))
+        error[250] += 180.0 * k
+        np.savetxt(tmp_path / f"r{k}.csv", np.column_stack([angle, error]), delimiter=",", header="phi,e", comments="", fmt="%.3f")
+        runs.append(
+            f'quantity = "transmission_error"\ncondition = "a"\nreplicate = {k + 1}\nfile = "r{k}.csv"\n'
+            'columns.input_angle = { column = "phi", unit = "deg" }\ncolumns.value = { column = "e", unit = "arcsec" }'
+        )
+    (found,) = [f for f in campaign(tmp_path, {"a": condition()}, runs).findings if f.code == "outlying samples"]
+    assert found.text.startswith("run r1 (r1.csv, column e [arcsec]): 1 of 600 samples stands ") and "times the noise off its neighbours" in found.text
+    # At the angle as the file counts it, which is the input's.
+    assert found.text.endswith(" arcsec at 1500 deg (sample 251)") and "left out of fit, errors, key figures and axes of charts" in found.remedy

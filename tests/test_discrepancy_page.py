@@ -22,8 +22,11 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, U
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
-from discrepancy.page.spectra import amplitudes
+from discrepancy.page.response import averaged
+from discrepancy.page.runs import runs_of
+from discrepancy.page.spectra import amplitudes, bridged
 from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.scales import AXES
 from discrepancy.verdict import Answer, effects_of
 from pages.words import counted
 
@@ -180,6 +183,37 @@ def test_comparison_shows_every_run_and_error(comparison, tmp_path):
     named = [f for f in comparison.diagnostician.localisation.findings if not f.feature.startswith("order ")]
     assert not named or any(f"{100 * named[0].share:.0f} %" in row for row in place["text"])
     assert best.feature in page
+
+
+def far_off(model):
+    """One sample of one repetition 500 times its noise off."""
+    k = next(k for k, r in enumerate(model.records) if r.name == "transmission_error 3 1")
+    values = model.records[k].values.copy()
+    values[60] += 500.0 * ARCSEC
+    model.records[k] = replace(model.records[k], values=values, far_off=(60,))
+    return model
+
+
+def test_a_sample_far_off_is_a_mark_at_the_edge_and_stretches_no_axis(comparison, tmp_path):
+    found = figure(written(compared(far_off(model_of({"gap": 2e-6}))), tmp_path), "run_transmission_error")
+    # The conditions in their order, held-out ones last.
+    choice = found["choices"][3]
+    drawn = [y for t in choice["traces"][:-1] for y in t["y"] if y is not None]
+    [mark] = choice["traces"][-1]["y"]
+    measured = [y for t in choice["traces"][2:6:2] for y in t["y"] if y is not None]
+    assert max(map(abs, drawn)) < 20.0 and mark == pytest.approx(max(measured), abs=0.01)
+    assert float(choice["traces"][-1]["text"][0]) == pytest.approx(500.0, abs=15.0) and choice["traces"][-1]["x"] == [90]
+    assert all(c["traces"][-1]["x"] == [] for c in found["choices"] if c is not choice) and "far off" in found["data"][-1]["hovertemplate"]
+    # Where there is none, nothing is drawn for it.
+    assert len(figure(written(comparison, tmp_path), "run_transmission_error")["data"]) == len(found["data"]) - 1
+
+
+def test_a_mean_of_repetitions_leaves_out_what_stands_far_off():
+    result = compared(far_off(model_of({"gap": 2e-6})))
+    runs = [r for r in runs_of(result.diagnostician.space, result.predictions, AXES["speed"]) if r.record.name in ("transmission_error 3 0", "transmission_error 3 1")]
+    [mean] = averaged(runs)
+    assert mean.measured[60] == pytest.approx(runs[0].measured[60]) and mean.measured[61] == pytest.approx(np.mean([r.measured[61] for r in runs]))
+    assert abs(bridged(runs[1], runs[1].measured)[60]) < 20.0 * ARCSEC
 
 
 def test_comparison_without_findings_held_out_runs_or_nuisances(tmp_path):

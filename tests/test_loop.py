@@ -227,3 +227,16 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     kept = next(tmp_path.iterdir())
     kept.write_bytes(kept.read_bytes()[:-1] + b"x")
     assert remembered.remembered(file, wide) is None
+
+
+def test_one_sample_far_off_is_named_and_tells_neither_error_nor_peak_to_peak(file):
+    campaign = campaign_of(file, {}, 8)
+    spoilt = [np.where(np.arange(len(r.values)) == 70, 3e-4, r.values) if r.name in ("te02", "te22") else r.values for r in campaign.records]
+    plain, off = (compare(file, c) for c in (campaign, replace(campaign, records=tuple(replace(r, values=v) for r, v in zip(campaign.records, spoilt)))))
+    named = [text for text in off.warnings if "samples stands" in text]
+    assert len(named) == 2 and named[0].startswith("run te02: 1 of 150 samples stands") and "at 168 deg (sample 71)" in named[0]
+    for before, after in zip(plain.signals, off.signals):
+        assert after["ratio"] == pytest.approx(before["ratio"], rel=0.05)
+    span = [next(f for f in c.figures if f.name == "peak to peak" and f.condition == "load 0") for c in (plain, off)]
+    assert span[1].measured == pytest.approx(span[0].measured, rel=0.02) and span[1].noise < 2.0 * span[0].noise
+    assert not any("samples stand" in text for text in plain.warnings)

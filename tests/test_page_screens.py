@@ -9,6 +9,7 @@ import pytest
 
 from discrepancy.page import bars, maps
 from pages.content import Card, Page, Section, Table
+from pages.look import Figure
 from pages.render import rendered_sections
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -29,6 +30,10 @@ def chromium():
 def file(tmp_path_factory):
     cells = {(signal, f"loop{k}"): 1.0 + k for signal in ("hysteresis[locked=input]", "transmission_error") for k in range(9)}
     figures = [bars.pairs("both", LONG, "caption", [LONG], [352.2], [4.1], (["a"], ["b"])), maps.grid("Map", "caption", "map", cells)]
+    orders = [str(k) for k in (1, 2, *range(100, 122))]
+    bar = {"type": "bar", "x": orders, "y": [10.0 if o == "105" else 1.0 for o in orders]}
+    layout = {"xaxis": {"type": "category", "tickangle": 0}, "margin": {"l": 60, "r": 16, "t": 30, "b": 46}}
+    figures.append(Figure("orders", "Orders", "caption", [bar], layout, 12))
     rows = [[LONG, "97 % of the misfit", "1.25 arcmin", "-0.3 to 0.4", "what it means in many words, so that the row becomes wide"]]
     head = ["number", "share", "measured", "held to lie in", "meaning"]
     tables = [Table("The base model is off", head, rows, (2,)), Table("", head, rows, folded="All 1 rows")]
@@ -68,6 +73,14 @@ def test_pages_follow_the_scheme_of_the_screen_and_print_on_white(chromium, file
     page.emulate_media(color_scheme="light")
     page.wait_for_function("getComputedStyle(document.body).backgroundColor === 'rgb(246, 248, 250)'")
     assert colours(page)[1] < 0.5
+
+
+def test_names_below_upright_bars_stand_apart_and_the_tallest_keeps_its_own(chromium, file):
+    edges = "[...document.querySelectorAll('#plot-orders .xtick text')].map((e) => [e.textContent, e.getBoundingClientRect().left, e.getBoundingClientRect().right])"
+    for width in (1280, 390):
+        ticks = opened(chromium, file, width, "light").evaluate(edges)
+        assert all(left >= right for (_, _, right), (_, left, _) in pairwise(ticks)), ticks
+        assert "105" in [text for text, _, _ in ticks] and (len(ticks) == 24) == (width == 1280)
 
 
 def test_nothing_leaves_a_narrow_page(chromium, file):

@@ -8,6 +8,7 @@ import pytest
 
 from cli.main import main
 from discrepancy.campaign.repetition_words import copied_words, words
+from discrepancy.outlying_samples import marked, outlying_samples
 from discrepancy.problem import Record
 from discrepancy.repetitions import copies, outlying
 
@@ -100,3 +101,47 @@ def test_a_file_that_was_copied_counts_once_and_is_said(tmp_path, capsys):
 def test_copies_are_named_together():
     text, _ = copied_words({"a2": "a1", "a3": "a1"} | {f"{n}2": f"{n}1" for n in "bcdef"})
     assert text.startswith("runs a1 and a2 and a3; b1 and b2; c1 and c2; d1 and d2; and 2 more like them hold the same numbers")
+
+
+def errors(noise, spikes=(), runs=2, samples=600, shape=0.0, seed=3):
+    """Transmission errors [rad] at the same angles; ``spikes`` are (run, sample, size), ``shape`` the size of a cusp that all runs have."""
+    rng = np.random.default_rng(seed)
+    angle = np.linspace(0.0, 2.0 * np.pi, samples, endpoint=False)
+    curve = 5.0 * np.sin(39.0 * angle) + shape * np.maximum(0.0, 1.0 - np.abs(angle - 2.0) / 0.002)
+    found = []
+    for k in range(runs):
+        values = curve + noise * rng.standard_normal(samples)
+        for run, sample, size in spikes:
+            values[sample] += size * (run == k)
+        found.append(Record(f"te_{k + 1}", "transmission_error", "rad", "rated", k + 1, values, {"angle": angle}, {"load": 167.0}))
+    return found
+
+
+@pytest.mark.parametrize("runs", [1, 2, 3])
+def test_sample_far_off_is_found_in_the_run_that_has_it(runs):
+    (found,) = outlying_samples(errors(0.1, [(runs - 1, 200, 45.0)], runs, 4000))
+    assert found.run == f"te_{runs}" and found.rows == (200,) and found.samples == 4000
+    assert found.off[0] == pytest.approx(45.0, abs=0.6) and found.noise == pytest.approx(0.1, rel=0.3) and 300.0 < found.times[0] < 650.0
+
+
+def test_what_noise_or_the_reducer_does_is_no_sample_far_off():
+    rng = np.random.default_rng(5)
+    assert not any(outlying_samples(errors(noise, runs=runs, seed=int(rng.integers(1000)))) for noise in (0.0, 0.1) for runs in (1, 2, 3) for _ in range(40))
+    # One sample wide, but in both runs: a fault of a tooth.
+    assert not outlying_samples(errors(0.1, [(0, 200, 45.0), (1, 200, 45.0)], 2, 4000))
+    # Noise of an instrument that slips often is another kind of noise; an impact is a vibration's own.
+    assert not outlying_samples(errors(0.1, [(0, k, 45.0) for k in range(10, 590, 20)], 1))
+    assert not outlying_samples([replace(r, quantity="vibration", axes={"time": r.axes["angle"]}) for r in errors(0.1, [(1, 200, 45.0)], 2, 4000)])
+
+
+def test_noise_of_a_sample_is_never_less_than_a_step_of_its_display():
+    runs = errors(0.02, [(1, 200, 45.0)], 2, 4000)
+    (found,) = outlying_samples([replace(r, values=np.round(r.values / 0.1) * 0.1) for r in runs])
+    assert found.rows == (200,) and found.noise > 0.02
+
+
+def test_records_are_marked_with_their_samples_far_off_and_else_stay_as_they_are():
+    records = [*errors(0.1, [(1, 200, 45.0)]), *numbers((10.0, 11.0))]
+    found = marked(records)
+    assert [r.far_off for r in found] == [(), (200,), (), ()] and not found[1].counted[200] and found[1].counted.sum() == 599
+    assert all(a is b for a, b in zip(found, records) if not a.far_off)

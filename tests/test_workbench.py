@@ -3,6 +3,8 @@
 import json
 import shlex
 import shutil
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -214,6 +216,28 @@ def test_a_job_that_is_silent_is_gone(tmp_path):
     assert jobs.status(folder, "life")["state"] == jobs.GONE
 
 
+def test_a_job_whose_process_lives_is_only_slow(tmp_path, monkeypatch):
+    folder = opened(tmp_path)
+    folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time() - 100.0})
+    process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    monkeypatch.setitem(jobs.LIVING, jobs.place_of(folder, "life"), process)
+    assert jobs.status(folder, "life")["state"] == jobs.RUNNING
+    process.communicate(b"\n")
+    assert jobs.status(folder, "life")["state"] == jobs.GONE
+
+
+def test_a_report_has_the_colours_of_the_page_around_it(served):
+    folder, address = served
+    place = jobs.place_of(folder, "life")
+    place.mkdir(parents=True)
+    plain = ":root { color-scheme: light dark } @media screen and (prefers-color-scheme: dark) { }"
+    (place / "report.html").write_text(plain)
+    found = {colours: asked(address, f"results/life/report{colours}")[1].decode() for colours in ("", "?colours=dark", "?colours=light")}
+    assert found[""] == plain
+    assert found["?colours=dark"] == ":root { color-scheme: dark } @media screen and (min-width: 0px) { }"
+    assert found["?colours=light"] == ":root { color-scheme: light } @media screen and (max-width: 0px) { }"
+
+
 def test_stop_asks_and_ends_nobody_by_number(tmp_path):
     folder = opened(tmp_path)
     folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time()})
@@ -287,6 +311,44 @@ def test_columns_of_a_comparison_are_read_without_parsing():
     places = [columns.add(np.array(row)) for row in ([1.0, 2.0], [3.0])]
     found = np.frombuffer(columns.bytes(), "<f4")
     assert [found[p["from"] : p["from"] + p["count"]].tolist() for p in places] == [[1.0, 2.0], [3.0]]
+
+
+def test_a_run_with_dropouts_and_a_sample_far_off_is_drawn_over_its_samples():
+    import numpy as np
+
+    from discrepancy.page.runs import Run
+    from discrepancy.problem import Record
+    from workbench.look import Columns, drawn
+
+    angle = np.linspace(0.0, 6.0, 100)
+    record = Record("r", "transmission_error", "rad", "c", 1, np.zeros(100), {"angle": angle}, {}, far_off=(50,))
+    kept = np.arange(100) >= 10
+    told = drawn(Run(record, kept, np.ones(90), np.zeros(90), np.full(90, 0.5), ~record.counted[kept]), 1.0, Columns(), {})
+    assert told["samples"] == told["residual"]["count"] == 90 and told["aside"] == [40] and told["noise"] == 0.5
+
+
+def test_what_is_left_in_try_is_told_without_samples_far_off():
+    import numpy as np
+
+    from discrepancy.problem import Record
+    from workbench.trying import error_of
+
+    record = Record("r", "transmission_error", "rad", "c", 1, np.array([1.0, 100.0, -1.0]), {}, {}, far_off=(1,))
+    assert error_of(record, np.zeros(3)) == 1.0
+
+
+def test_a_reducer_says_at_which_speed_it_runs_beside_that_of_its_rating(tmp_path):
+    from workbench.reducers import shown
+
+    found = shown(opened(tmp_path), "RV20E-121")["reducer"]
+    assert "at 15 rpm" in found["description"] and found["speed"] == "runs at 2,000 rpm at the input, 16.5 rpm at the output"
+
+
+def test_numbers_given_are_counted_as_the_command_line_does(tmp_path):
+    from workbench.reducers import completed
+
+    page = completed(opened(tmp_path), {"ratio": "121", "pins": "40", "rated": "167", "known": {"pin.radius": "2mm"}})["page"]
+    assert page["finding"].startswith("5 numbers given, "), page["finding"]
 
 
 def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):

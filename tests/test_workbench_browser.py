@@ -213,6 +213,65 @@ MILLION = """async () => {
   }"""
 
 
+def test_names_beside_each_other_are_told_by_what_differs(bench):
+    page = bench.page
+    page.goto(bench.address)
+    names = "async (names) => (await import('./static/names.js')).distinct(names)"
+    assert page.evaluate(names, ["te_125N.m_16.5rpm", "te_84N.m_16.5rpm"]) == ["…125N.m…", "…84N.m…"]
+    assert page.evaluate(names, ["40degC", "half load", "20degC"]) == ["40degC", "half load", "20degC"]
+    assert page.evaluate(names, ["a_b", "a_b_b"]) == ["a_b", "a_b_b"] and page.evaluate(names, ["only_one"]) == ["only_one"]
+
+
+def test_a_sample_aside_stretches_no_axis(bench):
+    page = bench.page
+    page.goto(bench.address)
+    found = page.evaluate("""async () => {
+      const { Plot } = await import('./static/plot.js'), plot = new Plot();
+      const line = { name: 'measured', x: Float32Array.from([0, 1, 2]), y: Float32Array.from([1, 900, 2]), colour: '--measured', aside: [1] };
+      plot.set({ panes: [{ title: 'y', lines: [line] }] });
+      return plot.paneRange(plot.panes[0], 0, 2);
+    }""")
+    assert found == pytest.approx([0.94, 2.06])
+
+
+def test_a_reducer_that_is_read_says_so(bench):
+    page, held = bench.page, []
+
+    def asked(route):
+        held.append(route)
+
+    page.route("**/reducer", asked)
+    page.goto(f"{bench.address}#reducer")
+    page.get_by_text("Reading the reducer…").wait_for()
+    held[0].continue_()
+    page.get_by_text("Choose a reducer, or complete one").wait_for()
+    assert page.get_by_text("Reading the reducer…").count() == 0
+
+
+@pytest.mark.campaign
+def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page, held = bench.page, []
+
+    def asked(route):
+        given = route.request.post_data_json
+        if given["roughly"] or not given["values"]:
+            route.continue_()
+        else:
+            held.append(route)
+
+    page.route("**/try/curve", asked)
+    bench.view("try")
+    page.fill("input[type=search]", "thermal expansion")
+    page.locator("[data-parameter=thermal_expansion]").focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#followed", has_text="≈").get_by_text("first look, the exact number follows").wait_for()
+    while not held:
+        page.wait_for_timeout(100)
+    held[0].continue_()
+    page.locator("#followed", has_not_text="first look").wait_for()
+
+
 @pytest.mark.campaign
 def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench, tmp_path):
     page = dropped(bench, tmp_path)

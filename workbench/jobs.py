@@ -24,6 +24,8 @@ KINDS = ("compare", "diagnose", "next", "extend", "build", "export", "life", "en
 SILENT = 8.0
 RUNNING, DONE, FAILED, STOPPED, GONE = "running", "done", "failed", "stopped", "gone"
 STARTING = threading.Lock()
+# Processes that this server started and that have not ended, by place: on a busy machine one may be silent for long.
+LIVING: dict[Path, subprocess.Popen[bytes]] = {}
 
 
 def place_of(folder: Folder, kind: str) -> Path:
@@ -51,6 +53,7 @@ def start(folder: Folder, kind: str, given: dict[str, Any], jobs: int) -> None:
         words = [sys.executable, "-P", "-m", "workbench.work", str(folder.root), kind]
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=os.environ | known, start_new_session=True)
     # Its end is heard, so that nothing is left of it in the system's table.
+    LIVING[place] = process
     threading.Thread(target=process.wait, daemon=True).start()
 
 
@@ -82,10 +85,15 @@ def status(folder: Folder, kind: str, stamps: dict[str, str] | None = None) -> d
     told = {"begun": asked.get("begun"), "given": asked.get("given", {}), "tasks": beat.get("tasks", []), "said": beat.get("said", []),
             "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != stamps[model]}  # fmt: skip
     state = beat.get("state", RUNNING)
-    if state == RUNNING and time.time() - max(float(beat.get("at", 0.0)), float(asked["begun"])) > SILENT:
+    if state == RUNNING and time.time() - max(float(beat.get("at", 0.0)), float(asked["begun"])) > SILENT and not lives(place):
         state = GONE
         told["fault"] = f"the process that computed is gone; its last words: {last_words(place)}"
     return told | {"state": state, "result": (place / "result.json").is_file()}
+
+
+def lives(place: Path) -> bool:
+    """Whether a process that this server started there has not ended."""
+    return place in LIVING and LIVING[place].poll() is None
 
 
 def last_words(place: Path) -> str:

@@ -130,13 +130,15 @@ def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -
         return stems(run, factor, columns, ratios)
     name = axis_of(run)
     x = amounts.axis_values(name, np.asarray(record.axes[name])[run.kept], run.speed)
-    noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.kept.shape)[run.kept] if np.ndim(run.noise) else np.full(run.measured.size, float(run.noise))
+    noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.measured.shape)
+    # Drawn, but the axis is not stretched for them.
+    aside = {"aside": np.flatnonzero(run.outlying).tolist()} if run.outlying.any() else {}
     return label(run, ratios) | {
         "samples": int(run.measured.size), "dots": run.measured.size < FEW,
         "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
         "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
         "zero": factor * run.zero,
-    }  # fmt: skip
+    } | aside  # fmt: skip
 
 
 def stems(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:

@@ -25,7 +25,7 @@ def makers(result: Comparison) -> dict[str, list[dict[str, Any]]]:
     if record is None:
         return {}
     turn = np.linspace(0.0, 2.0 * np.pi, SAMPLES, endpoint=False)
-    even = replace(record, name="one turn", quantity=ERROR, values=np.zeros(SAMPLES), axes={"angle": turn})
+    even = replace(record, name="one turn", quantity=ERROR, values=np.zeros(SAMPLES), axes={"angle": turn}, far_off=())
     base = model.one(even, model.standing(), rough=True)
     found: dict[str, list[dict[str, Any]]] = {}
     for candidate in model.candidates:

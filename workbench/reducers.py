@@ -50,9 +50,16 @@ def described(reducer: Reducer) -> dict[str, Any]:
     t = reducer.topology
     return {
         "name": reducer.name, "description": reducer.description,
+        "speed": speed_of(reducer),
         "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
         "figures": [figure_data(whole), figure_data(zoom(whole, reducer))], "numbers": numbers(reducer), "findings": findings(reducer),
     }  # fmt: skip
+
+
+def speed_of(reducer: Reducer) -> str:
+    """At which speed it runs: catalogues rate at another one than many run at."""
+    figures, rpm = check(reducer).figures, reducer.starts["input_speed"] * 30.0 / math.pi
+    return f"runs at {rpm:,.5g} rpm at the input, {rpm / figures['ratio']:.3g} rpm at the output"
 
 
 def numbers(reducer: Reducer) -> list[dict[str, Any]]:

@@ -16,7 +16,7 @@ import uvicorn
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response, StreamingResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
@@ -192,6 +192,8 @@ class Workbench:
         place = jobs.place_of(self.folder, kind) / "report.html"
         if not place.is_file():
             raise InputFault("there is no page of a result yet")
+        if colours := request.query_params.get("colours"):
+            return HTMLResponse(await run_in_threadpool(coloured, place, colours == "dark"), headers={"content-security-policy": REPORT_POLICY})
         name = f"{self.folder.root.name}_{kind}.html" if "download" in request.query_params else None
         return FileResponse(place, media_type="text/html", filename=name, headers={"content-security-policy": REPORT_POLICY})
 
@@ -230,6 +232,12 @@ class Workbench:
         from workbench.reducers import completed
 
         return JSONResponse(await run_in_threadpool(completed, self.folder, await content(request)))
+
+
+def coloured(page: Path, dark: bool) -> str:
+    """The page of a result as a screen of these colours shows it, whatever this screen is."""
+    text = page.read_text(encoding="utf-8").replace("(prefers-color-scheme: dark)", "(min-width: 0px)" if dark else "(max-width: 0px)")
+    return text.replace("color-scheme: light dark", f"color-scheme: {'dark' if dark else 'light'}")
 
 
 def said(handler: Handler) -> Handler:

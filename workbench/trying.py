@@ -114,7 +114,8 @@ class Trial:
             axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
             words = {
                 "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
-                "condition": record.condition, "free": record.free_zero, "rms": [rms(record.values - base) * factor, rms(record.values - tried) * factor],
+                "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
+                "aside": list(record.far_off),
             }  # fmt: skip
             return words, np.array([x, *(factor * curve for curve in curves)])
 
@@ -134,7 +135,7 @@ class Trial:
                 seen.add(key)
                 base, tried = found.one(record, standing, rough=True), found.one(record, standing | own, rough=True)
                 units[key[0]] = record.unit
-                cells.setdefault(key[0], []).append((rms(tried - base), rms(record.values - base), rms(record.values - tried)))
+                cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
         rows = []
         for signal, entries in cells.items():
             change, before, after = (math.sqrt(float(np.mean(np.square(column)))) for column in zip(*entries))
@@ -164,6 +165,11 @@ def thinned(record: Record) -> Record:
         return record
     axes = {k: np.asarray(v)[kept] if np.size(v) == len(values) else v for k, v in record.axes.items()}
     return replace(record, values=values[kept], axes=axes)
+
+
+def error_of(record: Record, predicted: Floats) -> float:
+    """Root mean square of what is left, without samples that stand far off."""
+    return rms((record.values - predicted)[record.counted])
 
 
 def rms(values: Floats) -> float:

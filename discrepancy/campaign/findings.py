@@ -9,7 +9,9 @@ from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_or
 from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
 from discrepancy.campaign.repetition_words import copied_words, words
+from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.outlying_samples import outlying_samples
 from discrepancy.problem import ERROR, ORDERS
 from discrepancy.repetitions import outlying
 
@@ -229,6 +231,11 @@ def repetitions(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
+def samples(design: Design) -> Iterator[Finding]:
+    for found in outlying_samples(design.campaign.records):
+        yield Finding(WARNING, "outlying samples", words_of(found, design.campaign), REMEDY)
+
+
 def copied(design: Design) -> Iterator[Finding]:
     if design.campaign.copies:
         yield Finding(WARNING, "copied runs", *copied_words(design.campaign.copies))
@@ -261,4 +268,4 @@ def statements(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, copied, zeros, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, samples, copied, zeros, statements)

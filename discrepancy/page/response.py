@@ -1,5 +1,6 @@
 """What the model leaves unexplained beside what the best effect would add to it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from discrepancy.page.amounts import effect_title
 from discrepancy.page.runs import Run, axis_of, by_signal, runs_of
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
+from fmu_src.arrays import Floats
 from pages.content import Section
 
 WORDS = ("measured − base model", "effect", "what the effect leaves")
@@ -56,6 +58,13 @@ def averaged(runs: list[Run]) -> list[Run]:
         alike = np.asarray(run.record.axes[axis_of(run)])[run.kept].tobytes() if run.series else run.record.name
         cells.setdefault((*key, alike), []).append(run)
     return [
-        replace(members[0], measured=np.mean([r.measured for r in members], axis=0), noise=members[0].noise / np.sqrt(len(members)))
+        replace(members[0], measured=mean_of(members), noise=members[0].noise / np.sqrt(len(members)), outlying=np.all([r.outlying for r in members], axis=0))
         for members in cells.values()
     ]
+
+
+def mean_of(members: Sequence[Run]) -> Floats:
+    """Mean of replicates, sample by sample, over those that do not stand far off there."""
+    counts = np.sum([~r.outlying for r in members], axis=0)
+    total = np.sum([np.where(r.outlying & (counts > 0), 0.0, r.measured) for r in members], axis=0)
+    return np.asarray(total / np.where(counts > 0, counts, len(members)))

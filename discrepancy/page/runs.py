@@ -15,7 +15,7 @@ from fmu_src.arrays import Floats, Mask
 
 @dataclass(frozen=True)
 class Run:
-    """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included.
+    """SI values over the kept samples.  ``noise``: standard deviation of each, run-to-run parts included; ``outlying``: whether it stands far off.
 
     Where a quantity's zero is free, both curves count from ``zero`` of what was written: repetitions lie over each other then.
     """
@@ -25,9 +25,15 @@ class Run:
     measured: Floats
     predicted: Floats
     noise: Floats
+    outlying: Mask
     # How the campaign tells a speed.
     speed: Scale = AXES["speed"]
     zero: float = 0.0
+
+    @property
+    def inside(self) -> Floats:
+        """What was measured, without samples that stand far off (NaN)."""
+        return np.where(self.outlying, np.nan, self.measured)
 
     @property
     def series(self) -> bool:
@@ -55,11 +61,15 @@ def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list
     """All runs; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
-        kept = whitener.kept
+        # What stands far off is drawn with the noise of the others.
+        kept = whitener.kept | ~record.counted
+        noise = np.full(kept.size, float(np.median(whitener.scale)) if whitener.scale.size else 0.0)
+        noise[whitener.kept] = whitener.scale
         measured, y = np.asarray(record.values, float) - (minus[i] if minus is not None else 0.0), np.asarray(y, float)
         # The mean of a prediction with a free zero is fitted: it is that of the run.
         zero = float(y.mean()) if record.free_zero and axis_name(record) else 0.0
-        found.append(Run(record, kept, measured[kept] - zero, y[kept] - zero, whitener.scale * np.sqrt(1.0 + whitener.between), speed, zero))
+        noise *= np.sqrt(1.0 + whitener.between)
+        found.append(Run(record, kept, measured[kept] - zero, y[kept] - zero, noise[kept], ~record.counted[kept], speed, zero))
     return found
 
 

@@ -17,6 +17,8 @@ SAMPLES, FEWEST, MOST = 40_000, 800, 3_000
 MOST_REPLICATES = 4
 # Where runs were written at several heights.
 FREE = " The zero of this quantity is free: every run is drawn at its fitted zero."
+# Where a sample stands far off.
+FAR = " A diamond is a sample that stands far off: it lies outside of the axis, its number shows where one points at it."
 EMPTY: dict[str, list[float]] = {"x": [], "y": []}
 
 
@@ -32,13 +34,14 @@ def figure(
     cells = by_condition(runs)
     width = min(max(len(members) for members in cells.values()), MOST_REPLICATES)
     title = amounts.axis_title(axis_of(runs[0]))
-    traces = template(words, width)
+    traces = template(words, width) + [mark(words[0])] * any(run.outlying.any() for run in runs)
     most = min(max(SAMPLES // len(cells), FEWEST), MOST)
-    choices = [Choice(label, updates(members[:width], unit, width, most)) for label, members in cells.items()]
+    choices = [Choice(label, updates(members[:width], unit, width, most) + marks(members[:width], unit, traces)) for label, members in cells.items()]
     step = max(stride(run, most) for run in runs)
     longest = max(len(members) for members in cells.values())
     text = caption or "The band is two standard deviations of the noise between replicates around the blue line."
     text += FREE if any(run.zero for run in runs) else ""
+    text += FAR if any(run.outlying.any() for run in runs) else ""
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
     text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=panels.x_axis(title))
@@ -123,15 +126,38 @@ def updates(members: Sequence[Run], unit: str, width: int, most: int) -> list[di
     return found
 
 
+def mark(word: str) -> dict[str, Any]:
+    """The trace of samples that stand far off: at the edge of what is drawn, their numbers in words."""
+    return {"type": "scatter", "mode": "markers", "showlegend": False, "marker": {"color": panels.MEASURED, "symbol": "diamond", "size": 9},
+            "hovertemplate": f"{word}, far off: %{{text}} at %{{x}}<extra></extra>"}  # fmt: skip
+
+
+def marks(members: Sequence[Run], unit: str, traces: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """What ``mark`` shows at one condition; nothing where ``traces`` have none."""
+    if traces[-1].get("mode") != "markers":
+        return []
+    factor, _ = amounts.scale(unit, members[0].record.quantity)
+    every = np.concatenate([run.inside for run in members])
+    low, high = factor * np.nanmin(every), factor * np.nanmax(every)
+    x = np.concatenate([axis_values(run)[run.outlying] for run in members])
+    values = factor * np.concatenate([run.measured[run.outlying] for run in members])
+    above = values > 0.5 * (low + high)
+    return [{"x": short(x, 5), "y": short(np.where(above, high, low), 4), "text": [f"{v:.4g}" for v in values]}]
+
+
 def points(trace: dict[str, Any]) -> dict[str, Any]:
     return {k: trace[k] for k in ("x", "y")}
 
 
 def thinned(run: Run, most: int) -> tuple[Floats, Floats, Floats]:
     """(axis, measured, predicted) with at most ``most`` samples."""
-    name, step = axis_of(run), stride(run, most)
-    x = amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])
-    return x[::step], run.measured[::step], run.predicted[::step]
+    x, step = axis_values(run), stride(run, most)
+    return x[::step], run.inside[::step], run.predicted[::step]
+
+
+def axis_values(run: Run) -> Floats:
+    name = axis_of(run)
+    return amounts.axis_values(name, np.asarray(run.record.axes[name])[run.kept])
 
 
 def stride(run: Run, most: int) -> int:

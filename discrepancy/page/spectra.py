@@ -31,8 +31,8 @@ def turns(run: Run) -> int:
 
 
 def bridged(run: Run, values: Floats) -> Floats:
-    """Values of the kept samples at all samples."""
-    return np.interp(np.arange(run.kept.size), np.flatnonzero(run.kept), values)
+    """Values of the kept samples at all samples, without those that stand far off."""
+    return np.interp(np.arange(run.kept.size), np.flatnonzero(run.kept)[~run.outlying], values[~run.outlying])
 
 
 def amplitudes(values: Floats, whole: int) -> Floats:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from scipy.linalg import solve_toeplitz
 
+from discrepancy.outlying_samples import bridged
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.curves import errors_of_cages
@@ -44,7 +45,7 @@ class Cages:
 
     def __init__(self, bench: Bench, records: Sequence[Record], for_record: ForRecord):
         self.bench, self.for_record = bench, for_record
-        self.records = [r for r in records if r.quantity == "transmission_error" and "angle" in r.axes and len(r.values) >= LONG]
+        self.records = [bridged(r) for r in records if r.quantity == "transmission_error" and "angle" in r.axes and len(r.values) >= LONG]
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
 

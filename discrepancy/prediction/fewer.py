@@ -25,4 +25,4 @@ def fewer(record: Record, turns: float) -> Record:
         found: Floats = values[: count // step * step].reshape(-1, step).mean(axis=1)
         return found
 
-    return replace(record, values=means(np.asarray(record.values, np.float64)), axes={name: means(axis) for name, axis in columns.items()})
+    return replace(record, values=means(np.asarray(record.values, np.float64)), axes={name: means(axis) for name, axis in columns.items()}, far_off=())

@@ -9,6 +9,7 @@ import numpy as np
 from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign, Nuisance
 from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import chain, model_error
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
@@ -67,7 +68,7 @@ class PhysicalModel:
                  jobs: int = 1, fmus: Path | None = None):
         # An FMU is stepped by one.
         self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
-        self.records: list[Record] = [defined(r, campaign) for r in campaign.records if r.quantity in PREDICTED]
+        self.records: list[Record] = marked([defined(r, campaign) for r in campaign.records if r.quantity in PREDICTED])
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         settings = {n: v for n, v in present.items() if "[" not in n}
@@ -139,7 +140,7 @@ class PhysicalModel:
             width = 2.0 * np.pi / PHASE_ORDER
             shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * width
             # One record tells; the pattern hardly depends on the condition.
-            record = self.records[indices[0]]
+            record = bridged(self.records[indices[0]])
             if record.quantity == ERROR:
                 record = fewer(record, turns_of(self.bench, record))
             own = self.for_record(record, self.standing())
@@ -245,7 +246,7 @@ class PhysicalModel:
             return orders_shown(measured, predicted)
         if record.free_zero:
             # The mean of the prediction is that of the measurement.
-            predicted = predicted - float(predicted.mean()) + float(record.values.mean())
+            predicted = predicted - float(predicted.mean()) + float(bridged(record).values.mean())
         return predicted
 
     def observed(self, record: Record, own: Values, beside: Values | None, rough: bool) -> Floats:
@@ -303,7 +304,7 @@ def defined_at(record: Record, campaign: Campaign) -> Mask:
 
 def typical_size(records: list[Record]) -> float:
     """Size of a quantity: its mean, or its spread where the mean says nothing."""
-    return size_of(np.concatenate([r.values for r in records]))
+    return size_of(np.concatenate([r.values[r.counted] for r in records]))
 
 
 def size_of(values: Floats) -> float:

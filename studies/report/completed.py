@@ -4,6 +4,7 @@ from pages import look
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from reducers.completion.complete import Completion
+from reducers.completion.known import FROM_OPTIONS
 from reducers.reducer import Reducer
 from studies.completed_ranges import HOURS, RING_ERROR, THROW_ERROR, Influence, what_matters
 from studies.figure_units import figure_unit
@@ -18,7 +19,8 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) ->
     """``found`` may be empty: then nothing is said of signals."""
     given = completion.given
     whole = assembly(reducer, given.diameter)
-    known = sum(number.is_given for number in completion.numbers.values())
+    # Ratio, pins, torque and cranks are numbers of the file, too.
+    known = sum(number.is_given or number.name in FROM_OPTIONS for number in completion.numbers.values())
     cards = [card(completion, name, label) for name, label in (
         ("pin.circle_radius", "pin circle radius"), ("pin.radius", "pin radius"), ("crank.eccentricity", "eccentricity"), ("mesh.width", "width of a disc"),
     )]  # fmt: skip

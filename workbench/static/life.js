@@ -8,12 +8,16 @@ import { Plot } from "./plot.js";
 // One for each line of all panes, which share a legend.
 const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--a"];
 
+// The report in the colours of the page around it: they may be others than the screen's.
+const embedded = () => `results/life/report?colours=${document.documentElement.classList.contains("dark") ? "dark" : "light"}`;
+
 export function show(root, context) {
   let live = null,
     result = null,
     hours = "10000",
     torque = "",
-    plot = null;
+    plot = null,
+    report = null;
   const top = h("div"),
     words = h("div"),
     chart = h("div", { class: "panel", hidden: true }),
@@ -136,7 +140,7 @@ export function show(root, context) {
       result
         ? [
             h("h2", {}, "On the parts, over the turn, by order"),
-            h("iframe", { class: "report", src: "results/life/report", title: "report of the life", sandbox: "allow-scripts" }),
+            (report = h("iframe", { class: "report", src: embedded(), title: "report of the life", sandbox: "allow-scripts" })),
             h(
               "p",
               { class: "quiet small" },
@@ -165,6 +169,7 @@ export function show(root, context) {
     recolour: () => {
       plot?.later();
       lives.recolour();
+      if (report && report.getAttribute("src") !== embedded()) report.src = embedded();
     },
     close: () => {
       plot?.destroy();

@@ -109,6 +109,7 @@ export function spec({ part, shift, asMeasured, several }, signal, members) {
       width: broad,
       opacity,
       dots: run.dots,
+      aside: run.aside,
       ...look,
       shift: -0.3,
     });
@@ -120,6 +121,7 @@ export function spec({ part, shift, asMeasured, several }, signal, members) {
       width: 1.1,
       opacity,
       dots: run.dots,
+      aside: run.aside,
       ...look,
     });
     if (k === 0 || several)

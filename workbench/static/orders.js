@@ -1,7 +1,8 @@
 // Orders of a signal over the output's turn: of one condition as stems, of all as a waterfall; hovering names what makes an order.
 
 import { h, number, table } from "./dom.js";
-import { LEFT, RIGHT } from "./paint.js";
+import { distinct } from "./names.js";
+import { LEFT, RIGHT, fitting } from "./paint.js";
 import { Plot } from "./plot.js";
 
 const SHOWN = 12;
@@ -99,6 +100,7 @@ function waterfall(signal, said, result) {
     "aria-label": `orders of ${signal.title} for each condition`,
   });
   let which = "measured";
+  const names = distinct(signal.spectra.map((s) => s.condition));
   const draw = () => {
     const ratio = window.devicePixelRatio || 1,
       width = canvas.clientWidth,
@@ -118,7 +120,7 @@ function waterfall(signal, said, result) {
       c.fillStyle = style.getPropertyValue("--quiet");
       c.textAlign = "right";
       c.textBaseline = "middle";
-      c.fillText(s.condition.length > 22 ? `${s.condition.slice(0, 21)}…` : s.condition, left - 6, (row + 0.5) * tall);
+      c.fillText(fitting(c, names[row], left - 8), left - 6, (row + 0.5) * tall);
       c.fillStyle = style.getPropertyValue("--predicted");
       for (let order = 1; order < count; order++) {
         c.globalAlpha = Math.min(1, Math.sqrt(s[which][order] / (most || 1)));
@@ -130,8 +132,14 @@ function waterfall(signal, said, result) {
     c.fillStyle = style.getPropertyValue("--quiet");
     c.textAlign = "center";
     c.textBaseline = "top";
-    for (let order = 0; order < count; order += 20)
-      if (order) c.fillText(String(order), left + ((order - 0.5) / (count - 1)) * (width - left - 8), height - 30);
+    const wide = width - left - 8,
+      // As many as stand apart.
+      step = [20, 40, 50, 100, 200].find((s) => (s / count) * wide > c.measureText("000 ").width) ?? count;
+    for (let order = step; order < count; order += step) {
+      const text = String(order),
+        half = c.measureText(text).width / 2;
+      c.fillText(text, Math.min(left + ((order - 0.5) / (count - 1)) * wide, width - 2 - half), height - 30);
+    }
     c.fillText("order", left + (width - left) / 2, height - 15);
   };
   new ResizeObserver(draw).observe(canvas);

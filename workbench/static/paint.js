@@ -90,7 +90,10 @@ export function paint(plot) {
       c.lineTo(right, py(0));
       c.stroke();
     }
-    for (const line of plot.shown(pane)) drawLine(c, line, px, py, low, high);
+    for (const line of plot.shown(pane)) {
+      drawLine(c, line, px, py, low, high);
+      drawClipped(c, line, px, py, top, bottom);
+    }
     c.restore();
     top = bottom + GAP;
   }
@@ -140,6 +143,23 @@ function drawLine(c, line, px, py, low, high) {
   }
   c.globalAlpha = 1;
   c.setLineDash([]);
+}
+
+// Arrowheads at the edge for samples that stand far off, outside of the axis.
+function drawClipped(c, line, px, py, top, bottom) {
+  c.fillStyle = inColour(line.colour);
+  for (const i of line.aside ?? []) {
+    const x = px(line.x[i]),
+      y = py(line.y[i]);
+    if (y >= top && y <= bottom) continue;
+    const edge = y < top ? top : bottom,
+      back = y < top ? edge + 9 : edge - 9;
+    c.beginPath();
+    c.moveTo(x, edge);
+    c.lineTo(x - 5, back);
+    c.lineTo(x + 5, back);
+    c.fill();
+  }
 }
 
 // Between two lines; of a loop column by column of pixels, what both ways reach joined, so that neither half stays empty or is twice as dark.
@@ -197,7 +217,7 @@ function drawCursors(plot, c, px, foot) {
   plot.cursorButton.textContent = `cursor ${plot.active.toUpperCase()}`;
 }
 
-function fitting(c, text, room) {
+export function fitting(c, text, room) {
   if (c.measureText(text).width <= room) return text;
   let short = text;
   while (short.length > 4 && c.measureText(`${short}…`).width > room) short = short.slice(0, -1);

@@ -12,6 +12,17 @@ export function recolour() {
   for (const plot of all) plot.later();
 }
 
+// A line without the samples that stretch no axis.
+function inside(line) {
+  if (!line.aside?.length) return line;
+  if (!line.inside) {
+    const y = Float32Array.from(line.y);
+    for (const i of line.aside) y[i] = NaN;
+    line.inside = { x: line.x, y, sorted: line.sorted };
+  }
+  return line.inside;
+}
+
 // Plots of one link show the same stretch of their axis, and cursors at the same place.
 export class Link {
   constructor() {
@@ -22,7 +33,7 @@ export class Link {
 }
 
 export class Plot {
-  // panes: [{title, weight, zero, lines: [{name, x, y, colour, width, dots, opacity, dash, hidden}], bands: [{x, low, high}], limits: [values]}]
+  // panes: [{title, weight, zero, lines: [{name, x, y, colour, width, dots, opacity, dash, hidden, aside: [indices that stretch no axis]}], bands: [{x, low, high}], limits: [values]}]
   constructor({ height = 420, link = new Link(), label = "chart" } = {}) {
     this.link = link;
     link.plots.add(this);
@@ -149,7 +160,8 @@ export class Plot {
       if (a < bottom) bottom = a;
       if (b > top) top = b;
     };
-    for (const line of this.shown(pane)) {
+    for (const drawn of this.shown(pane)) {
+      const line = inside(drawn);
       if (line.sorted && !this.loop) take(spanOf(line, ...seen(line.x, low, high)));
       else take((line.ySpan ??= span(line.y)));
     }

@@ -18,9 +18,13 @@ export function show(root, context) {
   root.append(faults, top, body);
 
   async function load(name = model) {
+    if (!data || name !== model) clear(body, h("p", { class: "quiet", role: "status" }, "Reading the reducer…"));
     model = name;
     const found = await context.act(post("reducer", { model }), faults);
-    if (!found) return;
+    if (!found) {
+      clear(body);
+      return;
+    }
     clear(faults);
     data = found;
     draw();
@@ -79,6 +83,7 @@ export function show(root, context) {
           .filter(([, v]) => v)
           .map(([k, v]) => `${v} ${k}`)
           .join(", "),
+        r.speed ? `; ${r.speed}` : "",
         data.carries?.length ? `; the model carries ${data.carries.join(", ")}` : "",
       ),
       r.findings.map((t) => note(t, "bad")),

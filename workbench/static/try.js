@@ -199,7 +199,7 @@ export function show(root, context) {
     try {
       const [told_, rows] = await wordsAndRows("try/curve", asked, 5);
       if (!told_.late) {
-        last = { told: told_, rows };
+        last = { told: told_, rows, roughly };
         drawCurve(roughly ? performance.now() - begun : null);
       }
     } catch (fault) {
@@ -221,9 +221,11 @@ export function show(root, context) {
         told: t,
         rows: [x, measured, base, tried, other],
       } = last,
-      own = Object.keys(values).length > 0;
+      own = Object.keys(values).length > 0,
+      // Nothing that is tried: nothing is rough.
+      provisional = last.roughly && own;
     const lines = [
-      { name: "measured", x, y: measured, colour: "--measured", width: 1.1 },
+      { name: "measured", x, y: measured, colour: "--measured", width: 1.1, aside: t.aside },
       { name: "model", x, y: base, colour: "--predicted", width: 1.6 },
     ];
     if (kept && kept.rows[0].length === x.length) lines.push({ name: "A", x, y: kept.rows[3], colour: "--a", width: 1.6 });
@@ -234,6 +236,7 @@ export function show(root, context) {
     if (kept && kept.rows[0].length === x.length) lower.push({ name: "measured − A", x, y: difference(kept.rows[3]), colour: "--left-a", width: 1.1 });
     if (beside) lower.push({ name: `measured − ${beside}`, x, y: difference(other), colour: "--left-b", width: 1.1 });
     if (own) lower.push({ name: "measured − tried", x, y: difference(tried), colour: "--gold", width: 1.3 });
+    for (const line of lower) line.aside = t.aside;
     if (t.stems)
       [...lines, ...lower].forEach((line, i) => Object.assign(line, { stems: true, sorted: true, width: 2.4, shift: 0.35 * ((i % lines.length) - 1) }));
     plot.set({
@@ -248,7 +251,8 @@ export function show(root, context) {
     clear(
       told,
       `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `,
-      h("b", {}, `${number(t.rms[1], 3)} ${t.unit}`),
+      h("b", {}, `${provisional ? "≈ " : ""}${number(t.rms[1], 3)} ${t.unit}`),
+      provisional ? h("span", { class: "fair" }, " first look, the exact number follows") : "",
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",
       t.free ? " · the zero is free: drawn at the fitted one" : "",

@@ -51,7 +51,7 @@ class Noise:
 
 def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats]) -> Noise:
     """Noise from training records; held-out records get whiteners of the same noise."""
-    masks = [usable(np.asarray(r.values)) & np.isfinite(e) for r, e in zip(records, residuals)]
+    masks = [usable(np.asarray(r.values)) & np.isfinite(e) & r.counted for r, e in zip(records, residuals)]
     # A run that stands out of its repetitions says nothing of the noise, and counts the less.
     counts = {o.run: o.weight for o in outlying(records) if o.weight < 1.0}
     members: dict[str, list[int]] = defaultdict(list)
