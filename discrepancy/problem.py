@@ -185,10 +185,14 @@ class Settling(Protocol):
 
 @runtime_checkable
 class Cheaper(Protocol):
-    """What a model may have besides: predictions next to others to first order, and rough ones."""
+    """What a model may have besides: predictions next to others to first order, such at any distance from others, and rough ones."""
 
     def predict_beside(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], roughly: bool) -> list[Floats]:
         """``Model.predict``, or ``predict_roughly``, for values next to ``base``."""
+        ...
+
+    def predict_near(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """``Model.predict`` that may err by a few parts in a hundred of what ``values`` change next to ``base``, whose predictions are exact."""
         ...
 
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:

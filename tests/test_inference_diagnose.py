@@ -36,9 +36,39 @@ def test_what_only_rough_predictions_show_is_no_effect():
         def predict_roughly(self, values, which):
             return self.predict_beside(values, {}, which)
 
+        def predict_near(self, values, base, which):
+            return self.predict(values, which)
+
     result = diagnose(Rough(model.records))
     assert result.p_screen < 1e-6
     assert result.verdict in ("none", "unknown") and not result.effects
+
+
+def test_what_near_predictions_err_moves_no_reported_fit():
+    """They lack a tenth of what differs; the fit ends where the exact ones do, as well as its steps go by exact ones."""
+    model, _ = campaign(12, "effect", 20, "stribeck")
+
+    class Near(Toy):
+        share = 1.0
+
+        def predict_beside(self, values, base, which, roughly=False):
+            return self.predict(values, which)
+
+        def predict_roughly(self, values, which):
+            return self.predict(values, which)
+
+        def predict_near(self, values, base, which):
+            return [low + self.share * (high - low) for high, low in zip(self.predict(values, which), self.predict(base, which))]
+
+    class Coarse(Near):
+        share = 0.9
+
+    exact, coarse = (diagnose(kind(model.records)).effects[0] for kind in (Near, Coarse))
+    assert coarse.name == exact.name == "stribeck"
+    for name, entry in exact.parameters.items():
+        low, high = entry["interval"]
+        assert coarse.parameters[name]["value"] == pytest.approx(entry["value"], abs=0.02 * (high - low))
+        assert np.diff(coarse.parameters[name]["interval"]) == pytest.approx(high - low, rel=0.25)
 
 
 def test_one_effect_is_named_with_its_parameters():

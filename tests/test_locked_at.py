@@ -147,7 +147,7 @@ def test_bench_stands_where_the_condition_says():
     # What values change is computed there, too, roughly as well.
     values = {"needle_clearance_added": -1e-6}
     there = replace(condition, locked_at=0.01)
-    whole, rough = (b.held(there, values, torque) - b.held(there, {}, torque) for b in (bench, bench.roughly()))
+    whole, rough = (b.held(there, values, torque) - b.held(there, {}, torque) for b in (bench, bench.rougher))
     assert np.array_equal(whole, rough)
     assert np.ptp(whole) > 10.0 * ARCSEC
 

@@ -5,11 +5,12 @@ import pytest
 
 from discrepancy.prediction.bench import HELD_ANGLES, QUARTER, SHORT_CYCLE, Bench
 from discrepancy.prediction.conditions import at_rest
-from discrepancy.prediction.curves import OverTorque, signal
+from discrepancy.prediction.curves import OverTorque, coarse_loop_change, signal
 from discrepancy.prediction.observe import lost_motion_at, middle_lines
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
+from studies.hysteresis import MEMORY
 
 ARCSEC = np.radians(1.0) / 3600.0
 
@@ -35,7 +36,7 @@ def test_lost_motion_under_friction_needs_few_torques():
     true, true_base = (middle_lines(bench, condition, v, many) for v in (values, {}))
     assert lost_motion_at(bench, condition, {}) == pytest.approx(true_base, rel=0.005)
     assert lost_motion_at(bench, condition, values) - lost_motion_at(bench, condition, {}) == pytest.approx(true - true_base, rel=0.02)
-    rough = bench.roughly()
+    rough = bench.rougher
     assert lost_motion_at(rough, condition, {}) == lost_motion_at(bench, condition, {})
     assert lost_motion_at(rough, condition, values) - lost_motion_at(rough, condition, {}) == pytest.approx(true - true_base, rel=0.1)
 
@@ -52,3 +53,19 @@ def test_few_samples_of_a_loop_under_friction_lie_on_the_way_that_the_drive_has_
     true = bench.held(curve.condition, {}, way[1:])[sampled - 1]
     off = signal(curve, {}) - true
     assert np.sqrt(np.mean((off - off.mean()) ** 2)) < 0.1 * ARCSEC
+
+
+def test_what_is_changed_in_a_loop_that_remembers_is_seen_from_few_positions():
+    """To first order and over whole standard deviations: 1 % of clearance and hollow races, 7 % of a profile, at a tenth of the cost."""
+    bench = Bench(load_reducer("RV20E-121"), {})
+    way = bench.rated_load * np.interp(np.linspace(0.0, 5.0, 121), np.arange(6.0), [0.0, 1.0, 0.0, -1.0, 0.0, 1.0])
+    way = way[np.abs(way) > 0.01 * bench.rated_load]
+    record = Record("loop", "hysteresis", "rad", "a", 1, np.zeros(len(way)), {"torque": way}, {"load": bench.rated_load})
+    at = {"needle_clearance_added": 1e-6}
+    for step, most in (({"needle_clearance_added": 1.02e-6}, 0.02), ({"needle_clearance_added": 3e-6}, 0.02), ({**at, "equidistant_added": -2e-6}, 0.07)):
+        exact = signal(OverTorque(bench, record).exact(), step) - signal(OverTorque(bench, record).exact(), at)
+        found = coarse_loop_change(bench, record, step, at)
+        assert 0.0 < np.sqrt(np.mean((found - exact) ** 2)) < most * np.sqrt(np.mean(exact**2))
+    dry = {name: 0.0 for name in MEMORY}
+    assert coarse_loop_change(bench, record, {**at, **dry}, dry) is None
+    assert coarse_loop_change(bench, Record(**{**record.__dict__, "factors": {**record.factors, "hours": 3.6e6}}), at, {}) is None

@@ -149,7 +149,7 @@ def test_few_nodes_suffice_for_the_orders_that_a_drive_shows(level: int, directi
 
 
 def test_no_search_looks_at_more_nodes_than_a_report(benches):
-    bench, record = benches[0].roughly(), over_angle()
+    bench, record = benches[0].rougher, over_angle()
     found, whole = (transmission_error(b, record, {"disc_runout": 3e-6}) - transmission_error(b, record, {}) for b in (bench, benches[1]))
     assert np.std(found - whole) < 0.1 * np.std(whole)
     assert min(bench.fineness.added[key][0][1] for key in bench.fineness.added) < 0

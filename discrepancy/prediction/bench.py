@@ -6,6 +6,7 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 import copy
 import math
 from collections.abc import Callable, Hashable, Mapping
+from functools import cached_property
 
 import numpy as np
 
@@ -54,9 +55,11 @@ class Bench(Lives):
         self.fineness: Fineness | None = None
         self.twins = Twins()
 
-    def roughly(self) -> "Bench":
+    @cached_property
+    def rougher(self) -> "Bench":
         """The same bench with the same runs, as coarse as a search allows."""
         other = copy.copy(self)
+        other.__dict__["rougher"] = other
         other.fineness = self.fineness.roughly() if self.fineness else None
         other.held_angles, other.mean_positions, other.cycle_turns = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS, ROUGH_CYCLE
         other.quarter, other.torque_step = FEW_OF_QUARTER, ROUGH_TORQUE_STEP

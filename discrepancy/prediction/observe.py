@@ -7,7 +7,7 @@ import numpy as np
 
 from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
-from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripples, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripples, coarse_loop_change, error_change, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -60,6 +60,10 @@ def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:
 
 def hysteresis_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
     return None if record.tags.get("locked") == "output" else loop_change(bench, record, values, base)
+
+
+def coarse_hysteresis_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
+    return None if record.tags.get("locked") == "output" else coarse_loop_change(bench, record, values, base)
 
 
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
@@ -294,7 +298,10 @@ OBSERVED: dict[str, Callable[[Bench, Record, Values], Floats]] = {
     )
 }  # fmt: skip
 
+Changes = Mapping[str, Callable[[Bench, Record, Values, Values], Floats | None]]
 # What values change next to others, to first order and cheaper, where there is such a thing.
-CHANGES: dict[str, Callable[[Bench, Record, Values, Values], Floats | None]] = {
+CHANGES: Changes = {
     "transmission_error": transmission_error_change, "hysteresis": hysteresis_change,
 }  # fmt: skip
+# The same, no slope but good for any distance.
+COARSE_CHANGES: Changes = {"hysteresis": coarse_hysteresis_change}

@@ -22,7 +22,7 @@ from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.model_error import LOOPS, with_error
-from discrepancy.prediction.observe import CHANGES, OBSERVED
+from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats, Mask
@@ -81,7 +81,7 @@ class PhysicalModel:
             self.bench.plan([*rows, *(at_rest(self.bench, c) for c in rows)], record.held_out)
         if not any(r.tags.get("surface") == "pin" for r in self.records):
             self.bench.largest_sweep = WHOLE_SWEEP
-        self.rough_bench = self.bench.roughly()
+        self.rough_bench = self.bench.rougher
         self.chain = Chain(self.bench, present)
         self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
         if ORDERS in self.sizes:
@@ -167,6 +167,10 @@ class PhysicalModel:
         """``predict`` for values next to ``base``, to first order where that is cheaper: for sensitivities."""
         return self.shared(which, self.asked(values), self.asked(base), roughly)
 
+    def predict_near(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
+        """``predict`` with errors of a few parts in a hundred of what ``values`` change next to ``base``, where that is cheaper."""
+        return self.shared(which, self.asked(values), self.asked(base), changes=COARSE_CHANGES)
+
     def predict_roughly(self, values: Mapping[str, float], which: Sequence[int]) -> list[Floats]:
         """``predict`` with errors of a few parts in a hundred of what is changed: for searches."""
         return self.shared(which, self.asked(values), rough=True)
@@ -211,20 +215,20 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every))
 
-    def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False) -> list[Floats]:
+    def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False, changes: Changes = CHANGES) -> list[Floats]:
         """Predictions on all threads."""
-        return self.threads.map(lambda i: self.predicted(self.records[i], asked, beside, rough), which)
+        return self.threads.map(lambda i: self.predicted(self.records[i], asked, beside, rough, changes), which)
 
     def one(self, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:
         """Prediction of a record, which need not be one of the campaign's."""
         return self.predicted(record, self.asked(values), None, rough)
 
-    def predicted(self, measured: Record, asked: Asked, beside: Asked | None, rough: bool) -> Floats:
-        """``one`` of values that are made ready; next to those ``beside`` to first order."""
+    def predicted(self, measured: Record, asked: Asked, beside: Asked | None, rough: bool, changes: Changes = CHANGES) -> Floats:
+        """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         record = curve_of(measured)
         try:
-            predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough)
+            predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
                 torque = impossible_torque(measured, self.campaign)
@@ -249,17 +253,21 @@ class PhysicalModel:
             predicted = predicted - float(predicted.mean()) + float(bridged(record).values.mean())
         return predicted
 
-    def observed(self, record: Record, own: Values, beside: Values | None, rough: bool) -> Floats:
+    def observed(self, record: Record, own: Values, beside: Values | None, rough: bool, changes: Changes = CHANGES) -> Floats:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
-        key = (self.identities.get(id(record)) or identity(record), rough, tuple(own.items()), None if beside is None else tuple(beside.items()))
+        changed = None if beside is None else changes.get(record.quantity)
+        key = (self.identities.get(id(record)) or identity(record), rough, tuple(own.items()), changed and tuple((beside or {}).items()), changed)
         found = self.shown.get(key)
         if found is None:
             if len(self.shown) > MOST_SHOWN:
                 self.shown.clear()
             bench = self.rough_bench if rough else self.bench
-            change = None if beside is None or record.quantity not in CHANGES else CHANGES[record.quantity](bench, record, own, beside)
-            found = np.asarray(OBSERVED[record.quantity](bench, record, own), float) if beside is None or change is None else \
-                self.observed(record, beside, None, rough) + change
+            change = changed(bench, record, own, beside) if changed and beside is not None else None
+            if change is None or beside is None:
+                found = np.asarray(OBSERVED[record.quantity](bench, record, own), float)
+            else:
+                # Beside a slope nobody asks how well a dear loop's own place is known.
+                found = self.observed(record, beside, None, rough or changes is CHANGES and record.quantity == "hysteresis") + change
             self.shown[key] = found
         return found
 

@@ -12,6 +12,8 @@ from fmu_src.arrays import Floats
 
 # Of each thread its own: one searches while another settles what is reported.
 SEARCHING: ContextVar[bool] = ContextVar("searching", default=False)
+# Values from which others are seen.
+ANCHOR: ContextVar[Mapping[str, float] | None] = ContextVar("anchor", default=None)
 
 Key = tuple[tuple[str, float], ...]
 
@@ -32,6 +34,7 @@ class Predictions:
                 self.shaping.setdefault(shape.name, set()).update(p.name for p in c.amplitudes)
         self.store: dict[Key, dict[int, Floats]] = {}
         self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
+        self.near_store: dict[tuple[Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
         self.calls = 0
         self.reported: set[Key] = set()
@@ -43,7 +46,7 @@ class Predictions:
         if self.unfinished:
             return dict(self.__dict__)
         kept = {key: known for key, known in self.store.items() if key in self.reported}
-        return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}}
+        return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}, "near_store": {}}
 
     def report(self, values: Mapping[str, float]) -> None:
         """The predictions of these values stay when this is kept for later."""
@@ -61,6 +64,10 @@ class Predictions:
         if self.rough and active and isinstance(model, Cheaper):
             known = self.rough_store.setdefault(tuple(sorted(active.items())), {})
             return self._kept(known, which, lambda missing: model.predict_roughly(active, missing))
+        if (seen_from := ANCHOR.get()) is not None and seen_from != active and isinstance(model, Cheaper):
+            anchor = dict(seen_from)
+            known = self.near_store.setdefault((tuple(sorted(active.items())), tuple(sorted(anchor.items()))), {})
+            return self._kept(known, which, lambda missing: model.predict_near(active, anchor, missing))
         known = self.store.setdefault(tuple(sorted(active.items())), {})
         return self._kept(known, which, lambda missing: model.predict(active, missing))
 
@@ -100,6 +107,9 @@ class Predictions:
         for pair in list(self.beside_store):
             if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
                 self.beside_store.pop(pair, None)
+        for near in list(self.near_store):
+            if self.effects(dict(near[0])) | self.effects(dict(near[1])) >= effects:
+                self.near_store.pop(near, None)
 
     def effects(self, active: Mapping[str, float]) -> frozenset[str]:
         return frozenset(name for name in active if name in self.amplitudes)
@@ -117,6 +127,15 @@ class Predictions:
             yield
         finally:
             SEARCHING.reset(before)
+
+    @contextmanager
+    def anchored(self, values: Mapping[str, float]) -> Iterator[None]:
+        """Predictions in this block may err by a share of what they differ by from those of ``values``: near an end of a search."""
+        before = ANCHOR.set(self.active(values))
+        try:
+            yield
+        finally:
+            ANCHOR.reset(before)
 
     def _kept(self, known: dict[int, Floats], which: Sequence[int], predict: Callable[[list[int]], list[Floats]]) -> list[Floats]:
         missing = [i for i in which if i not in known]

@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from discrepancy.inference.base_fit.fit import fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.effect_fit import in_earnest
+from discrepancy.inference.refit.effect_fit import in_earnest, there
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate
@@ -87,12 +86,12 @@ class Refits:
 
     def seen(self, result: Refit) -> Refit:
         """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
-        key, fit = frozenset(c.name for c in result.candidates), result.fit
+        key = frozenset(c.name for c in result.candidates)
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         self.settle(key, result)
-        there = fit_of(fit.parameters, fit.values, self.space.residual(fit.values), fit.jacobian, fit.candidates, fit.converged)
-        self.fitted[key] = finished(self.space, result.candidates, there)
+        with self.space.predictions.anchored(result.fit.values):
+            self.fitted[key] = finished(self.space, result.candidates, there(self.space, result.fit))
         return self.fitted[key]
 
     def settle(self, key: frozenset[str], result: Refit) -> None:
