@@ -6,7 +6,7 @@ import pytest
 from discrepancy.prediction.bench import HELD_ANGLES, QUARTER, SHORT_CYCLE, Bench
 from discrepancy.prediction.conditions import at_rest
 from discrepancy.prediction.curves import OverTorque, coarse_loop_change, signal
-from discrepancy.prediction.observe import lost_motion_at, middle_lines
+from discrepancy.prediction.observe import coarse_lost_motion_change, lost_motion, lost_motion_at, middle_lines
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
@@ -69,3 +69,13 @@ def test_what_is_changed_in_a_loop_that_remembers_is_seen_from_few_positions():
     dry = {name: 0.0 for name in MEMORY}
     assert coarse_loop_change(bench, record, {**at, **dry}, dry) is None
     assert coarse_loop_change(bench, Record(**{**record.__dict__, "factors": {**record.factors, "hours": 3.6e6}}), at, {}) is None
+
+
+def test_what_is_changed_in_lost_motion_is_seen_from_few_torques_and_positions():
+    bench = Bench(load_reducer("RV20E-121"), {})
+    record = Record("lm", "lost_motion", "rad", "a", 1, np.zeros(1), {}, {"load": bench.rated_load})
+    base, values = {"needle_clearance_added": 1e-6}, {"needle_clearance_added": 1.5e-6}
+    exact = lost_motion(bench, record, values) - lost_motion(bench, record, base)
+    assert coarse_lost_motion_change(bench, record, values, base) == pytest.approx(exact, rel=0.1)
+    dry = {name: 0.0 for name in MEMORY}
+    assert coarse_lost_motion_change(bench, record, {**base, **dry}, dry) is None

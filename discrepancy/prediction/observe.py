@@ -66,6 +66,13 @@ def coarse_hysteresis_change(bench: Bench, record: Record, values: Values, base:
     return None if record.tags.get("locked") == "output" else coarse_loop_change(bench, record, values, base)
 
 
+def coarse_lost_motion_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
+    """What ``values`` change in lost motion next to ``base``, roughly seen; None where the way leaves no mark: then it is not dear."""
+    if not (bench.remembers(values) or bench.remembers(base)):
+        return None
+    return lost_motion(bench.rougher, record, values) - lost_motion(bench.rougher, record, base)
+
+
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
     applied = np.asarray(record.axes["torque"], np.float64)
@@ -299,9 +306,7 @@ OBSERVED: dict[str, Callable[[Bench, Record, Values], Floats]] = {
 }  # fmt: skip
 
 Changes = Mapping[str, Callable[[Bench, Record, Values, Values], Floats | None]]
-# What values change next to others, to first order and cheaper, where there is such a thing.
-CHANGES: Changes = {
-    "transmission_error": transmission_error_change, "hysteresis": hysteresis_change,
-}  # fmt: skip
-# The same, no slope but good for any distance.
-COARSE_CHANGES: Changes = {"hysteresis": coarse_hysteresis_change}
+# What values change next to others where it is cheaper than both: good for any distance, by a share of itself ...
+COARSE_CHANGES: Changes = {"hysteresis": coarse_hysteresis_change, "lost_motion": coarse_lost_motion_change}
+# ... and to first order.
+CHANGES: Changes = {"transmission_error": transmission_error_change, "hysteresis": hysteresis_change, "lost_motion": coarse_lost_motion_change}

@@ -266,8 +266,8 @@ class PhysicalModel:
             if change is None or beside is None:
                 found = np.asarray(OBSERVED[record.quantity](bench, record, own), float)
             else:
-                # Beside a slope nobody asks how well a dear loop's own place is known.
-                found = self.observed(record, beside, None, rough or changes is CHANGES and record.quantity == "hysteresis") + change
+                # Beside a slope nobody asks how well the place of what is dear is known.
+                found = self.observed(record, beside, None, rough or changes is CHANGES and record.quantity in COARSE_CHANGES) + change
             self.shown[key] = found
         return found
 
