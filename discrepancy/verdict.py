@@ -134,7 +134,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     if verdict in (SET, SEVERAL) and len(names) == 1:
         reason = reason_of(effects[0], verdict)
         verdict = ONE
-    confusable = names if verdict == SET else []
+    best = found.fits.members[0] if found.fits.members else None
+    # Fitted each by itself they are alternatives, whatever they leave.
+    confusable = names if verdict == SET or (verdict == INCOMPLETE and len(names) > 1 and best and len(best.candidates) == 1) else []
     laws = []
     if verdict in (UNKNOWN, INCOMPLETE):
         space = found.fits.space
@@ -143,7 +145,6 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
     # Beside what is named a number may be what it should be.
-    best = found.fits.members[0] if found.fits.members else None
     doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.

@@ -112,3 +112,15 @@ def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, sai
     # What chance leaves often enough is nothing to explain.
     assert "still left" not in verdict_of(HeldOut(28.0, 1.6, 0.1, judged.rms, "held-out runs"))[1]
     assert ("times the noise" in reason) != said and ("less than their noise" in reason) == said
+
+
+def test_of_what_cannot_be_told_apart_and_leaves_something_the_likeliest_is_added_alone():
+    """A command that added both was refused."""
+    answer = answer_of(INCOMPLETE, ["pin_position_errors.runout", "hole_position_errors.carrier"])
+    for effect, after in zip(answer.effects, (10.8, 0.5)):
+        effect["held_out_error_after"] = after
+    answer.confusable = [e["name"] for e in answer.effects]
+    given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
+    line, _, why = commands.line_after(given, answer).partition("    # ")
+    again = parser().parse_args(shlex.split(line)[1:])
+    assert again.effect == ["hole_position_errors.carrier"] and why == "adds the likeliest of these, and judges it on runs that were not used"

@@ -22,6 +22,7 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, U
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
+from discrepancy.page.answer import headline
 from discrepancy.page.response import averaged
 from discrepancy.page.runs import runs_of
 from discrepancy.page.spectra import amplitudes, bridged
@@ -363,6 +364,15 @@ def test_named_but_incomplete_does_not_explain_all(answer, tmp_path):
     page = written(replace(answer, verdict=INCOMPLETE, diagnosis=diagnosis, effects=effects), tmp_path)
     assert not re.search(r"(explains?|is|>) ?100 %", re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL))
     assert "something else is left" in page and "input_torque, value, changing with load" in page
+
+
+def test_alternatives_that_leave_something_are_not_said_to_be_needed_together(answer):
+    effects = [answer.effects[0], answer.effects[0] | {"name": "pin_ring"}]
+    left = {"findings": [{"signal": "input_torque", "feature": "value", "dependence": "load", "p": 1e-8}]}
+    both = replace(answer, verdict=INCOMPLETE, effects=effects, diagnosis=replace(answer.diagnosis, verdict=INCOMPLETE, leftover=left))
+    assert " are part of what the model lacks" in headline(both)
+    said = headline(replace(both, confusable=[e["name"] for e in effects]))
+    assert said.startswith("One of 2 effects that this campaign cannot tell apart, ") and " is part of what the model lacks, but something else is left" in said
 
 
 def test_speeds_stand_where_the_campaign_states_them(tmp_path):

@@ -66,7 +66,7 @@ def test_what_is_changed_in_a_loop_that_remembers_is_seen_from_few_positions():
         exact = signal(OverTorque(bench, record).exact(), step) - signal(OverTorque(bench, record).exact(), at)
         found = coarse_loop_change(bench, record, step, at)
         assert 0.0 < np.sqrt(np.mean((found - exact) ** 2)) < most * np.sqrt(np.mean(exact**2))
-    dry = {name: 0.0 for name in MEMORY}
+    dry = dict.fromkeys(MEMORY, 0.0)
     assert coarse_loop_change(bench, record, {**at, **dry}, dry) is None
     assert coarse_loop_change(bench, Record(**{**record.__dict__, "factors": {**record.factors, "hours": 3.6e6}}), at, {}) is None
 
@@ -77,5 +77,5 @@ def test_what_is_changed_in_lost_motion_is_seen_from_few_torques_and_positions()
     base, values = {"needle_clearance_added": 1e-6}, {"needle_clearance_added": 1.5e-6}
     exact = lost_motion(bench, record, values) - lost_motion(bench, record, base)
     assert coarse_lost_motion_change(bench, record, values, base) == pytest.approx(exact, rel=0.1)
-    dry = {name: 0.0 for name in MEMORY}
+    dry = dict.fromkeys(MEMORY, 0.0)
     assert coarse_lost_motion_change(bench, record, {**base, **dry}, dry) is None

@@ -1,6 +1,7 @@
 """``rvwear compare``, ``localise``, ``diagnose``, ``extend``, ``ladder`` and ``next``: the loop of model against measurement."""
 
 import argparse
+import math
 import shlex
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import Any
 
     from discrepancy.campaign.model import Campaign
     from discrepancy.compare import Comparison
@@ -193,13 +195,15 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
         words = ["rvwear", "diagnose", named.name if named.is_of_library else str(named.path), options.campaign, *data]
         return f"{shlex.join(words)}    # the reducer that the campaign names"
     # What is not sure is added by name alone.
-    by_name = [word for name in named_in(answer) for word in ("--effect", name)]
+    foremost = first_to_add(answer)
+    by_name = [word for name in (foremost["candidates"][:1] if foremost else named_in(answer)) for word in ("--effect", name)]
     drafted = "extend", ["--draft", "effects"], "makes an effect of what is recovered"
     command, more, what = {
         SET: ("next", [], "the measurement that tells them apart"),
         UNKNOWN: drafted if law_with_a_form(answer) else ("next", [], "where to measure more of it"),
         BASE_OFF: ("extend", [*by_name, "--output", "better.toml"], "corrects the base model"),
-        INCOMPLETE: ("extend", [*by_name, "--output", "better.toml"], "adds what is named, and judges it on runs that were not used"),
+        INCOMPLETE: ("extend", [*by_name, "--output", "better.toml"],
+                     f"adds {'the likeliest of these' if foremost else 'what is named'}, and judges it on runs that were not used"),
     }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
@@ -277,6 +281,17 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         return f"{start}; no effect of the catalogue shows in what was measured{drafted}"
     what = "what is named all the same" if named else "what comes nearest all the same"
     return f"{start}; this line adds {what} and judges it on runs that were held out:\n  {extend_line(options, nearest)}{drafted}"
+
+
+def first_to_add(answer: "Answer") -> "dict[str, Any] | None":
+    """Of effects that cannot be told apart the one with the least error on unused runs, the first where none speaks; none where all are needed."""
+    if not answer.confusable:
+        return None
+
+    def left(effect: "dict[str, Any]") -> float:
+        return math.inf if effect["held_out_error_after"] is None else float(effect["held_out_error_after"])
+
+    return min(answer.effects, key=left)
 
 
 def named_in(answer: "Answer") -> list[str]:

@@ -71,15 +71,19 @@ def headline(answer: Answer) -> str:
         ONE: f"The model lacks {listed(names)}.",
         SET: f"The model lacks one of {len(names)} effects that this campaign cannot tell apart: {listed(names)}. Each of them would do.",
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
-        INCOMPLETE: (
-            f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'} part of what the model lacks, but something else is left "
-            f"{answer.left_over}."
-        ),
+        INCOMPLETE: f"{part_named(answer, names)} part of what the model lacks, but something else is left {answer.left_over}.",
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
         STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     return texts.get(answer.verdict, answer.verdict)
+
+
+def part_named(answer: Answer, names: list[str]) -> str:
+    """What is named but does not do alone, with its verb."""
+    if answer.confusable:
+        return f"One of {len(names)} effects that this campaign cannot tell apart, {listed(names)}, is"
+    return f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'}"
 
 
 def unused(answer: Answer, best: dict[str, Any]) -> Card:

@@ -267,7 +267,7 @@ class PhysicalModel:
                 found = np.asarray(OBSERVED[record.quantity](bench, record, own), float)
             else:
                 # Beside a slope nobody asks how well the place of what is dear is known.
-                found = self.observed(record, beside, None, rough or changes is CHANGES and record.quantity in COARSE_CHANGES) + change
+                found = self.observed(record, beside, None, rough or (changes is CHANGES and record.quantity in COARSE_CHANGES)) + change
             self.shown[key] = found
         return found
 
