@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.held_names import LOCKED_AT
+from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
@@ -33,7 +33,7 @@ HOUR = 3600.0
 # Quantities whose condition has these factors; the others are taken with the input held.
 RUNNING = {"transmission_error", "transmission_order", "input_torque", "efficiency", "vibration_order", "cage_speed", "no_load_torque"}
 AGED = {"wear_depth", "wear_profile", "mass_loss", "debris_iron"}
-LEVELS = 3
+LEVELS, POSITIONS = 3, 4
 ANGLES = 400
 LOOP_STEPS = 9
 MOST_RIVALS = 4
@@ -100,6 +100,12 @@ class NextRun:
         plain["at_stake"] = {name: {"text": text, "si": self.result.at_stake[name]} for name, text in self.stakes().items()} if self.result else {}
         return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open,
                         "asked": [asdict(asked) for asked in self.asked]}  # fmt: skip
+
+    @property
+    def cost_unit(self) -> str:
+        """What costs are counted in: the rig's currency, runs where the campaign has no rig; empty where the rig does not say."""
+        rig = self.answer.model.campaign.rig
+        return "runs" if rig is None else rig.currency if rig.currency != "1" else ""
 
     def stakes(self) -> dict[str, str]:
         """By which the rivals differ where the reducer is used, in the unit of each signal."""
@@ -209,7 +215,8 @@ def at_rated(model: PhysicalModel) -> list[Measurement]:
     """Every signal at rated speed and load: what the rivals disagree about where the reducer is used."""
     found = {}
     for record in model.records:
-        rated = {"speed": model.bench.rated_speed, "load": model.bench.rated_load, "temperature": 293.15}
+        speed = {} if record.quantity in HELD else {"speed": model.bench.rated_speed}
+        rated = speed | {"load": model.bench.rated_load, "temperature": 293.15}
         if record.quantity in AGED:
             rated["hours"] = 6000.0 * HOUR
         found[stream_of(record)] = Measurement(f"{stream_of(record)} at {describe(rated, model.campaign)}", 0.0, record=blank(record, rated))
@@ -269,7 +276,12 @@ def conditions(example: Record, model: PhysicalModel, rig: Rig | None, campaign:
     if example.quantity in AGED:
         names.append("hours")
     levels = []
-    for name in names:
+    if example.quantity in HELD and LOCKED_AT in example.factors:
+        # Evenly over a turn of the cranks.
+        names = [LOCKED_AT, *names]
+        turn = 2.0 * np.pi * abs(model.bench.ratio) / model.bench.reducer.topology.lobes
+        levels.append(list(np.linspace(0.0, turn, POSITIONS, endpoint=False)))
+    for name in names[len(levels) :]:
         low, high = limits(name, model, rig, campaign)
         levels.append([low] if high <= low else list(np.linspace(low, high, LEVELS)))
     return [dict(zip(names, map(float, values))) for values in product(*levels)]

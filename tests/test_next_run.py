@@ -13,7 +13,7 @@ from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_exp
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun, describe, possible, proposal_for
+from discrepancy.next_run import NextRun, at_rated, conditions, describe, possible, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.verdict import Answer
@@ -140,3 +140,18 @@ def test_a_rival_of_the_measuring_chain_predicts_what_was_not_measured_yet():
     proposed = Record("proposed", "hysteresis", "rad", "c", 1, np.zeros(6), {"torque": np.array([50.0, 100.0, 50.0, -50.0, -100.0, -50.0])}, factors,
                       tags={"locked": "input"})  # fmt: skip
     assert np.ptp(model.one(proposed, {"clock_slip": 1e-3})) > 1e-4
+
+
+def test_loops_are_proposed_where_the_input_may_be_locked_and_at_no_speed():
+    """What was proposed had been measured three times, and "at 2000 rpm" with the input held."""
+    torque = np.linspace(-167.0, 167.0, 5)
+    factors = {"load": 167.0, "temperature": 293.15, "locked_at": 0.0}
+    loop = Record("l", "hysteresis", "rad", "0deg", 1, np.zeros(5), {"torque": torque}, factors, tags={"locked": "input"})
+    model = model_of([loop])
+    model.bench.ratio, model.bench.reducer = 121.0, SimpleNamespace(topology=SimpleNamespace(lobes=39))
+    settings = conditions(loop, model, None, CAMPAIGN)
+    assert [s["locked_at"] for s in settings] == pytest.approx(2.0 * np.pi * 121.0 / 39.0 * np.arange(4) / 4.0)
+    assert all(set(s) == {"locked_at", "temperature"} for s in settings)
+    (rated,) = at_rated(model)
+    assert "rpm" not in rated.name and rated.record.factors["locked_at"] == 0.0
+    assert conditions(replace(loop, factors={"temperature": 293.15}), model, None, CAMPAIGN) == [{"temperature": 293.15}]

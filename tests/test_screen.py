@@ -27,12 +27,13 @@ def test_texts_are_no_markup(capsys):
     shows.show_localisation(Localisation([group], {}, 0.01))
     shows.show_warnings(console(), [f"{SIGNAL}: [red]odd[/red]"])
     proposal = Proposal(f"{SIGNAL} at 20 degC", {}, 1.0, 9.0, 9.0, {})
-    run = NextRun(None, NextExperiment(True, f"{SIGNAL} separates", [proposal], {f"{SIGNAL} at 20 degC": 2e-6}), ["a[disc=1]", "b"], f"{SIGNAL} separates")
+    answer = SimpleNamespace(model=SimpleNamespace(campaign=SimpleNamespace(rig=None)))
+    run = NextRun(answer, NextExperiment(True, f"{SIGNAL} separates", [proposal], {f"{SIGNAL} at 20 degC": 2e-6}), ["a[disc=1]", "b"], f"{SIGNAL} separates")
     shows.show_next(run)
     figures("title [disc=2]", {"figure[crank=1]": "[disc=3]"})
     shown = capsys.readouterr().out
     assert shown.count("[disc=1") >= 5 and "[bold]" in shown and "[red]odd[/red]" in shown
-    assert all(text in shown for text in ("[disc=2]", "[crank=1]", "[disc=3]", "2 um"))
+    assert all(text in shown for text in ("[disc=2]", "[crank=1]", "[disc=3]", "2 um", "cost [runs]"))
 
 
 def test_texts_beside_a_bar_are_no_markup():

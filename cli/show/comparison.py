@@ -201,7 +201,7 @@ def show_next(run: NextRun) -> None:
     if run.result is None:
         return
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
-    for name in ("experiment", "cost", "least separation", "mean separation"):
+    for name in ("experiment", f"cost{f' [{run.cost_unit}]' if run.cost_unit else ''}", "least separation", "mean separation"):
         table.add_column(name, justify="left" if name == "experiment" else "right")
     for p in run.result.proposals[:LONGEST]:
         table.add_row(p.experiment, f"{p.cost:g}", f"{p.least:.1f}", f"{p.score:.1f}")
@@ -213,9 +213,8 @@ def show_next(run: NextRun) -> None:
 def show_asked(run: NextRun, out: Console) -> None:
     """What would show a misfit better that nothing explains, each with where, cost and what is expected of it."""
     for a in run.asked:
-        rig = run.answer.model.campaign.rig
         out.print(f"  {a.text}")
-        cost = "" if a.cost is None else f"cost {a.cost:g}{f' {rig.currency}' if rig and rig.currency != '1' else ''}"
+        cost = "" if a.cost is None else f"cost {a.cost:g} {run.cost_unit}".rstrip()
         expected = "" if a.expected is None else f"expected misfit {a.expected:.3g} in chi-square, of two runs that are off as those so far"
         if more := "; ".join(filter(None, (a.like, cost, expected))):
             out.print(f"    {more}")

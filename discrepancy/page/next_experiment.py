@@ -19,8 +19,7 @@ ENOUGH_COLOUR, POOR = look.NOW, "#98a3af"
 
 
 def page(run: NextRun) -> Page:
-    rig = run.answer.model.campaign.rig
-    currency = rig.currency if rig and rig.currency != "1" else ""
+    currency = run.cost_unit
     sections = (
         [proposals(run.result, currency, run.rivals), stake(run)]
         if run.result
