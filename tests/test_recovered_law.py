@@ -1,5 +1,6 @@
 """A law that was recovered stands in the campaign's units, and a constant is none."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,8 +8,8 @@ import pytest
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.law.closed_forms import propose
-from discrepancy.inference.law.recover import recover
+from discrepancy.inference.law.closed_forms import Form, propose
+from discrepancy.inference.law.recover import recover, tells_nothing
 from discrepancy.problem import Record
 from discrepancy.scales import AXES
 from discrepancy.verdict import told_in
@@ -124,3 +125,12 @@ def test_forms_are_proposed_without_a_warning_where_their_constants_show_nothing
         x = np.sort(random.uniform(0.0, 6.0, count))
         for y in (np.eye(count)[0], np.eye(count)[count // 2], np.where(x > x[-2], 1e-6, 0.0)):
             assert all(np.isfinite([v for interval in form.intervals.values() for v in interval]).all() for form in propose(x, y, np.full(count, 1e-3)))
+
+
+def test_a_share_that_may_be_none_is_no_law():
+    """`share a = 2.515e-06 (-0.000102 to 0.000107)` was offered as the law without a name."""
+    share = Form("constant", "y = a", {"a": 2.5e-6}, {"a": (-1.02e-4, 1.07e-4)}, 1.0, 1.0)
+    assert tells_nothing([share], "prediction") and not tells_nothing([], "prediction")
+    assert not tells_nothing([replace(share, intervals={"a": (2.6e-4, 1.3e-3)})], "prediction")
+    assert tells_nothing([replace(share, intervals={"a": (2.6e-4, 1.3e-3)})], "none")
+    assert not tells_nothing([replace(share, name="linear")], "prediction")

@@ -201,8 +201,8 @@ def _law(
     x_told, y_told = told(lead.split(":")[1]), _told(signal, name, told)
     forms = propose(x_told[0] * x + x_told[1], y_told[0] * partial, y_told[0] / np.sqrt(w),
                     [r.condition for r in training] if np.unique(x).size < 8 else None)
-    if forms and forms[0].name == "constant" and name == "none":
-        if np.unique(x).size > 2 or curves[0].share < TELLING_SHARE:
+    if tells_nothing(forms, name):
+        if name != "none" or np.unique(x).size > 2 or curves[0].share < TELLING_SHARE:
             return None
         # Two levels differ, and no form can be told from two.
         forms = []
@@ -225,6 +225,14 @@ def _law(
     points = {"x": x.tolist(), "y": partial.tolist(), "deviation": (1 / np.sqrt(w)).tolist()}
     return Recovered(signal, name == "prediction", shown, lead_name, None if name == "none" else name, points, forms, before, after, text,
                      x_told, y_told)
+
+
+def tells_nothing(forms: Sequence[Form], way: str) -> bool:
+    """Whether the best form is a constant, or a share of what the misfit is written over that may as well be none."""
+    if not forms or forms[0].name != "constant":
+        return False
+    low, high = forms[0].intervals["a"]
+    return way == "none" or low <= 0.0 <= high
 
 
 def _wave(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told: Told) -> Recovered | None:
