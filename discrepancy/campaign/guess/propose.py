@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
-from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
+from discrepancy.campaign.guess.conditions import State, named_conditions
 from discrepancy.campaign.guess.counted import with_repetitions
 from discrepancy.campaign.guess.file_names import by_pattern, stem
+from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
@@ -92,14 +93,11 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     leave_out_idle(conditions, [(names[state], run) for state, run in zip(states, guessed)], wishes)
     given_for_one(conditions, wishes)
     runs = placed(guessed, [names[state] for state in states])
-    measured = defaultdict(list)
-    for run in runs:
-        measured[run.condition].append(run.guessed.quantity.value)
     doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
     unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
-        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
+        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, runs),
         tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced),
     )  # fmt: skip
 
@@ -214,9 +212,14 @@ def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[Pla
     return runs
 
 
-def held(wishes: Wishes, conditions: dict[str, dict[str, str]], measured: dict[str, list[str]]) -> dict[str, Guess[bool]]:
+def held(wishes: Wishes, conditions: dict[str, dict[str, str]], runs: Sequence[PlacedRun]) -> dict[str, Guess[bool]]:
     if wishes.held_out is None:
-        return held_out(conditions, measured)
+        measured, repeated = defaultdict(list), defaultdict(set)
+        for run in runs:
+            measured[run.condition].append(run.guessed.quantity.value)
+            if run.replicate.value > 1:
+                repeated[run.condition].add(run.guessed.quantity.value)
+        return held_out(conditions, measured, repeated)
     for name in wishes.held_out:
         if name not in conditions:
             raise InputFault(f"--held-out {name}: there is no such condition; choose from {', '.join(conditions)}")
