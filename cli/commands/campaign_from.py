@@ -45,6 +45,10 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--tag", "KEY=WORD", "surface=flank, locked=output ..."),
     ):
         command.add_argument(option, action="append", default=[], metavar=form, help=text)
+    command.add_argument(
+        "--angle-of", choices=("output", "input"),
+        help="whose angle transmission errors stand over: of an encoder on the output, which lags under load (assumed), or the input's over the ratio",
+    )  # fmt: skip
     command.add_argument("--held-out", nargs="*", metavar="CONDITION", help="conditions to keep for the test (default: proposed); none without a name")
     command.add_argument("--overwrite", action="store_true", help="write campaign.toml anew where there is one")
     command.add_argument("--dry-run", action="store_true", help="show what would be written, write nothing")
@@ -99,8 +103,8 @@ def run_from(options: argparse.Namespace) -> int:
 def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     """The command as it was given, to be completed by what is asked; names that could say a torque are asked to."""
     words = ["rvwear", "campaign", "from", *options.files]
-    for option in ("output", "reducer"):
-        words += [f"--{option}", given] if (given := getattr(options, option)) else []
+    for option in ("output", "reducer", "angle-of"):
+        words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
     for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
     if options.held_out is not None:
@@ -129,6 +133,7 @@ def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":
     return Wishes(
         reducer, tuple(options.names), pairs("--unit", options.unit), pairs("--column", options.column), {c: float(n) for c, n in counts.items()}, quantities,
         pairs("--condition", options.condition), None if options.held_out is None else tuple(options.held_out), pairs("--tag", options.tag),
+        options.angle_of,
     )  # fmt: skip
 
 
