@@ -62,9 +62,10 @@ def run_from(options: argparse.Namespace) -> int:
     from cli.show.guesses import show
     from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.design import Design
-    from discrepancy.campaign.findings import copied
+    from discrepancy.campaign.findings import copied, samples
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
+    from discrepancy.plausible import scale_doubts
 
     files = [Path(file) for file in options.files]
     reducer = options.reducer or asked(options)
@@ -73,7 +74,10 @@ def run_from(options: argparse.Namespace) -> int:
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
         campaign = checked(proposal) if proposal.reducer else None
-        findings = [*copied(Design(campaign)), *angle_doubts(campaign)] if campaign else []
+        findings = [found for search in (copied, samples) for found in search(Design(campaign))] + angle_doubts(campaign) if campaign else []
+    if campaign:
+        with task("holding its scales against the model"):
+            findings += scale_doubts(campaign, lives=False)
     step = ["campaign", "check"] if proposal.needs else ["compare", str(proposal.reducer)]
     command = shlex.join(["rvwear", *step, str(folder)])
     text = campaign_text(proposal, folder)

@@ -9,7 +9,7 @@ from discrepancy.problem import ERROR
 
 # Harmless where it is not so: the share of the lag that is found is none then.
 REASON = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
-TEXT = f'angle_of = "{OUTPUT}" is assumed: of an encoder there, which lags under load; no head says for certain that it is not the input\'s over the ratio'
+TEXT = f'angle_of = "{OUTPUT}" is assumed: of an encoder there, which lags under load; no head says for certain whose the angle is'
 IDLE_REMEDY = f"--quantity 'FILES={ERROR}'"
 REMEDY = f"--angle-of {INPUT} if it is the input's over the ratio"
 
