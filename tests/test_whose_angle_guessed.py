@@ -56,7 +56,10 @@ def test_an_option_that_nothing_follows_is_told(tmp_path, bench):
 
 def test_command_and_workbench_say_the_same(bench, capsys):
     assert main(["campaign", "from", str(bench), "--reducer", "RV20E-121", "--dry-run"]) == 0
-    assert "--angle-of input" in capsys.readouterr().out
+    said = " ".join(capsys.readouterr().out.split())
+    assert "--angle-of input" in said
+    # Of the curve, too, it is said what is meant.
+    assert "times over the file, as a transmission error does" in said and "swings" not in said
     folder = Folder(bench)
     folder.remember("wishes", {"reducer": "RV20E-121"})
     assert TEXT in [doubt["text"] for doubt in view(folder)["proposal"]["doubts"]]
