@@ -1,4 +1,4 @@
-"""Measured numbers whose scale no reducer has: held against the model's prediction, with the unit that would fit."""
+"""Measured numbers whose scale no reducer has: held against the model's prediction, with the unit or the factor that would fit."""
 
 import math
 from collections import defaultdict
@@ -11,8 +11,9 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
+from discrepancy.known_factors import KnownFactor, known_factor
 from discrepancy.model_file import ModelFile
-from discrepancy.prediction.physical_model import PhysicalModel, require_known
+from discrepancy.prediction.physical_model import PhysicalModel, defined_at, require_known
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
@@ -30,9 +31,13 @@ LOOKED_AT = 20.0
 # the error of ideal parts; none is stiffer or better than its contacts (assumed limits).
 NEAR = {"hysteresis": (0.5, 10.0), "lost_motion": (0.5, 10.0), "transmission_error": (0.5, 10.0), "torsional_stiffness": (0.1, 2.0)}
 NEAR_OTHERS = (1.0 / 3.0, 3.0)
+# A unit that leaves more than this is not offered: it may be any.
+CLOSE = 3.0
 # Off by so many times it is doubted whatever unit it has; wear hangs on coefficients that are hardly known.
 DOUBTED, HARDLY_KNOWN = 100.0, 1000.0
 LOOSE = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
+# Run-out of an encoder alone may be so many times the error of ideal parts: a factor is no reason to doubt it then.
+ANY_SIZE = ("transmission_error",)
 # Without friction and errors of parts, which the base model leaves out, there is nothing to compare with.
 NOT_COMPARED = ("no_load_torque", "temperature", "vibration", "vibration_order", "transmission_order")
 # So many samples show a scale; and so many runs of a signal, from all its files.
@@ -47,15 +52,19 @@ class Fit:
     times: float
 
 
-def scale_doubts(campaign: Campaign) -> list[Finding]:
-    """Runs of each signal, from different files, against the reducer of the campaign; nothing without a reducer."""
+def scale_doubts(campaign: Campaign, lives: bool = True) -> list[Finding]:
+    """Runs of each signal, from different files, against the reducer of the campaign; nothing without a reducer.
+
+    Without ``lives`` those of worn units are left out, whose predictions take their time.
+    """
     if campaign.reducer is None:
         return []
     require_known(campaign.folder, campaign.nuisances, (campaign.reducer.plant, campaign.reducer.wear))
     chosen: dict[Hashable, dict[str, Record]] = defaultdict(dict)
     # New units first: a worn one costs a life.
     for record in sorted(campaign.records, key=hours_of):
-        if record.quantity not in NOT_COMPARED:
+        # A loop that stays near no torque has nothing that the model can foretell.
+        if record.quantity not in NOT_COMPARED and (lives or hours_of(record) == 0.0) and defined_at(record, campaign).any():
             chosen[kind_of(record, campaign)].setdefault(file_of(record, campaign), record)
     few = tuple(thinned(record) for runs in chosen.values() for record in list(runs.values())[:: -(-len(runs) // MOST_RUNS)])
     if not few:
@@ -76,7 +85,7 @@ def doubts_of(pairs: Iterable[tuple[Record, Floats]], campaign: Campaign) -> lis
     found: dict[Hashable, Finding] = {}
     alike: dict[Hashable, list[str]] = defaultdict(list)
     for record, predicted in pairs:
-        if (doubted := doubt(record, predicted, campaign.sources)) is None:
+        if (doubted := doubt(record, predicted, campaign.sources, campaign.ratio)) is None:
             continue
         key = (kind_of(record, campaign), doubted.remedy)
         if key in found:
@@ -113,7 +122,7 @@ def thinned(record: Record) -> Record:
     return replace(record, values=record.values[rows], axes={name: np.asarray(axis)[rows] for name, axis in record.axes.items()})
 
 
-def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, Source]]) -> Finding | None:
+def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, Source]], ratio_of_reducer: float | None) -> Finding | None:
     """What is doubted of a run's scale, if anything; ``predicted`` (n,) in the record's unit."""
     measured, model = (size_of(values, record.free_zero) for values in (record.values, predicted))
     if record.quantity in NOT_COMPARED or not (measured > 0.0 and model > 0.0):
@@ -123,9 +132,10 @@ def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, 
     q = QUANTITIES[record.quantity]
     source = sources.get(record.name, {}).get(VALUE, Source("", "", q.usual_unit, conversion(q.unit, q.usual_unit)[0] ** -1))
     low, high = NEAR.get(record.quantity, NEAR_OTHERS)
-    fits = fitting(times, source.unit, q.unit, math.sqrt(low * high))
-    near = [fit for fit in fits if low <= fit.times <= high]
-    if off < LOOKED_AT or not (near or off >= (HARDLY_KNOWN if record.quantity in LOOSE else DOUBTED)):
+    near = [fit for fit in fitting(times, source.unit, q.unit, math.sqrt(low * high)) if low <= fit.times <= high]
+    known = None if record.quantity in LOOSE else known_factor(times, source.unit, q.unit, ratio_of_reducer)
+    telling = near or (known and record.quantity not in ANY_SIZE)
+    if off < LOOKED_AT or not (telling or off >= (HARDLY_KNOWN if record.quantity in LOOSE else DOUBTED)):
         return None
     what = "varies by" if record.free_zero else "is about"
     stated, expected = (readable(size / abs(source.factor), 4) for size in (measured, model))
@@ -134,7 +144,7 @@ def doubt(record: Record, predicted: Floats, sources: Mapping[str, Mapping[str, 
         f"run {record.name}: {record.quantity} {what} {stated} {source.unit}{place}, {ratio(times)} what the model"
         f" predicts, {expected} {source.unit}"
     )
-    return Finding(WARNING, "implausible scale", text, remedy_of(near[:2], fits, source.unit, q.unit))
+    return Finding(WARNING, "implausible scale", text, remedy_of(near, known, source, q.unit))
 
 
 def size_of(values: Floats, free_zero: bool) -> float:
@@ -162,11 +172,12 @@ def ratio(times: float) -> str:
     return f"{readable(times)} times" if times >= 1.0 else f"1/{readable(1.0 / times)} of"
 
 
-def remedy_of(near: Sequence[Fit], fits: Sequence[Fit], stated: str, si: str) -> str:
-    if not near:
-        nearest = ", ".join(f"in {f.unit} it would be {ratio(f.times)} the prediction" for f in fits[:2])
-        return "look at unit and scale of the column" + (f" ({nearest})" if nearest else "")
-    factors = [conversion(stated, si)[0] / conversion(f.unit, si)[0] for f in near]
-    between = ", ".join(f"{max(factor, 1.0 / factor):.6g} is the factor between {stated} and {f.unit}" for factor, f in zip(factors, near))
-    named = " or ".join(f'"{f.unit}"' for f in near)
+def remedy_of(near: Sequence[Fit], known: KnownFactor | None, source: Source, si: str) -> str:
+    """By a unit that comes close, else by a well-known factor."""
+    fits = [fit for fit in near if 1.0 / CLOSE <= fit.times <= CLOSE][:2]
+    if not fits:
+        return known.remedy(source, si) if known else "look at unit and scale of the column"
+    factors = [conversion(source.unit, si)[0] / conversion(f.unit, si)[0] for f in fits]
+    between = ", ".join(f"{max(factor, 1.0 / factor):.6g} is the factor between {source.unit} and {f.unit}" for factor, f in zip(factors, fits))
+    named = " or ".join(f'"{f.unit}"' for f in fits)
     return f"{between}: state unit = {named} if that is what was written"

@@ -17,14 +17,22 @@ def doubts(value, deviation=0.01, name="lag_share", off=1.0, lower=0.0, upper=12
     return calibrated_doubts(fit_of((parameter,), {name: value}, np.zeros(100), np.full((100, 1), 0.1 / deviation)), ())
 
 
-@pytest.mark.parametrize("value, words", [(4.7, "4.7 times as soft"), (0.02, 'angle_of = "input"'), (1.0, ""), (1.8, ""), (0.6, "")])
+@pytest.mark.parametrize("value, words", [(4.7, "4.7 times as soft"), (0.02, 'angle_of = "input"'), (1.0, ""), (1.8, ""), (0.6, ""), (0.35, ""), (2.9, "")])
 def test_a_lag_that_no_such_reducer_has_is_doubted(value, words):
     found = doubts(value)
     assert bool(found) == bool(words) and words in "".join(found)
 
 
-def test_what_is_hardly_known_is_no_reason_for_a_doubt():
-    assert not doubts(4.7, deviation=2.0) and not doubts(0.02, deviation=1.0)
+def test_a_lag_that_hardly_lags_is_told_with_the_line_that_says_whose_angle_it_was():
+    (text,) = doubts(0.02)
+    assert 'state angle_of = "input" in [quantities.transmission_error] of campaign.toml' in text
+
+
+@pytest.mark.parametrize("value, deviation", [(10.2, 6.0), (0.02, 1.0)])
+def test_of_a_lag_that_is_hardly_known_another_load_is_asked_for(value, deviation):
+    (text,) = doubts(value, deviation=deviation)
+    assert f"fitted as {value:.2g} times what it is" in text and f"known to {deviation:.2g} only" in text and "another load would tell the two apart" in text
+    assert not doubts(2.4, deviation=deviation)
 
 
 def test_numbers_at_bounds_and_far_from_what_is_known_are_doubted():

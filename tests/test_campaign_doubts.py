@@ -49,8 +49,13 @@ def test_right_units_and_softer_drives_are_believed(tmp_path):
 
 
 def test_soft_drive_in_degrees_is_doubted_though_no_unit_is_near(tmp_path):
-    (found,) = doubts(tmp_path, loop_file(tmp_path, unit="deg", size=8 * 2.9))
-    assert "look at unit and scale" in found.remedy and "in arcmin it would be" in found.remedy
+    """A unit that would be far off, too, is not offered."""
+    (found,) = doubts(tmp_path, loop_file(tmp_path, unit="deg", size=10 * 2.9))
+    assert found.remedy == "look at unit and scale of the column"
+
+
+def test_a_loop_that_stays_near_no_torque_is_held_against_nothing(tmp_path):
+    assert not doubts(tmp_path, loop_file(tmp_path, torque=1e-3 * LOOP))
 
 
 def test_runs_that_are_off_alike_are_one_doubt(tmp_path):

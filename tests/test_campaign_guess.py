@@ -49,7 +49,7 @@ def test_what_was_written_is_read(tmp_path, kind):
 
 @pytest.mark.parametrize("ending", ["parquet", "mat", "mf4", "tdms"])
 def test_binary_formats(tmp_path, ending):
-    proposal = propose([binary(tmp_path, ending)], Wishes("RV20E-121"))
+    proposal = propose([binary(tmp_path, ending)], Wishes("RV20E-121", angle_of="output"))
     record = checked(proposal).records[0]
     assert record.quantity == "transmission_error"
     assert record.axes["angle"] == pytest.approx(ANGLE) and record.values == pytest.approx(ERROR)

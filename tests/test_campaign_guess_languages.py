@@ -68,7 +68,7 @@ def test_a_french_file_is_read_whole(tmp_path):
     head = "Banc n° 3\nVitesse de sortie : 10 tr/min\nCouple de sortie : 100 N.m\n\n"
     table = pd.DataFrame({"Angle sortie [degrés]": np.degrees(ANGLE), "Erreur de transmission [secondes d'arc]": ERROR / ARCSEC})
     (tmp_path / "essai_1.csv").write_text(head + table.to_csv(index=False, sep=";", decimal=","), encoding="cp1252")
-    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    proposal = propose([tmp_path], Wishes("RV20E-121", angle_of="output"))
     assert not proposal.needs and not proposal.doubts
     # A word for a measurement names no condition.
     assert "essai" not in proposal.conditions

@@ -154,7 +154,7 @@ def italian_loops(folder, **heads):
 
 def test_a_position_in_the_head_is_the_condition_s_and_nothing_is_asked(tmp_path, capsys):
     folder = italian_loops(tmp_path, **{"40gradi_prova1": "Ingresso bloccato a 40°", "300gradi": "Ingresso bloccato a 300°"})
-    proposal = propose([folder], Wishes("RV20E-121"))
+    proposal = propose([folder], Wishes("RV20E-121", angle_of="output"))
     assert proposal.conditions["40gradi"]["locked_at"] == "40 deg" and proposal.conditions["300gradi"]["locked_at"] == "300 deg" and not proposal.doubts
     factors = {record.name: record.factors.get("locked_at") for record in checked(proposal).records}
     assert factors["isteresi_300gradi"] == pytest.approx(np.radians(300)) and factors["errore_trasmissione_84Nm"] is None
@@ -162,13 +162,13 @@ def test_a_position_in_the_head_is_the_condition_s_and_nothing_is_asked(tmp_path
     for k, path in enumerate(sorted(folder.glob("isteresi*")), 1):
         path.rename(folder / f"isteresi_prova{k}.csv")
     assert {"40deg", "300deg"} <= {name.removesuffix("_15rpm") for name in propose([folder], Wishes("RV20E-121")).conditions}
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 0
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--angle-of", "output"]) == 0
     assert capsys.readouterr().out.rstrip().endswith(f"next:\n  rvwear compare RV20E-121 {folder}")
 
 
 def test_a_position_that_nobody_says_is_asked_with_the_command_that_says_it(tmp_path, capsys):
     folder = italian_loops(tmp_path, **{"40gradi": "Ingresso bloccato", "caldo": "Ingresso bloccato"})
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 0
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--angle-of", "output"]) == 0
     out = capsys.readouterr().out
     assert "nobody says where the input was locked" in out
     assert out.rstrip().endswith(f"look at what is not sure, then:\n  rvwear campaign check {folder}\n  rvwear compare RV20E-121 {folder}")
@@ -179,7 +179,7 @@ def test_a_position_that_nobody_says_is_asked_with_the_command_that_says_it(tmp_
     assert main([*command[1:-1], "caldo:locked_at=mean"]) == 0
     assert "not sure" not in capsys.readouterr().out
     # With the output locked there is nothing to ask.
-    assert not propose([folder], Wishes("RV20E-121", tags={"locked": "output"})).doubts
+    assert not propose([folder], Wishes("RV20E-121", tags={"locked": "output"}, angle_of="output")).doubts
 
 
 def test_kinds_of_files_are_left_out_of_the_names_of_conditions_whole(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from discrepancy.campaign.guess.conditions import held_out
+from discrepancy.campaign.guess.held_out import held_out
 
 
 def loads(*numbers):
@@ -30,3 +30,30 @@ def temperatures(*numbers):
 def test_of_every_quantity_one_inside(conditions, quantities, kept):
     measured = {name: quantities.get(name) or quantities[name[0]] for name in conditions}
     assert list(held_out(conditions, measured)) == kept
+
+
+def bench(*states):
+    """Conditions of one quantity, each (load, speed, temperature)."""
+    return {f"{load}_{speed}_{temperature}": {"input_speed": f"{speed} rpm", "load_torque": f"{load} N.m", "temperature": f"{temperature} degC"}
+            for load, speed, temperature in states}  # fmt: skip
+
+
+@pytest.mark.parametrize("states, repeated, kept, reason", [
+    # The second load stays, and so do the repetitions.
+    ([(167, 1500, 25), (167, 500, 25), (80, 1500, 25)], 0, 1, "its load within the others', only its speed beyond"),
+    ([(167, 500, 25), (167, 1500, 25), (80, 1500, 25)], 0, 1, "inside the range of the others"),
+    # Where nothing is repeated, nothing of that is lost.
+    ([(167, 1500, 25), (167, 500, 25), (80, 1500, 25)], None, 0, "inside the range of the others"),
+    # The load counts more than the temperature, that more than the speed.
+    ([(167, 1500, 25), (167, 1500, 45), (80, 1500, 25)], 0, 1, "its load within the others', only its temperature beyond"),
+    ([(167, 1500, 25), (167, 500, 25), (167, 1500, 45), (80, 1500, 25)], 0, 1, "its load and temperature within the others', only its speed beyond"),
+    ([(167, 1500, 25), (80, 1500, 25), (167, 500, 25), (167, 2000, 25)], 0, 3, "its load within the others', only its speed beyond"),
+    # The loads about it would stay, but not the noise.
+    ([(50, 1500, 25), (100, 1500, 25), (150, 1500, 25)], 1, None, ""),
+])  # fmt: skip
+def test_the_rest_keeps_its_loads_and_its_only_repetitions(states, repeated, kept, reason):
+    conditions = bench(*states)
+    names = list(conditions)
+    found = held_out(conditions, {name: ["te"] for name in names}, {} if repeated is None else {names[repeated]: {"te"}})
+    assert list(found) == ([] if kept is None else [names[kept]])
+    assert [guess.reason for guess in found.values()] == ([] if kept is None else [f"kept for the test of what is found: {reason}"])

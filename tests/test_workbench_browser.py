@@ -136,6 +136,21 @@ def test_an_angle_of_the_motor_is_mended_by_a_click_and_by_its_role(bench, tmp_p
     assert page.get_by_text("which is kept, not").count() == 0
 
 
+def test_whose_angle_it_is_is_doubted_and_chosen_beside_the_columns(bench, tmp_path):
+    page = bench.page
+    head = "Zeit [s];Winkel Abtrieb [deg];Drehfehler [arcsec]\n"
+    (tmp_path / "Drehfehler_50Nm_15rpm_40C_1.csv").write_text(head + "\n".join(f"{0.02 * k:.2f};{1.8 * k:.1f};{k % 7}" for k in range(201)))
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
+    page.select_option("#measured", "RV20E-121")
+    doubt = page.get_by_text("no head says for certain whose the angle is")
+    doubt.wait_for()
+    page.get_by_label("whose angle").select_option(label="the input, over the ratio")
+    doubt.wait_for(state="detached")
+    assert page.get_by_label("whose angle").input_value() == "input"
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)

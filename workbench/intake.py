@@ -70,7 +70,8 @@ def wishes_of(given: Mapping[str, Any]) -> Wishes:
     if not isinstance(names, (list, tuple)) or not (held is None or isinstance(held, list)):
         raise InputFault("names and held_out are lists")
     return Wishes(str(given["reducer"]) if given.get("reducer") else None, tuple(str(n) for n in names if str(n).strip()), texts["units"], texts["columns"],
-                  counts, texts["quantities"], texts["conditions"], None if held is None else tuple(map(str, held)), texts["tags"])  # fmt: skip
+                  counts, texts["quantities"], texts["conditions"], None if held is None else tuple(map(str, held)), texts["tags"],
+                  str(given["angle_of"]) if given.get("angle_of") else None)  # fmt: skip
 
 
 def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -293,6 +294,7 @@ def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
                           ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
         for name, value in pairs.items():
             words += [f"--{option}", f"{name}={value:g}" if isinstance(value, float) else f"{name}={value}"]
+    words += ["--angle-of", wishes.angle_of] if wishes.angle_of else []
     if wishes.held_out is not None:
         words += ["--held-out", *wishes.held_out]
     return shlex.join(words)

@@ -45,6 +45,10 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--tag", "KEY=WORD", "surface=flank, locked=output ..."),
     ):
         command.add_argument(option, action="append", default=[], metavar=form, help=text)
+    command.add_argument(
+        "--angle-of", choices=("output", "input"),
+        help="whose angle transmission errors stand over: of an encoder on the output, which lags under load (assumed), or the input's over the ratio",
+    )  # fmt: skip
     command.add_argument("--held-out", nargs="*", metavar="CONDITION", help="conditions to keep for the test (default: proposed); none without a name")
     command.add_argument("--overwrite", action="store_true", help="write campaign.toml anew where there is one")
     command.add_argument("--dry-run", action="store_true", help="show what would be written, write nothing")
@@ -58,9 +62,10 @@ def run_from(options: argparse.Namespace) -> int:
     from cli.show.guesses import show
     from discrepancy.campaign.angle_doubts import angle_doubts
     from discrepancy.campaign.design import Design
-    from discrepancy.campaign.findings import copied
+    from discrepancy.campaign.findings import copied, samples
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
+    from discrepancy.plausible import scale_doubts
 
     files = [Path(file) for file in options.files]
     reducer = options.reducer or asked(options)
@@ -69,7 +74,10 @@ def run_from(options: argparse.Namespace) -> int:
     with task("reading the files"):
         proposal = propose(files, wishes, name_of(folder))
         campaign = checked(proposal) if proposal.reducer else None
-        findings = [*copied(Design(campaign)), *angle_doubts(campaign)] if campaign else []
+        findings = [found for search in (copied, samples) for found in search(Design(campaign))] + angle_doubts(campaign) if campaign else []
+    if campaign:
+        with task("holding its scales against the model"):
+            findings += scale_doubts(campaign, lives=False)
     step = ["campaign", "check"] if proposal.needs else ["compare", str(proposal.reducer)]
     command = shlex.join(["rvwear", *step, str(folder)])
     text = campaign_text(proposal, folder)
@@ -99,8 +107,8 @@ def run_from(options: argparse.Namespace) -> int:
 def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     """The command as it was given, to be completed by what is asked; names that could say a torque are asked to."""
     words = ["rvwear", "campaign", "from", *options.files]
-    for option in ("output", "reducer"):
-        words += [f"--{option}", given] if (given := getattr(options, option)) else []
+    for option in ("output", "reducer", "angle-of"):
+        words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
     for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
     if options.held_out is not None:
@@ -129,6 +137,7 @@ def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":
     return Wishes(
         reducer, tuple(options.names), pairs("--unit", options.unit), pairs("--column", options.column), {c: float(n) for c, n in counts.items()}, quantities,
         pairs("--condition", options.condition), None if options.held_out is None else tuple(options.held_out), pairs("--tag", options.tag),
+        options.angle_of,
     )  # fmt: skip
 
 

@@ -7,7 +7,7 @@ from rich.table import Table
 from cli.screen import WIDTH, console, styled
 from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
-from discrepancy.campaign.guess.write import WHOSE_ANGLE, over_output
+from discrepancy.campaign.guess.whose_angle import over_output
 
 
 def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
@@ -30,8 +30,8 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
                 out.print(f"  {tag} = {guess.value}: {guess.reason}")
             if run.guessed.left_out:
                 out.print(f"  left out: {', '.join(map(repr, run.guessed.left_out))}; --column 'ROLE=COLUMN' gives one a part")
-            if over_output(run):
-                out.print(f'  angle_of = "output": {WHOSE_ANGLE}')
+            if proposal.angle_of and over_output(run.guessed):
+                out.print(f'  angle_of = "{proposal.angle_of.value}": {proposal.angle_of.reason}')
     for name, stated in proposal.conditions.items():
         kept = f"; {proposal.held_out[name].reason}" if name in proposal.held_out else ""
         out.print(f"condition {name}: {', '.join(f'{key} {value}' for key, value in stated.items()) or 'nothing is said'}{kept}")

@@ -103,6 +103,28 @@ function group(bag, members) {
       known.length ? choose(known, guess.value, change) : h("input", { type: "text", value: guess.value, size: 12, onchange: (e) => change(e.target.value) }),
     );
   });
+  const whose = data.proposal.angle_of;
+  // A transmission error over an angle that turns as the output does: one answer for all of them.
+  if (whose && first.quantity.value === "transmission_error" && first.columns.angle)
+    tags.push(
+      h(
+        "label",
+        { class: `inline${whose.sure ? "" : " fair"}`, title: whose.reason },
+        "angle of",
+        choose(
+          [
+            ["output", "an encoder on the output"],
+            ["input", "the input, over the ratio"],
+          ],
+          whose.value,
+          (value) =>
+            wish((w) => {
+              w.angle_of = value;
+            }),
+          { "aria-label": "whose angle" },
+        ),
+      ),
+    );
   const pattern = h("input", {
     type: "text",
     value: first.names,

@@ -125,7 +125,7 @@ def shape_fits(shape: Shape, role: str) -> str:
     if role == "hysteresis" and shape.loops:
         return "comes back with the torque"
     if role == "transmission_error" and shape.reversals > 1 and not shape.jumps:
-        return f"swings {shape.reversals} times"
+        return f"changes between rising and falling {shape.reversals} times over the file, as a transmission error does"
     return ""
 
 

@@ -10,15 +10,17 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
-from discrepancy.campaign.guess.conditions import State, held_out, named_conditions
+from discrepancy.campaign.guess.conditions import State, named_conditions
 from discrepancy.campaign.guess.counted import with_repetitions
 from discrepancy.campaign.guess.file_names import by_pattern, stem
+from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
+from discrepancy.campaign.guess.whose_angle import whose_angle
 from discrepancy.campaign.guess.wishes import OPEN, Wishes
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
@@ -41,7 +43,8 @@ class PlacedRun:
 @dataclass(frozen=True)
 class Proposal:
     """``data``: folder that all files lie in.  ``needs`` must be given before a model can be held against the campaign; ``unplaced``: of the
-    doubts those of loops of which nobody says where the input was locked."""
+    doubts those of loops of which nobody says where the input was locked; ``angle_of``: whose angle transmission errors stand over, if over one
+    that turns as the output does."""
 
     name: str
     reducer: str | None
@@ -52,11 +55,12 @@ class Proposal:
     doubts: tuple[Doubt, ...]
     needs: tuple[Doubt, ...]
     unplaced: tuple[Doubt, ...]
+    angle_of: Guess[str] | None
 
     def as_json(self) -> dict[str, Any]:
         return {
             "name": self.name, "reducer": self.reducer, "data": str(self.data), "conditions": self.conditions,
-            "held_out": {name: guess.as_json() for name, guess in self.held_out.items()},
+            "held_out": {name: guess.as_json() for name, guess in self.held_out.items()}, "angle_of": self.angle_of and self.angle_of.as_json(),
             "runs": [
                 {
                     "id": run.name, "file": str(run.guessed.path), "quantity": run.guessed.quantity.as_json(), "condition": run.condition,
@@ -92,15 +96,13 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     leave_out_idle(conditions, [(names[state], run) for state, run in zip(states, guessed)], wishes)
     given_for_one(conditions, wishes)
     runs = placed(guessed, [names[state] for state in states])
-    measured = defaultdict(list)
-    for run in runs:
-        measured[run.condition].append(run.guessed.quantity.value)
-    doubts = [*merged([d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]), *idle_tags(guessed, wishes)]
+    angle_of, of_angles = whose_angle(zip((names[state] for state in states), guessed), conditions, wishes)
+    doubts = [*merged([*(d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))), *of_angles]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
     unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
-        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, measured),
-        tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced),
+        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, runs),
+        tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced), angle_of,
     )  # fmt: skip
 
 
@@ -214,9 +216,14 @@ def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[Pla
     return runs
 
 
-def held(wishes: Wishes, conditions: dict[str, dict[str, str]], measured: dict[str, list[str]]) -> dict[str, Guess[bool]]:
+def held(wishes: Wishes, conditions: dict[str, dict[str, str]], runs: Sequence[PlacedRun]) -> dict[str, Guess[bool]]:
     if wishes.held_out is None:
-        return held_out(conditions, measured)
+        measured, repeated = defaultdict(list), defaultdict(set)
+        for run in runs:
+            measured[run.condition].append(run.guessed.quantity.value)
+            if run.replicate.value > 1:
+                repeated[run.condition].add(run.guessed.quantity.value)
+        return held_out(conditions, measured, repeated)
     for name in wishes.held_out:
         if name not in conditions:
             raise InputFault(f"--held-out {name}: there is no such condition; choose from {', '.join(conditions)}")

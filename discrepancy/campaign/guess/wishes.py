@@ -9,6 +9,8 @@ from fmu_src.faults import InputFault, nearest
 
 # What stands in a proposed option for what only the bench knows.
 OPEN = "..."
+# Whose angle a transmission error may stand over.
+OUTPUT, INPUT = "output", "input"
 
 
 @dataclass(frozen=True)
@@ -20,6 +22,7 @@ class Wishes:
     ``quantities``: pattern of file names (``*.csv``) -> quantity.  ``conditions``: key of a condition -> number with unit, for all
     files that do not say otherwise, or condition's name:key for that one.
     ``held_out``: names of conditions, () for none, None for what is proposed.  ``tags``: for runs whose quantity has them.
+    ``angle_of``: "output" or "input", whose angle transmission errors stand over; None where nobody says it.
     """
 
     reducer: str | None = None
@@ -31,12 +34,15 @@ class Wishes:
     conditions: Mapping[str, str] = field(default_factory=dict)
     held_out: tuple[str, ...] | None = None
     tags: Mapping[str, str] = field(default_factory=dict)
+    angle_of: str | None = None
 
     def __post_init__(self) -> None:
         """InputFault for what there is not."""
         known = [*FACTOR_KEYS, "direction", "mounting"]
         keys = [key.rpartition(":")[2] for key in self.conditions]
-        options = (("--quantity", list(self.quantities.values()), list(QUANTITIES)), ("--condition", keys, known), ("--tag", list(self.tags), list(TAGS)))
+        whose = [self.angle_of] if self.angle_of else []
+        options = (("--quantity", list(self.quantities.values()), list(QUANTITIES)), ("--condition", keys, known), ("--tag", list(self.tags), list(TAGS)),
+                   ("--angle-of", whose, [OUTPUT, INPUT]))  # fmt: skip
         for option, given, choices in options:
             for name in given:
                 if name not in choices:

@@ -10,15 +10,13 @@ from typing import Any
 
 from discrepancy.campaign.file_format import FILE
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
+from discrepancy.campaign.guess.whose_angle import over_output
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.problem import ERROR
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
 from fmu_src.file_name import name_of_folder
-
-# Harmless where it is not so: the share of the lag that is found is none then.
-WHOSE_ANGLE = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
 
 
 def name_of(folder: Path) -> str:
@@ -41,14 +39,9 @@ def campaign_text(proposal: Proposal, folder: Path) -> str:
             lines.append(f"held_out = true                          # {proposal.held_out[name].reason}")
     for run in proposal.runs:
         lines += ["", *run_lines(run, proposal.data)]
-    if any(over_output(run) for run in proposal.runs):
-        lines += ["", f"[quantities.{ERROR}]", f'angle_of = "output"                     # {WHOSE_ANGLE}']
+    if whose := proposal.angle_of:
+        lines += ["", f"[quantities.{ERROR}]", f"{f'angle_of = {toml(whose.value)}':<39} # {whose.reason}"]
     return "\n".join(lines) + "\n"
-
-
-def over_output(run: PlacedRun) -> bool:
-    """Whether a transmission error stands over the angle that an encoder on the output shows."""
-    return run.guessed.quantity.value == ERROR and "angle" in run.guessed.columns
 
 
 def run_lines(run: PlacedRun, data: Path) -> list[str]:
@@ -58,7 +51,7 @@ def run_lines(run: PlacedRun, data: Path) -> list[str]:
     lines += [f"condition = {toml(run.condition)}", f"replicate = {run.replicate.value}"]
     lines.append(f"file = {toml(guessed.path.resolve().relative_to(data).as_posix())}")
     lines += [f"{key} = {toml(value)}" for key, value in guessed.reading.items()]
-    if guessed.quantity.value == ERROR and "input_angle" in guessed.columns and not over_output(run):
+    if guessed.quantity.value == ERROR and "input_angle" in guessed.columns and not over_output(guessed):
         lines.append('angle_of = "input"')
     if run.where:
         lines.append(f"where = {toml(run.where)}")

@@ -1,0 +1,34 @@
+"""Whose angle a transmission error stands over: of an encoder on the output, which lags under load, or the input's over the ratio."""
+
+from collections.abc import Iterable, Mapping
+
+from discrepancy.campaign.guess.run import GuessedRun
+from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.wishes import INPUT, OUTPUT, Wishes
+from discrepancy.problem import ERROR
+
+# Harmless where it is not so: the share of the lag that is found is none then.
+REASON = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
+TEXT = f'angle_of = "{OUTPUT}" is assumed: of an encoder there, which lags under load; no head says for certain whose the angle is'
+IDLE_REMEDY = f"--quantity 'FILES={ERROR}'"
+REMEDY = f"--angle-of {INPUT} if it is the input's over the ratio"
+
+
+def over_output(run: GuessedRun) -> bool:
+    """Whether a transmission error stands over an angle that turns as the output does."""
+    return run.quantity.value == ERROR and "angle" in run.columns
+
+
+def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]], wishes: Wishes) -> tuple[Guess[str] | None, list[Doubt]]:
+    """One answer for all, None where no run stands over such an angle, and a doubt for each file whose angle may be either's.
+
+    No doubt is left where both encoders are read, or where nothing loads the output: it lags by nothing then.  ``runs``: condition and run.
+    """
+    over = [(condition, run) for condition, run in runs if over_output(run)]
+    if not over:
+        idle = Doubt("campaign", f"--angle-of {wishes.angle_of} says nothing: no file is taken for a {ERROR} over an angle of the output", IDLE_REMEDY)
+        return None, [idle] if wishes.angle_of else []
+    if wishes.angle_of:
+        return Guess(wishes.angle_of, "given"), []
+    either = [run for condition, run in over if "input_angle" not in run.columns and conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
+    return Guess(OUTPUT, REASON, not either), [Doubt(run.path.name, TEXT, REMEDY) for run in either]

@@ -1,0 +1,68 @@
+"""Whose angle a transmission error stands over is not certain from a head: it is doubted, and said by an option."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from bench_files import ANGLE, ARCSEC, ERROR
+
+from cli.main import main
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.whose_angle import REMEDY, TEXT
+from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.write import campaign_text, checked
+from fmu_src.faults import InputFault
+from workbench.folder import Folder
+from workbench.intake import view
+
+
+@pytest.fixture
+def bench(tmp_path):
+    for load in (80, 167):
+        table = pd.DataFrame({"position sortie [°]": np.degrees(ANGLE), 'erreur de transmission ["]': ERROR / ARCSEC + 0.001 * load * np.cos(ANGLE)})
+        table.to_csv(tmp_path / f"te_{load}Nm_15rpm_1.csv", index=False)
+    return tmp_path
+
+
+def test_it_is_doubted_once_with_the_option_that_says_otherwise(bench):
+    proposal = propose([bench], Wishes("RV20E-121"))
+    assert [doubt.place for doubt in proposal.doubts if doubt.text == TEXT] == ["te_167Nm_15rpm_1.csv and 1 more"]
+    assert "--angle-of input" in REMEDY and not proposal.angle_of.sure and all(record.of_output for record in checked(proposal).records)
+    assert proposal.as_json()["angle_of"]["value"] == "output"
+
+
+@pytest.mark.parametrize(("said", "of_output"), [("input", False), ("output", True)])
+def test_what_is_said_of_it_is_written_and_doubted_no_more(bench, said, of_output):
+    proposal = propose([bench], Wishes("RV20E-121", angle_of=said))
+    assert TEXT not in [doubt.text for doubt in proposal.doubts] and {record.of_output for record in checked(proposal).records} == {of_output}
+    assert f'angle_of = "{said}"' in campaign_text(proposal, bench)
+
+
+def test_nothing_is_doubted_that_no_load_or_a_second_encoder_tells(bench):
+    assert TEXT not in [doubt.text for doubt in propose([bench], Wishes("RV20E-121", conditions={"load_torque": "0 N.m"}, names=("te_{any}Nm_{speed}rpm_{replicate}",))).doubts]
+    both = bench / "both"
+    both.mkdir()
+    pd.DataFrame({"output angle [deg]": np.degrees(ANGLE), "motor angle [deg]": 121 * np.degrees(ANGLE - ERROR)}).to_csv(both / "te_167Nm_15rpm_1.csv", index=False)
+    proposal = propose([both], Wishes("RV20E-121"))
+    assert proposal.angle_of.sure and TEXT not in [doubt.text for doubt in proposal.doubts]
+
+
+def test_an_option_that_nothing_follows_is_told(tmp_path, bench):
+    with pytest.raises(InputFault, match="--angle-of motor"):
+        Wishes(angle_of="motor")
+    (bench / "loops").mkdir()
+    pd.DataFrame({"torque [Nm]": [0, 50, 0, -50, 0] * 9, "twist [arcmin]": [0, 1, 0, -1, 0] * 9}).to_csv(bench / "loops" / "loop.csv", index=False)
+    assert any("--angle-of input says nothing" in doubt.text for doubt in propose([bench / "loops"], Wishes("RV20E-121", angle_of="input")).doubts)
+
+
+def test_command_and_workbench_say_the_same(bench, capsys):
+    assert main(["campaign", "from", str(bench), "--reducer", "RV20E-121", "--dry-run"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "--angle-of input" in said
+    # Of the curve, too, it is said what is meant.
+    assert "times over the file, as a transmission error does" in said and "swings" not in said
+    folder = Folder(bench)
+    folder.remember("wishes", {"reducer": "RV20E-121"})
+    assert TEXT in [doubt["text"] for doubt in view(folder)["proposal"]["doubts"]]
+    folder.remember("wishes", {"reducer": "RV20E-121", "angle_of": "input"})
+    found = view(folder)
+    assert TEXT not in [doubt["text"] for doubt in found["proposal"]["doubts"]] and "--angle-of input" in found["command"] and 'angle_of = "input"' in found["text"]
