@@ -59,13 +59,14 @@ def run_new(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.new_reducer import show, show_against, show_influences
     from fmu_src.checked_file import write_text
+    from reducers.completion.command import usual_name
     from reducers.completion.compare import against
     from reducers.completion.complete import complete
     from reducers.completion.file import text_of
     from reducers.reducer import load_reducer
 
     given = given_by(options)
-    name = options.name or f"ratio-{given.ratio:g}-{given.rated:g}Nm"
+    name = options.name or usual_name(given)
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
