@@ -115,7 +115,16 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
         else:
             axes = cartesian(picture, figure.layout, traces)
         add_legend(picture, axes, figure, traces)
+        if lines and not figure.aspect and "y2" not in axes and "theta" not in traces[0]:
+            keep_half(picture, axes["y"])
     return picture
+
+
+def keep_half(picture: Any, axes: Any) -> None:
+    """Make the picture as high as its curves need to have at least half of it, however long titles, notes and legend are."""
+    picture.draw_without_rendering()
+    height = picture.get_figheight()
+    picture.set_figheight(max(height, 2.0 * height * (1.0 - axes.get_position().height)))
 
 
 def cartesian(picture: Any, layout: Layout, traces: Sequence[Trace]) -> dict[str, Any]:

@@ -84,6 +84,16 @@ def test_quiet_says_nothing_but_json_and_errors(capsys, tmp_path):
     assert code == 2 and out == "" and "none" in err
 
 
+def test_quiet_says_each_file_that_was_written_on_a_line_of_its_own(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert said(capsys, "solve", "--positions", "8", "--export", "a.csv", "--quiet") == (0, "a.csv\na_figures.csv\n", "")
+    assert said(capsys, "reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--name", "mine", "--html", "mine.html", "-q") == (
+        0, "mine.toml\nmine.html\n", "")  # fmt: skip
+    assert said(capsys, "reducer", "check", "mine.toml", "--html", "b.html", "-q") == (0, "b.html\n", "")
+    assert said(capsys, "schema", "reducer", "--output", "c.json", "-q") == (0, "c.json\n", "")
+    assert said(capsys, "run", "--reducer", "RV20E-121-rigid", "--turns", "0.02", "--output", "d.nc", "-q") == (0, "d.nc\n", "")
+
+
 def test_a_word_finds_the_effects_in_which_it_stands(capsys):
     _, out, _ = said(capsys, "effects", "friction", "--json")
     names = {effect["name"] for effect in json.loads(out)["effects"]}

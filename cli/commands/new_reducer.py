@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from cli.commands import check_reducer
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json, number_in
+from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -74,9 +75,11 @@ def run_new(options: argparse.Namespace) -> int:
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)
+    only_file(target)
     found = sensitivity(completion) if options.sensitivity else []
     if page is not None:
         write_page(completion, reducer, found, page)
+        only_file(page)
     rows = against(completion, load_reducer(options.against)) if options.against else []
     if options.json:
         compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}
