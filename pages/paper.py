@@ -25,6 +25,8 @@ SCREEN_COLUMN, FLATTEST, LOWEST = 92.0, 0.6, 25.0
 INCH = 25.4
 # What is left of a plot's height when labels and legend have theirs.
 SHARE_OF_AXES = 0.75
+# Of a picture's width, what a line of the title below it may take.
+SHARE_OF_WIDTH = 0.85
 DOTS = 300
 # Signs of a line of an axis' title at least.
 SHORTEST = 10
@@ -177,7 +179,9 @@ def finish(axes: Any, layout: Layout, name: str, is_lowest: bool, heated: bool) 
     if y.get("scaleanchor"):
         axes.set_aspect("equal")
     if is_lowest:
-        axes.set_xlabel(title_of(x))
+        # The title stands below the middle of the axis, which is not that of the picture.
+        room = max(SHORTEST, int(SHARE_OF_WIDTH * INCH * axes.figure.get_figwidth() / SIGN_WIDTH))
+        axes.set_xlabel("\n".join(fill(line, room) for line in title_of(x).split("\n")))
     axes.set_ylabel(folded(title_of(y), axes))
     if not heated:
         if y.get("autorange") == "reversed":

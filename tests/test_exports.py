@@ -216,7 +216,10 @@ def test_curves_have_half_of_their_picture_however_much_is_said_of_them():
     curves = [Curve(f"a curve that is told from others by its rather long name, {k}", np.array([0.0, 1.0]), np.array([0.0, k])) for k in range(6)]
     picture = drawn(noted_figure(chart("c", "t", "", curves, "phase on the tooth", "depth [um]", 12, 340), note_of(["pin.radius=3mm (BX-40E had 3.5 mm)"])), 85.0)
     picture.draw_without_rendering()
-    assert picture.get_axes()[0].get_position().height > 0.45 and picture.get_figwidth() == pytest.approx(85.0 / 25.4)
+    (axes,) = picture.get_axes()
+    title = axes.xaxis.label.get_window_extent()
+    assert title.x0 > 0.0 and title.x1 < picture.bbox.width
+    assert axes.get_position().height > 0.45 and picture.get_figwidth() == pytest.approx(85.0 / 25.4)
 
 
 def test_each_file_of_tables_says_what_it_holds(tmp_path, capsys):
