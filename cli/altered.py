@@ -2,13 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from textwrap import fill
 
 from exports.tables import Table
 from pages.look import Figure
-
-# Signs of a line in a picture as wide as a paper's column.
-LINE = 60
 
 
 def note_of(changes: Sequence[str]) -> str:
@@ -24,11 +20,10 @@ def noted_figure(figure: Figure, note: str) -> Figure:
     """The figure with the note below its axis; a polar one, which has none, with it in the legend."""
     if not note:
         return figure
-    text = fill(note, LINE)
     if any(trace.get("type") == "scatterpolar" for trace in figure.data):
         said = {"type": "scatterpolar", "mode": "lines", "name": note, "theta": [], "r": [], "line": {"color": "#ffffff"}}
         return replace(figure, data=[*figure.data, said], layout=figure.layout | {"showlegend": True})
     axis = figure.layout.get("xaxis", {})
     title = axis.get("title", "")
     words = title.get("text", "") if isinstance(title, dict) else title
-    return replace(figure, layout=figure.layout | {"xaxis": axis | {"title": {"text": f"{words}\n{text}".strip()}}})
+    return replace(figure, layout=figure.layout | {"xaxis": axis | {"title": {"text": f"{words}\n{note}".strip()}}})

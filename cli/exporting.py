@@ -2,10 +2,12 @@
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from cli.written import say_file
 from fmu_src.faults import InputFault, MissingPart, MissingParts
 
 if TYPE_CHECKING:
@@ -50,15 +52,22 @@ def check_exports(options: argparse.Namespace) -> None:
         raise one
 
 
-def write_exports(options: argparse.Namespace, tables: "Callable[[], Sequence[Table]]", figures: "Callable[[], Sequence[Figure]]") -> None:
-    """Write what was asked for and say where it is; on stderr, where JSON goes to stdout."""
+def write_exports(
+    options: argparse.Namespace, tables: "Callable[[], Sequence[Table]]", figures: "Callable[[], Sequence[Figure]]",
+    holds: Mapping[str, str] = MappingProxyType({}),
+) -> None:  # fmt: skip
+    """Write what was asked for and say where it is, and of tables with a file each what they hold, by name; on stderr, where JSON goes to stdout."""
     written: list[Path] = []
+    held: dict[Path, str] = {}
     if options.export:
-        from exports.write import write_tables
+        from exports.write import beside, write_tables
 
         made = tables()
         for name in options.export:
-            written += write_tables(made, Path(name))
+            of_tables = write_tables(made, Path(name))
+            written += of_tables
+            if len(of_tables) > 1:
+                held |= {own: f"  {holds[table.name]}" for table, own in beside([t for t in made if t.columns], Path(name)) if table.name in holds}
     if options.picture:
         from pages.paper import width_of, write_pictures
 
@@ -66,4 +75,7 @@ def write_exports(options: argparse.Namespace, tables: "Callable[[], Sequence[Ta
         for name in options.picture:
             written += write_pictures(drawn, Path(name), width_of(options.width or "single"))
     for path in written:
-        print(path, file=sys.stderr if getattr(options, "json", False) else sys.stdout)
+        if getattr(options, "json", False):
+            print(path, file=sys.stderr)
+        else:
+            say_file(path, more=held.get(path, ""))

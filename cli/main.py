@@ -9,7 +9,6 @@ Help and completion answer at once: a command imports what it computes with when
 import argparse
 import contextlib
 import io
-import os
 import sys
 import warnings
 from typing import Any
@@ -39,6 +38,7 @@ from cli.completion import answer_shell
 from cli.ending import INTERRUPTED, exit_code, reader_is_gone, silence, termination_heard
 from cli.parser import Parser
 from cli.progress import new_screen
+from cli.written import files_alone
 from fmu_src.checked_file import OF_THE_DISK
 from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
@@ -91,7 +91,7 @@ def main(arguments: list[str] | None = None) -> int:
             if not options.quiet:
                 around.enter_context(told_to(new_screen(sys.argv[1:] if arguments is None else arguments)))
             elif not getattr(options, "json", False):
-                around.enter_context(contextlib.redirect_stdout(around.enter_context(open(os.devnull, "w", encoding="utf-8"))))
+                around.enter_context(files_alone())
             code = int(options.run(options))
         sys.stdout.flush()
         return code
@@ -166,7 +166,10 @@ def add_quiet(parser: argparse.ArgumentParser) -> None:
         for command in {id(c): c for c in action.choices.values()}.values():
             add_quiet(command)
     if not inner:
-        parser.add_argument("-q", "--quiet", action="store_true", help="no tables, notes or progress: files, errors, the exit code and JSON alone")
+        parser.add_argument(
+            "-q", "--quiet", action="store_true",
+            help="no tables, notes or progress: paths of files that are written, one a line, errors, the exit code and JSON alone",
+        )  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -21,14 +21,15 @@ from discrepancy.problem import ORDERS as TABLE
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
-from studies.hysteresis import LOST_MOTION_SHARE
+from studies.hysteresis import LOST_MOTION_SHARE, width_torques
 
-STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "width of the loop", "peak to peak"
+STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mean width of the loop", "peak to peak"
 # Stiffness is that between half and all of the torque, loading, as catalogues, GB/T 35089 and ``rvwear hysteresis`` have it: friction makes a
-# reducer stiffer unloading.  The width is that up to half of the torque.
+# reducer stiffer unloading.  The width is the mean that ``rvwear hysteresis`` calls
+# loop_mean_width_arcmin; that at no torque, which it says too, is of the clearances as well, and of how closely a bench's torques lie.
 FROM = 0.5
-# So many torques at which the two ways of a loop are held against each other, and draws of noise where nothing is repeated.
-TORQUES, DRAWS = 21, 25
+# So many draws of noise where nothing is repeated.
+DRAWS = 25
 # The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
 # calibrates first is fitted before anything else is looked for.
 SOFTER, CLEARLY = 1.5, 5.0
@@ -228,8 +229,9 @@ def of_loop(torque: Floats, rated: float) -> Reading:
         if low <= -small and high >= small:
             middle = [0.5 * (np.interp(t, up.torque, above) + np.interp(t, down.torque, below)) for t in (-small, small)]
             found[LOST_MOTION] = float(middle[1] - middle[0])
-        at = np.linspace(max(low, -FROM * most), min(high, FROM * most), TORQUES)
-        if at[-1] > at[0]:
+        at = width_torques(most)
+        at = at[(low <= at) & (at <= high)]
+        if len(at) > 1:
             found[WIDTH] = float(np.mean(np.interp(at, down.torque, below) - np.interp(at, up.torque, above)))
         return found
 

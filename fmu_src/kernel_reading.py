@@ -26,6 +26,9 @@ FOREIGN = {
 }  # fmt: skip
 # Attributes of an array that say nothing about its values.
 OF_ARRAYS = ("shape", "size", "ndim")
+# What a kernel may call beside kernels, and what many write for it.
+CALLED = "kernels call kernels, the functions of math, and abs, min, max, int, float, bool and len"
+OF_NUMPY = ("np", "numpy")
 OPERATORS = {ast.Add: "+=", ast.Sub: "-=", ast.Mult: "*=", ast.Div: "/="}
 
 
@@ -265,6 +268,12 @@ class Call:
         """What was perhaps meant by a name that is not there, as the end of a message."""
         if name in self.reading.counts:
             return f"; how many there are is the length of a field: r.{self.reading.counts[name]}"
+        if name == "math":
+            return ": write import math at the head of the file"
+        if name in OF_NUMPY:
+            return f": kernels have no numpy; write import math at the head of the file and math.exp and the like, for {CALLED}"
+        if hasattr(math, name) and not name.startswith("_"):
+            return f": write import math at the head of the file, and math.{name} here"
         return nearest(name, known, 1)
 
     def attribute(self, node: ast.Attribute) -> Parts:
@@ -297,6 +306,7 @@ class Call:
         if source is None:
             if isinstance(node.func, ast.Name) and node.func.id == "len":
                 return NOTHING
+            self.look_at_module(node)
             for parts in [*arguments, *named.values()]:
                 self.read_all(parts, node)
                 if Part() in parts:
@@ -309,6 +319,13 @@ class Call:
             self.trouble(node, f"{name} takes {len(parameters)} arguments ({', '.join(parameters)}), not {len(arguments) + len(named)}")
         rest = parameters[len(arguments) :]
         return self.reading.follow(source, name, (*arguments, *(named.get(p, NOTHING) for p in rest)))
+
+    def look_at_module(self, node: ast.Call) -> None:
+        """A call of an imported function that the compiler cannot follow."""
+        first = node.func.value if isinstance(node.func, ast.Attribute) else node.func
+        module = self.source.imports.get(first.id, ("math", ""))[0] if isinstance(first, ast.Name) else "math"
+        if module != "math":
+            self.trouble(node, f"{ast.unparse(node.func)} is no kernel, of {module}: {CALLED}")
 
     def called(self, function: ast.expr) -> tuple[Source | None, str]:
         """Where a called kernel stands; None for what is no kernel of ours."""

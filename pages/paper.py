@@ -25,6 +25,8 @@ SCREEN_COLUMN, FLATTEST, LOWEST = 92.0, 0.6, 25.0
 INCH = 25.4
 # What is left of a plot's height when labels and legend have theirs.
 SHARE_OF_AXES = 0.75
+# Of a picture's width, what a line of the title below it may take.
+SHARE_OF_WIDTH = 0.85
 DOTS = 300
 # Signs of a line of an axis' title at least.
 SHORTEST = 10
@@ -115,7 +117,16 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
         else:
             axes = cartesian(picture, figure.layout, traces)
         add_legend(picture, axes, figure, traces)
+        if lines and not figure.aspect and "y2" not in axes and "theta" not in traces[0]:
+            keep_half(picture, axes["y"])
     return picture
+
+
+def keep_half(picture: Any, axes: Any) -> None:
+    """Make the picture as high as its curves need to have at least half of it, however long titles, notes and legend are."""
+    picture.draw_without_rendering()
+    height = picture.get_figheight()
+    picture.set_figheight(max(height, 2.0 * height * (1.0 - axes.get_position().height)))
 
 
 def cartesian(picture: Any, layout: Layout, traces: Sequence[Trace]) -> dict[str, Any]:
@@ -168,7 +179,9 @@ def finish(axes: Any, layout: Layout, name: str, is_lowest: bool, heated: bool) 
     if y.get("scaleanchor"):
         axes.set_aspect("equal")
     if is_lowest:
-        axes.set_xlabel(title_of(x))
+        # The title stands below the middle of the axis, which is not that of the picture.
+        room = max(SHORTEST, int(SHARE_OF_WIDTH * INCH * axes.figure.get_figwidth() / SIGN_WIDTH))
+        axes.set_xlabel("\n".join(fill(line, room) for line in title_of(x).split("\n")))
     axes.set_ylabel(folded(title_of(y), axes))
     if not heated:
         if y.get("autorange") == "reversed":

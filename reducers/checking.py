@@ -2,13 +2,13 @@
 
 import math
 import re
-import shlex
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.complete import UNITS, ring_doubt
+from reducers.completion.again import command, outdated
+from reducers.completion.complete import ring_doubt
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
@@ -65,8 +65,10 @@ class Check:
     faults: list[str]
     doubts: list[str]
     figures: dict[str, float]
-    # The command that completes what is rigid or does not rub; empty where nothing is missing.
+    # The command that completes what is rigid, does not rub or is outdated; empty where nothing is missing.
     completing: str = ""
+    # Of the doubts those about numbers that were completed from others than the file has now.
+    outdated: list[str] = field(default_factory=list)
 
 
 # Compliances that are zero unless somebody states them.
@@ -106,7 +108,8 @@ def check(reducer: Reducer) -> Check:
         usual = ", ".join(usual_losses(name, abs(n["output.load_torque"]) / max(figures["ratio"], 1.0)) for name in smooth)
         names = ", ".join(smooth)
         doubts.append(f"{names}: not stated, and so without losses there: efficiency is too high, loops are too narrow; usual are {usual}")
-    return Check(reducer, numbers(reducer), faults, doubts, figures, completing(reducer, n, figures["ratio"]) if rigid or smooth else "")
+    old = outdated(reducer)
+    return Check(reducer, numbers(reducer), faults, doubts + old, figures, command(reducer) if rigid or smooth or old else "", old)
 
 
 def usual_losses(name: str, at_input: float) -> str:
@@ -137,24 +140,6 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
 
 def output_rpm(n: dict[str, float], ratio: float) -> float:
     return abs(n["input.speed"]) / ratio * 30.0 / math.pi
-
-
-def completing(reducer: Reducer, n: dict[str, float], ratio: float) -> str:
-    """The command that completes the file, with all that it states itself; none for drives that the rules are not for."""
-    t = reducer.topology
-    if t.output_pins or n.get("first_stage.ratio", 0.0) <= 0.0 or t.discs != 2:
-        return ""
-    words = ["rvwear", "reducer", "new", "--ratio", f"{ratio:.6g}", "--pins", str(t.pins), "--rated", f"{abs(n['output.load_torque']):.6g}"]
-    words += ["--speed", f"{output_rpm(n, ratio):.6g}", "--cranks", str(t.cranks), "--rollers", str(t.rollers)]
-    for one in numbers(reducer):
-        if one.kind == STATED and one.name in UNITS and one.name not in FOLLOW:
-            factor, offset = conversion(one.unit or "1", UNITS[one.name])
-            words += ["--known", f"{one.name}={factor * one.value + offset:.8g}{'' if UNITS[one.name] == '1' else UNITS[one.name]}"]
-    return shlex.join([*words, "--name", reducer.name, "--output", f"{reducer.name}_completed.toml"])
-
-
-# What the command has as options of its own, or reckons from them.
-FOLLOW = ("output.load_torque", "input.speed", "first_stage.ratio", "first_stage.sun_teeth", "wear.run_in_crank_speed")
 
 
 def faults_of(reducer: Reducer, n: dict[str, float], ring: float, pin: float, throw: float, stage: float) -> list[str]:

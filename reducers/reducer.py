@@ -199,6 +199,7 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
     starts: dict[str, float] = {}
     sources: dict[str, str] = {}
     ranges: dict[str, tuple[float, float]] = {}
+    moved: dict[str, str] = {}
     tables = tables_of(topology)
     for section, entries in content.items():
         if not isinstance(entries, dict):
@@ -211,7 +212,9 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
             if name in starts:
                 raise InputFault(f"{place} is given twice; keep one")
             starts[name], sources[name] = value, entry.source
-            if (span := range_of(tables, group, key, entry, place)) is not None:
+            if moves_only_with_others(entry):
+                moved[path_there] = f"{place} = {entry.value:g}{in_unit(entry)}"
+            elif (span := range_of(tables, group, key, entry, place)) is not None:
                 ranges[name] = span
     fill(tables, topology, starts, sources, ranges)
     missing = sorted({v.path for t in tables for v in t.variables if v.source == FILE and v.role in SETTABLE and v.name not in starts})
@@ -219,7 +222,27 @@ def reducer_of(content: dict[str, Any], path: Path) -> Reducer:
         raise InputFault(f"{path}: {', '.join(missing)}: missing; each needs {{ value, unit, source }} in some section")
     if "rated_torque" not in starts and starts["load_torque"] != 0.0:
         starts["rated_torque"], sources["rated_torque"] = abs(starts["load_torque"]), sources["load_torque"]
-    return Reducer(head.name, head.description, topology, starts, sources, path, ranges=ranges)
+    reducer = Reducer(head.name, head.description, topology, starts, sources, path, ranges=ranges)
+    if moved:
+        raise moved_alone(reducer, moved)
+    return reducer
+
+
+def moves_only_with_others(entry: Entry) -> bool:
+    """Whether a number was changed whose range is the one value that fits the others, as a completion writes it."""
+    return entry.range is not None and entry.range[0] == entry.range[1] != entry.value and not isinstance(entry.value, str)
+
+
+def moved_alone(reducer: Reducer, moved: dict[str, str]) -> InputFault:
+    """What to do in place of changing numbers that move only with others, told by name and with where they stand."""
+    from reducers.completion.again import command
+
+    anew = command(reducer, moved)
+    return InputFault(
+        f"{'; '.join(moved.values())}: the file's range is another single value, for what goes with it was completed to that one;"
+        + (f" complete again: {anew}" if anew else "")
+        + f"{'; or' if anew else ''} leave the range out, and look with rvwear reducer check whether the parts fit still"
+    )
 
 
 def fill(
@@ -292,6 +315,11 @@ def si_value(tables: tuple[Table, ...], section: str, key: str, entry: Entry, pl
     return variable.name, value
 
 
+def in_unit(entry: Entry, before: str = "") -> str:
+    """The unit behind a number; none where it has none."""
+    return "" if entry.unit == "1" else f"{before} {entry.unit}"
+
+
 def range_of(tables: tuple[Table, ...], section: str, key: str, entry: Entry, place: str) -> tuple[float, float] | None:
     """(lowest, highest) that the number may be, SI; None where nothing says that it may be another."""
     if isinstance(entry.value, str):
@@ -304,7 +332,8 @@ def range_of(tables: tuple[Table, ...], section: str, key: str, entry: Entry, pl
     else:
         limits = entry.range
     if not limits[0] <= entry.value <= limits[1]:
-        raise InputFault(f"{place}: range = {list(limits)}: value = {entry.value:g} {entry.unit} lies outside; give [lowest, highest] in {entry.unit}")
+        told = f"value = {entry.value:g}{in_unit(entry)} lies outside; give [lowest, highest]{in_unit(entry, ' in')}"
+        raise InputFault(f"{place}: range = {list(limits)}: {told}")
     if limits[0] == limits[1]:
         return None
     low, high = (si_value(tables, section, key, entry.model_copy(update={"value": limit}), f"{place}: range")[1] for limit in limits)

@@ -118,6 +118,8 @@ class Claim:
     numbers: list[Number]
     grounds: list[tuple[str, bool]]
     figures: list[Figure]
+    # Other numbers than the sources' that it was computed with, and which reducers had what instead.
+    altered: tuple[str, ...] = ()
 
     @property
     def stands(self) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from orchestrator.settings import Setting, parse_setting
+from reducers.checking import shown
 from reducers.completion.complete import complete
 from reducers.completion.file import reducer_at
 from reducers.completion.given import Given
@@ -83,6 +84,8 @@ class Context:
     def __init__(self, progress: Callable[[str], None] = lambda _: None, changes: Sequence[str] = ()):
         """``changes``: other numbers than the sources', ``name=value``, of every reducer that has a number of the name."""
         self.progress, self.changes = progress, changes
+        # By reducer that was computed with them what it had instead, change by change.
+        self.had: dict[str, list[str]] = {}
         self.known: dict[tuple[object, ...], Any] = {}
 
     def once(self, key: tuple[object, ...], make: Callable[[], Made], text: str = "") -> Made:
@@ -96,20 +99,27 @@ class Context:
 
     def reducer(self, name: str) -> Reducer:
         """BX and RV as the sources have them, on rigid supports and without losses; REAL_BX and REAL_RV as the library has them."""
-        return self.once(("reducer", name), lambda: self.changed(load_reducer(LIBRARY[name])))
+        return self.once(("reducer", name), lambda: self.changed(name, load_reducer(LIBRARY[name])))
 
-    def changed(self, reducer: Reducer) -> Reducer:
+    def changed(self, name: str, reducer: Reducer) -> Reducer:
         """With the other numbers; InputFault for one that it does not have."""
         for text in self.changes:
             if "[" in text.partition("=")[0]:
                 raise InputFault(f"--set {text}: single numbers can be changed, not elements of a list")
         own = {one.name: float(one.value) for one in (parse_setting(text, [reducer.plant, reducer.wear]) for text in self.changes)}
+        self.had[name] = [stated(reducer, kernel_name) for kernel_name in own]
         return replace(reducer, starts=reducer.starts | own)
+
+    @property
+    def altered(self) -> tuple[str, ...]:
+        """The changes, each with what the reducers that were computed so far had instead."""
+        told = (", ".join(f"{name} had {had[k]}" for name, had in self.had.items()) for k in range(len(self.changes)))
+        return tuple(f"{change} ({words})" if words else change for change, words in zip(self.changes, told))
 
     def rv80e(self) -> Reducer:
         """An RV-80E with ratio 153 and three cranks, completed from what is published of one."""
         given = Given(153.0, PINS, 784.0, 222.0, cranks=3, known=known_numbers(RV_80E))
-        return self.once(("reducer", "RV-80E"), lambda: self.changed(reducer_at(complete(given), {}, "RV-80E")))
+        return self.once(("reducer", "RV-80E"), lambda: self.changed("RV-80E", reducer_at(complete(given), {}, "RV-80E")))
 
     def settings(self, name: str, texts: tuple[str, ...]) -> list[Setting]:
         reducer = self.reducer(name)
@@ -174,6 +184,12 @@ class Context:
             return ARCSEC * record_turn(pair, positions * pair.reducer.topology.lobes)["lag"].ravel()
 
         return self.once(("orders", name, texts, positions), make)
+
+
+def stated(reducer: Reducer, kernel_name: str) -> str:
+    """What the reducer has of a number, with the unit that people read."""
+    v = next(table.by_name[kernel_name] for table in (reducer.plant, reducer.wear) if kernel_name in table.by_name)
+    return v.choices[int(v.start)] if v.choices else shown(reducer, v.path, v.start)
 
 
 def lost_motion(pair: Pair) -> float:

@@ -45,7 +45,7 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
         begun = time.perf_counter()
         claim = REGISTRY[name](context)
         # The independent solver had the sources' numbers.
-        claims.append(replace(claim, numbers=[replace(number, audited=None) for number in claim.numbers]) if changes else claim)
+        claims.append(replace(claim, numbers=[replace(number, audited=None) for number in claim.numbers], altered=context.altered) if changes else claim)
         progress(f"{i:3d}/{len(ids)}  {name}  {claim.title}: {claim.outcome} "
                  f" ({time.perf_counter() - begun:.1f} s)")
     return claims

@@ -147,6 +147,14 @@ def tables_of(claims: list[Claim]) -> list[Export]:
     return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]
 
 
+def holdings(claims: list[Claim]) -> dict[str, str]:
+    """What each of these tables holds, by its name."""
+    return {
+        "numbers": "numbers of the claims, a row each: computed, range, theirs, printed formula, independent check, verdict and cause",
+        "verdicts": "the claims, a row each: what the source says, verdict, condition and why",
+    } | {figure.name: f"curves of \"{figure.title}\", a row a point" for claim in claims for figure in claim.figures}
+
+
 def curves_of(figure: Figure) -> Export:
     """The curves of a figure, a row a point, under the titles of its axes."""
     across, up = (str(figure.layout.get(axis, {}).get("title", {}).get("text", "")) or axis[0] for axis in ("xaxis", "yaxis"))

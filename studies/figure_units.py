@@ -8,6 +8,8 @@ FIGURE_UNITS = {
 # Two stiffnesses of one reducer: what friction holds is none of the running one's.
 RUNNING = "stiffness: running, between half and all of the torque; with the input held, rvwear hysteresis"
 HELD = "stiffness: input held, loading, between half and all of the torque; running, rvwear solve"
+# Two widths of one loop likewise.
+WIDTHS = "loop width: at no torque, the way through the clearances in it; its mean between 3 % and half of the torque is what rvwear compare shows"
 
 
 def figure_unit(name: str) -> str:

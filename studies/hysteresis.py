@@ -2,7 +2,9 @@
 
 The curve of turning against torque gives lost motion (the turning between +3 % and
 -3 % of the rated torque, on the middle line of the loop) and torsional stiffness (the secant
-between half and full torque on the way up), as catalogues of RV reducers define them.  With friction
+between half and full torque on the way up), as catalogues of RV reducers define them.  How wide the loop is stands twice: at no
+torque, where the way through the clearances is in it, and in the mean from where lost motion is read up to half of the torque, which
+loops of few torques tell alike.  With friction
 the torque goes round once before anything is read: it is then where every further round finds it.
 
 What is read depends on where the input is locked, for the cranks stand otherwise to the pins that they push: the test is the
@@ -31,6 +33,8 @@ CLOSENESS = 2.2
 MOST_STEPS, MOST_ANGLES = 10_000, 1000
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
+# Up to this share of the largest torque the loop's mean width is taken, at so many torques of either sign.
+HALF, WIDTHS = 0.5, 10
 # By these a held output's place depends on the way to it.
 MEMORY = ("mesh_friction", "mesh_friction_excess", "friction_coefficient", "friction_excess", "support_slip_compliance")
 
@@ -45,8 +49,18 @@ class Hysteresis:
     stiffness_Nm_per_arcmin: float
     stiffness_reverse_Nm_per_arcmin: float
     loop_area_Nm_arcmin: float
-    # Between both ways at no torque.
+    # Between both ways at no torque, and their mean at ``width_torques``.
     width_arcmin: float
+    mean_width_arcmin: float
+
+
+def width_torques(largest: float) -> Floats:
+    """Torques [N m] of either sign over which the mean width of a loop up to ``largest`` is taken, of bench and model alike.
+
+    Nearer to none the way through the clearances is met or missed by how closely torques lie.
+    """
+    shares = np.linspace(LOST_MOTION_SHARE, HALF, WIDTHS)
+    return largest * np.concatenate([-shares[::-1], shares])
 
 
 def torque_way(rated: float, steps: int) -> Floats:
@@ -55,7 +69,7 @@ def torque_way(rated: float, steps: int) -> Floats:
     They lie closer where bearings come out of their clearance and where friction turns round, near no torque and near T: 16
     read lost motion as well as 160 even ones.
     """
-    quarter = rated * np.union1d(np.sin(0.5 * np.pi * np.arange(steps + 1) / steps) ** CLOSENESS, [LOST_MOTION_SHARE, 0.5])
+    quarter = rated * np.union1d(np.sin(0.5 * np.pi * np.arange(steps + 1) / steps) ** CLOSENESS, [LOST_MOTION_SHARE, HALF])
     up, down = quarter, quarter[-2::-1]
     return np.concatenate([up, down, -up[1:], -down])
 
@@ -105,11 +119,13 @@ def read_loop(torque: Floats, turning: Floats, remembers: bool) -> Hysteresis:
         return 0.5 * (at(there, share) + at(again, share)) if remembers else at(there, share)
 
     low = LOST_MOTION_SHARE
+    widths = [at(down, s) - at(up, s) if s > 0.0 else at(back, s) - at(home, s) for s in width_torques(1.0)]
     return Hysteresis(
         torque, turning, abs(middle(up, down, low) - middle(back, home, -low)),
         0.5 * rated / abs(at(up, 1.0) - at(up, 0.5)),
         0.5 * rated / abs(at(back, -1.0) - at(back, -0.5)),
         float(abs(np.trapezoid(turning, torque))), abs(at(down, 0.0) - at(home, 0.0)),
+        abs(float(np.mean(widths))),
     )
 
 

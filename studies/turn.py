@@ -87,6 +87,7 @@ def loop_figures(loop: Hysteresis) -> dict[str, float]:
         "torsional_stiffness_Nm_per_arcmin": loop.stiffness_Nm_per_arcmin,
         "torsional_stiffness_reverse_Nm_per_arcmin": loop.stiffness_reverse_Nm_per_arcmin,
         "loop_width_arcmin": loop.width_arcmin,
+        "loop_mean_width_arcmin": loop.mean_width_arcmin,
         "loop_area_Nm_arcmin": loop.loop_area_Nm_arcmin,
     }
 

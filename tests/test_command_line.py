@@ -9,6 +9,8 @@ from cli.main import main
 from cli.options import number_in
 from cli.screen import WIDTH
 from cli.show.doctor import show
+from cli.show.effects import show_one
+from discrepancy.catalogue.catalogue import entries
 
 
 def said(capsys, *arguments):
@@ -82,6 +84,25 @@ def test_quiet_says_nothing_but_json_and_errors(capsys, tmp_path):
     assert json.loads(said(capsys, "solve", "--positions", "8", "-q", "--json")[1])["positions"] == 8
     code, out, err = said(capsys, "campaign", "check", str(tmp_path / "none"), "--quiet")
     assert code == 2 and out == "" and "none" in err
+
+
+def test_quiet_says_each_file_that_was_written_on_a_line_of_its_own(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert said(capsys, "solve", "--positions", "8", "--export", "a.csv", "--quiet") == (0, "a.csv\na_figures.csv\n", "")
+    assert said(capsys, "reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--name", "mine", "--html", "mine.html", "-q") == (
+        0, "mine.toml\nmine.html\n", "")  # fmt: skip
+    assert said(capsys, "reducer", "check", "mine.toml", "--html", "b.html", "-q") == (0, "b.html\n", "")
+    assert said(capsys, "schema", "reducer", "--output", "c.json", "-q") == (0, "c.json\n", "")
+    assert said(capsys, "run", "--reducer", "RV20E-121-rigid", "--turns", "0.02", "--output", "d.nc", "-q") == (0, "d.nc\n", "")
+
+
+def test_an_effect_is_numbered_only_where_the_audit_has_it(capsys):
+    numbered, own = (next(e for e in entries() if bool(e.effect.number) == has) for has in (True, False))
+    show_one(numbered, [], "RV20E-121")
+    assert f"{numbered.name}, number {numbered.number} of the physics audit" in " ".join(capsys.readouterr().out.split())
+    show_one(own, [], "RV20E-121")
+    said = " ".join(capsys.readouterr().out.split())
+    assert f"{own.name}, acts in the" in said and "audit" not in said.partition("acts in")[0]
 
 
 def test_a_word_finds_the_effects_in_which_it_stands(capsys):

@@ -101,6 +101,8 @@ def test_a_good_effect_and_all_of_the_catalogue_pass(tmp_path):
     ("for d in range(r.pins): pass", "the record has no field pins; how many there are is the length of a field: r.pin_x.shape[0]"),
     ("for d in range(cranks): pass", "cranks is not defined; how many there are is the length of a field: r.roller_gap_now.shape[1]"),
     ("r.ring_scale *= sise", "sise is not defined"),
+    ("r.ring_scale *= np.exp(1.0)", "np is not defined: kernels have no numpy; write import math at the head of the file and math.exp and the like, for kernels call"),
+    ("r.ring_scale *= exp(1.0)", "exp is not defined: write import math at the head of the file, and math.exp here"),
     ("r.ring_scale *= math.coss(1.0)", "math has no coss; did you mean cos?"),
     ("r.ring_scale *= planet_radius(1.0)", "planet_radius takes 2 arguments (crank_circle_radius, first_stage_ratio), not 1"),
     ("x = [1.0, 2.0]", "a kernel has numbers, loops and fields of the record, not a list"),
@@ -109,6 +111,16 @@ def test_a_good_effect_and_all_of_the_catalogue_pass(tmp_path):
 def test_a_kernel_that_errs_is_told_where(tmp_path, line, message):
     (found,) = told(tmp_path, hook(line))
     assert found[0] == FIRST + 2 and message in found[1]
+
+
+def test_math_that_nobody_imported_and_modules_that_kernels_lack_are_told_with_what_to_import(tmp_path):
+    without = hook("r.ring_scale *= math.exp(1.0)").replace("import math\n", "")
+    (found,) = told(tmp_path, without)
+    assert found[1] == "math is not defined: write import math at the head of the file"
+    for line, module in (("import numpy as np", "np.exp"), ("from numpy import exp", "exp")):
+        (found,) = told(tmp_path, hook(f"r.ring_scale *= {module}(1.0)").replace("import math\n", f"import math\n{line}\n"))
+        assert found[1] == f"{module} is no kernel, of numpy: kernels call kernels, the functions of math, and abs, min, max, int, float, bool and len"
+    assert told(tmp_path, hook("r.ring_scale *= cos(0.0)").replace("import math\n", "import math\nfrom math import cos\n")) == []
 
 
 def test_kernels_that_a_hook_calls_are_followed(tmp_path):

@@ -3,6 +3,7 @@
 import json
 import re
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -11,6 +12,7 @@ import scipy.io
 import xarray as xr
 
 from cli.altered import note_of, noted_figure, noted_tables
+from cli.exporting import write_exports
 from cli.main import main
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
@@ -26,6 +28,8 @@ from pages.look import Figure
 from pages.paper import drawn, save, width_of, write_pictures
 from pages.words import number
 from reducers.reducer import load_reducer
+from reproduce.context import BX, RV, Context
+from reproduce.judging import run
 from studies.ensemble.tables import tables_of as ensemble_tables
 from studies.report.turn import turn_figures
 from studies.turn import crank_turn
@@ -200,6 +204,32 @@ def test_what_is_altered_says_so_wherever_it_goes(tmp_path):
     assert not note_of([]) and noted_figure(flat, "") is flat
 
 
+def test_what_is_altered_says_which_reducers_had_what():
+    context = Context(changes=["crank.eccentricity=1.1mm", "wear.pins=stand"])
+    context.reducer(BX), context.reducer(RV)
+    assert context.altered == ("crank.eccentricity=1.1mm (BX-40E had 1.3 mm, RV20E-121 had 0.9 mm)", "wear.pins=stand (BX-40E had turn, RV20E-121 had turn)")
+    (claim,) = run(["T01"], changes=["crank.eccentricity=1.1mm"])
+    assert claim.altered[0].startswith("crank.eccentricity=1.1mm (") and "had" in note_of(claim.altered)
+
+
+def test_curves_have_half_of_their_picture_however_much_is_said_of_them():
+    curves = [Curve(f"a curve that is told from others by its rather long name, {k}", np.array([0.0, 1.0]), np.array([0.0, k])) for k in range(6)]
+    picture = drawn(noted_figure(chart("c", "t", "", curves, "phase on the tooth", "depth [um]", 12, 340), note_of(["pin.radius=3mm (BX-40E had 3.5 mm)"])), 85.0)
+    picture.draw_without_rendering()
+    (axes,) = picture.get_axes()
+    title = axes.xaxis.label.get_window_extent()
+    assert title.x0 > 0.0 and title.x1 < picture.bbox.width
+    assert axes.get_position().height > 0.45 and picture.get_figwidth() == pytest.approx(85.0 / 25.4)
+
+
+def test_each_file_of_tables_says_what_it_holds(tmp_path, capsys):
+    tables = [Table(name, (Column("x", "m", [1.0]),)) for name in ("numbers", "verdicts", "other")]
+    options = SimpleNamespace(export=[str(tmp_path / "a.csv"), str(tmp_path / "a.mat")], picture=[], json=False)
+    write_exports(options, lambda: tables, list, {"numbers": "of the claims", "verdicts": "of the judge"})
+    assert [line.partition("a")[2] for line in capsys.readouterr().out.replace(str(tmp_path), "").split("\n")[:4]] == [
+        ".csv  of the claims", "_verdicts.csv  of the judge", "_other.csv", ".mat"]  # fmt: skip
+
+
 def worded(rows, columns):
     """A map with names as pages have them."""
     z = [[float(i + k) for k in range(columns)] for i in range(rows)]
@@ -273,6 +303,7 @@ def test_modes_ladders_and_ensembles_are_tables(tmp_path, capsys):
         '[model]\nname = "m"\nreducer = "RV20E-121"\n[[steps]]\neffects = ["thermal_expansion"]\nverdict = "helped"\n'
         'held_out_before = 5.8\nheld_out_after = 1.9\n', encoding="utf-8")  # fmt: skip
     assert main(["ladder", str(model), "--export", str(tmp_path / "steps.csv"), "--quiet"]) == 0
+    assert capsys.readouterr().out == f"{tmp_path / 'steps.csv'}\n"
     steps = pd.read_csv(tmp_path / "steps.csv")
     assert steps[["effects", "held_out_after"]].values.tolist() == [["thermal_expansion", 1.9]] and steps["training_after"].isna().all()
     assert main(["modes", "--export", str(tmp_path / "modes.csv"), "--json"]) == 0

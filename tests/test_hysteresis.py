@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 import rvwear
-from cli.main import parser
+from cli.main import main, parser
+from discrepancy.key_figures import LOST_MOTION, WIDTH, of_loop
 from orchestrator.settings import parse_setting
 from reducers.reducer import load_reducer
 from reproduce.context import Context
 from reproduce.prototypes import loop
 from studies.hysteresis import ANGLES, STEPS, hysteresis, torque_way
+from studies.solve import ARCMIN
 
 
 def run(reducer, *texts):
@@ -83,3 +85,22 @@ def test_command_library_and_claims_read_lost_motion_by_one_setting():
     assert (default["steps"].default, default["angles"].default) == (STEPS, ANGLES)
     reducer = load_reducer("RV20E-121")
     assert loop(reducer).lost_motion_arcmin == Context().stiffness("RV-20E").lost_motion_arcmin == hysteresis(reducer, []).lost_motion_arcmin
+
+
+def test_key_figures_of_a_campaign_read_the_same_mean_width_and_lost_motion():
+    """Of the same loop to the last digit, and of a bench's few torques within some per cent; the width at no torque is another figure."""
+    found = hysteresis(load_reducer("RV20E-121"), [], locked_at=0.0)
+    # What is read begins on the loop, not on the way to it.
+    way, turning = np.append(found.torque, found.torque[1]), np.append(found.turning, found.turning[1])
+    read = of_loop(way, 167.0)(turning / ARCMIN)
+    assert read[WIDTH] * ARCMIN == pytest.approx(found.mean_width_arcmin, rel=1e-3)
+    assert read[LOST_MOTION] * ARCMIN == pytest.approx(found.lost_motion_arcmin, rel=1e-3)
+    few = slice(None, None, 3)
+    assert of_loop(way[few], 167.0)(turning[few] / ARCMIN)[WIDTH] * ARCMIN == pytest.approx(found.mean_width_arcmin, rel=0.05)
+    assert found.mean_width_arcmin < 0.7 * found.width_arcmin
+
+
+def test_the_command_says_which_width_is_which(capsys):
+    assert main(["hysteresis", "--reducer", "RV20E-121", "--steps", "4", "--angles", "1"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "loop_mean_width_arcmin" in said and "loop width: at no torque" in said and "between 3 % and half of the torque is what rvwear compare shows" in said

@@ -2,6 +2,8 @@
 
 import json
 import math
+import re
+import shlex
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import pytest
 from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
+from reducers.checking import check
 from reducers.completion.complete import NOT_ALONE, UNITS, complete, rounded_ratio
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
@@ -18,6 +21,7 @@ from reducers.reducer import load_reducer
 from studies.completed_ranges import Influence, influences, what_matters
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
+from workbench.reducers import findings
 
 RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
 
@@ -239,3 +243,73 @@ def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch)
     assert "eccentricity times pins over pin circle" in capsys.readouterr().out
     assert main([*RIG, "--output", str(tmp_path / "other.toml"), "--html", str(tmp_path / "rig.pdf")]) == 2
     assert "must end in .html" in capsys.readouterr().err and not (tmp_path / "other.toml").exists()
+
+
+def test_a_number_that_moves_only_with_others_says_what_moves_it(tmp_path, capsys):
+    """In the file, and where somebody changed it alone; the command that is named does it, and what was given before stays."""
+    path = tmp_path / "my81.toml"
+    assert main(["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--cranks", "3", "--known", "pin.radius=4mm",
+                 "--name", "my81", "--output", str(path), "-q"]) == 0  # fmt: skip
+    text = path.read_text(encoding="utf-8")
+    assert "# may be 10, 11, 12, 13, 14, 15, 16, 17, 18, 19 or 20, but not alone, for teeth are whole: complete again with --known first_stage.sun_teeth=11" in text
+    assert "not alone, for races and rollers fit each other: complete again with --known roller.radius=...mm" in text
+    path.write_text(text.replace("sun_teeth = { value = 10.0", "sun_teeth = { value = 12.0"), encoding="utf-8")
+    assert main(["reducer", "check", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "[first_stage] sun_teeth = 12: the file's range is another single value" in said and "12 1" not in said
+    words = shlex.split(re.search("complete again: (rvwear .*?); or leave", said)[1])
+    assert words[1:11] == ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--speed", "15"]
+    assert "first_stage.sun_teeth=12" in words and "pin.radius=4mm" in words
+    assert main([*words[1:], "--output", str(tmp_path / "anew.toml"), "-q"]) == 0
+    assert load_reducer(tmp_path / "anew.toml").starts["sun_teeth"] == 12.0
+
+
+def test_a_range_of_a_number_without_unit_is_told_without_one(tmp_path):
+    path = tmp_path / "a.toml"
+    assert main([*RIG, "--output", str(path), "-q"]) == 0
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("poisson_ratio = { value = 0.3,", "poisson_ratio = { value = 0.4,"), encoding="utf-8")
+    with pytest.raises(InputFault, match=r"value = 0\.4 lies outside; give \[lowest, highest\]$"):
+        load_reducer(path)
+
+
+def test_what_was_completed_from_other_teeth_is_outdated_when_somebody_changes_them(tmp_path, capsys):
+    path = tmp_path / "ratio-81-412Nm.toml"
+    assert main(["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--cranks", "3", "--output", str(path), "-q"]) == 0
+    assert not check(load_reducer(path)).outdated
+    text = path.read_text(encoding="utf-8").replace("pins = 40\nlobes = 39", "pins = 41\nlobes = 40")
+    path.write_text(text, encoding="utf-8")
+    found = check(load_reducer(path))
+    said = "\n".join(found.doubts)
+    assert "input.speed = 1215 rpm was completed (ratio times output speed) from other numbers than the file has now, of which it would be 1245 rpm" in said
+    assert "wear.run_in_crank_speed = 585 rpm was completed" in said and "of which it would be 600 rpm" in said
+    assert "reducer.name = ratio-81-412Nm is made of other numbers than the file has now, of which it would be ratio-83-412Nm" in said
+    assert 'reducer.description says "ratio 81, rated 412 N m at 15 rpm", and would be "ratio 83, rated 412 N m at 15 rpm of the output' in said
+    assert main(["reducer", "check", str(path)]) == 0
+    assert f"completed anew with what the file gives: {found.completing}" in " ".join(capsys.readouterr().out.split())
+    assert findings(load_reducer(path)) == [*found.outdated, f"of a number that was measured say so as its source; the others are completed anew by: {found.completing}"]
+    anew = tmp_path / "anew.toml"
+    assert main([*shlex.split(found.completing)[1:], "--output", str(anew), "-q"]) == 0
+    assert not check(load_reducer(anew)).doubts and load_reducer(anew).name == "ratio-83-412Nm"
+
+
+@pytest.mark.parametrize("options", [
+    ["--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--known", "pin.radius=3mm"],
+    ["--ratio", "127.7", "--pins", "40", "--rated", "1600", "--speed", "7.5", "--lost-motion", "0.4", "--rollers", "14", "--cranks", "2"],
+    ["--ratio", "81", "--pins", "40", "--rated", "1600", "--known", "first_stage.sun_teeth=13", "--known", "roller.radius=3.5mm"],
+])  # fmt: skip
+def test_a_completed_file_that_nobody_changed_is_not_outdated(tmp_path, options):
+    path = tmp_path / "a.toml"
+    assert main(["reducer", "new", *options, "--output", str(path), "-q"]) == 0
+    assert not check(load_reducer(path)).outdated
+
+
+def test_what_somebody_measured_counts_for_given_and_what_hangs_on_it_is_outdated(tmp_path):
+    path = tmp_path / "a.toml"
+    assert main([*RIG, "--output", str(path), "-q"]) == 0
+    text = re.sub(r"circle_radius = \{ value = 122\.9\S+ unit = \"mm\", range = \[.*?\], source = \".*?\" \}",
+                  'circle_radius = { value = 110.0, unit = "mm", source = "measured" }', path.read_text(encoding="utf-8"), count=1)  # fmt: skip
+    path.write_text(text, encoding="utf-8")
+    found = check(load_reducer(path))
+    assert any(one.startswith("pin.radius = 6.3") and "R_p sin(pi/z_p)" in one for one in found.outdated)
+    assert not any(one.startswith("pin.circle_radius") for one in found.outdated) and "--known pin.circle_radius=110mm" in found.completing

@@ -61,3 +61,10 @@ def test_three_cranks_are_a_matter_of_the_file(tmp_path):
     path = tmp_path / "three.toml"
     path.write_text(text, encoding="utf-8")
     assert load_reducer(path).plant.by_name["roller_force"].shape == (2, 3, 16)
+
+
+def test_descriptions_say_whose_speed_the_rated_torque_goes_with():
+    """Catalogues rate at the output's speed, and what a reducer runs at is said of the input."""
+    for name in available():
+        description = load_reducer(name).description
+        assert "rpm" not in description or "rpm of the output" in description

@@ -2,6 +2,7 @@
 
 import math
 import re
+import shlex
 import tomllib
 from collections.abc import Mapping
 from typing import Any
@@ -13,6 +14,7 @@ from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 from pages.words import number
 from reducers.checking import check
+from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
 from reducers.completion.given import Given
@@ -83,8 +85,11 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
 
 
 def findings(reducer: Reducer) -> list[str]:
-    """What cannot be made, or lies where its own file says that it does not; in words with place, value and bound."""
-    found = [plainly(fault) for fault in check(reducer).faults]
+    """What cannot be made, is outdated, or lies where its own file says that it does not; in words with place, value and bound."""
+    checked = check(reducer)
+    found = [*map(plainly, checked.faults), *checked.outdated]
+    if checked.outdated:
+        found.append(f"of a number that was measured say so as its source; the others are completed anew by: {checked.completing}")
     found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(reducer) if row["outside"]]
     return found
 
@@ -93,7 +98,7 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
         completion = complete(given_of(given))
-        name = str(given.get("name") or "").strip() or f"ratio-{completion.given.ratio:g}-{completion.given.rated:g}Nm"
+        name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
             raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")
         text = text_of(completion, name)
@@ -108,7 +113,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
         write_text(place, text)
         saved = place.name
     page = page_data(page_of(completion, reducer, []))
-    return {"page": page, "numbers": rows_of(completion), "name": name, "saved": saved, "findings": findings(reducer), "command": command(completion, name)}
+    told = {"name": name, "saved": saved, "findings": findings(reducer)}
+    return {"page": page, "numbers": rows_of(completion), **told, "command": shlex.join([*words_of(completion.given), "--name", name])}
 
 
 def given_of(given: Mapping[str, Any]) -> Given:
@@ -132,19 +138,6 @@ def rows_of(completion: Completion) -> list[dict[str, Any]]:
          "source": n.source, "given": n.is_given, "asked": n.name not in FROM_OPTIONS}
         for n in completion.numbers.values()
     ]  # fmt: skip
-
-
-def command(completion: Completion, name: str) -> str:
-    import shlex
-
-    g = completion.given
-    words = ["rvwear", "reducer", "new", "--ratio", form.exactly(g.ratio), "--pins", str(g.pins), "--rated", form.exactly(g.rated),
-             "--speed", form.exactly(g.speed), "--rollers", str(g.rollers), "--lost-motion", form.exactly(g.lost_motion)]  # fmt: skip
-    words += ["--diameter", form.exactly(g.diameter)] if g.diameter is not None else []
-    words += ["--cranks", str(g.cranks)] if g.cranks is not None else []
-    for key, value in g.known.items():
-        words += ["--known", f"{key}={form.exactly(value)}{'' if UNITS[key] == '1' else UNITS[key]}"]
-    return shlex.join([*words, "--name", name])
 
 
 def plainly(text: str) -> str:

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from cli.options import add_json, add_reducer, reducer_of
+from cli.written import say_file
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -45,7 +46,7 @@ def build(options: argparse.Namespace) -> int:
     else:
         for entry in built:
             state = "built" if entry["built"] else "up to date"
-            print(f"{entry['fmu']}  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
+            say_file(entry["fmu"], more=f"  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
         for package in packages:
-            print(f"{package}  plant and wear, connected")
+            say_file(package, more="  plant and wear, connected")
     return 0

@@ -5,6 +5,7 @@ import shlex
 
 from cli.commands import campaign_from
 from cli.options import add_json, add_reducer
+from cli.written import say_file
 from discrepancy.campaign.quantities import QUANTITIES, USUAL
 from fmu_src.progress import task
 
@@ -88,7 +89,7 @@ def run_template(options: argparse.Namespace) -> int:
         json_text({"files": [str(path) for path in files]})
     else:
         for path in files:
-            print(path)
+            say_file(path)
         print(f"fill in the files, then: rvwear campaign check {shlex.quote(str(options.folder))}")
     return 0
 
@@ -108,7 +109,7 @@ def run_from_rv_te(options: argparse.Namespace) -> int:
         json_text({"files": [str(path) for path in files], "runs": len(runs), "conditions": conditions, "left_out": wrong})
     else:
         for path in files:
-            print(path)
+            say_file(path)
         print(f"{len(runs)} runs in {conditions} conditions; rvwear campaign check {shlex.quote(str(options.folder))}")
         for text in wrong:
             print(f"left out: {text}")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from cli.completion import completed_by, reducer_completions
 from cli.options import REDUCER_HELP, add_json
+from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -89,6 +90,8 @@ def run_from(options: argparse.Namespace) -> int:
         json_text(proposal.as_json() | {"findings": [asdict(found) for found in findings]} | more)
         return code
     show(proposal, findings)
+    if not options.dry_run:
+        only_file(folder / "campaign.toml")
     if options.dry_run:
         print(f"\n{text}")
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")

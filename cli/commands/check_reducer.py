@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from cli.completion import completed_by, reducer_completions
 from cli.exporting import WIDTH_HELP, check_exports, write_exports
 from cli.options import add_json
+from cli.written import say_file
 from fmu_src.progress import task
 
 if TYPE_CHECKING:
@@ -75,5 +76,5 @@ def draw(options: argparse.Namespace, found: "Check") -> None:
 
     with task("drawing"):
         if options.html:
-            print(written(rendered_sections(page_of(found)), Path(options.html)))
+            say_file(written(rendered_sections(page_of(found)), Path(options.html)))
         write_exports(options, lambda: (), lambda: parts(found))

@@ -12,6 +12,7 @@ from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder, page_path
+from cli.written import say_file
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
 from fmu_src.progress import task
@@ -96,7 +97,7 @@ def write_html(options: argparse.Namespace, result: object) -> None:
 def say_page(options: argparse.Namespace) -> None:
     """Where the page is, after everything else; nothing beside JSON."""
     if (page := page_path(options.html)) and not options.json:
-        print(f"\npage  {page}")
+        say_file(page, "\npage  ")
 
 
 def export(options: argparse.Namespace, result: "Comparison | Answer | ModelFile") -> None:
@@ -175,7 +176,10 @@ def run_diagnose(options: argparse.Namespace) -> int:
         if not stopped and (line := line_after(options, answer)):
             print(f"\nnext  {line}")
         if options.draft:
-            print(f"\ndraft  {draft}" if draft else "\nno draft: an effect was named, or no law was recovered that has a place in the units")
+            if draft:
+                say_file(draft, "\ndraft  ")
+            else:
+                print("\nno draft: an effect was named, or no law was recovered that has a place in the units")
     say_page(options)
     export(options, answer)
     if stopped:
@@ -250,11 +254,11 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
     else:
         show_extension(extension)
-        print(f"model  {target}")
+        say_file(target, "model  ")
         if not extension.step["kept"]:
             print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
         for path in fmus:
-            print(f"FMU    {path}")
+            say_file(path, "FMU    ")
     say_page(options)
     return DID_NOT_HELP_CODE if extension.verdict == DID_NOT_HELP else 0
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.options import DID_NOT_HELP_CODE, all_cores
+from cli.written import only_file
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import task
 from fmu_src.source_hash import USER_EFFECTS
@@ -54,6 +55,7 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
             other.file.unlink()
     if not options.json:
         show_draft(answer, draft, reasons)
+        only_file(draft.file)
     done = child(options, draft, [*given(options, ("output", "fmus", "html")), *(["--anyway"] if options.anyway else [])], options.json)
     if done.returncode not in (0, DID_NOT_HELP_CODE) or (options.json and not done.stdout.strip()):
         # The fault was said on the way.
@@ -84,7 +86,8 @@ def better(options: argparse.Namespace, drafts: "list[Draft]") -> "Draft":
 def child(options: argparse.Namespace, draft: "Draft", more: list[str], as_json: bool) -> "subprocess.CompletedProcess[str]":
     """``rvwear extend`` with the draft among the effects; what it says goes to this screen, or is kept where it is JSON."""
     effects = [word for name in (*draft.beside, draft.name) for word in ("--effect", name)]
-    words = ["extend", options.model, options.campaign, *effects, *given(options, ("data",)), *more, *(["--json"] if as_json else [])]
+    how = ["--json"] if as_json else ["--quiet"] if options.quiet else []
+    words = ["extend", options.model, options.campaign, *effects, *given(options, ("data",)), *more, *how]
     sys.stdout.flush()
     environment = os.environ | {USER_EFFECTS: str(draft.file.resolve().parents[1])}
     return subprocess.run([sys.executable, "-m", "cli", *words], env=environment, text=True, check=False,

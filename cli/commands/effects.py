@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cli.options import IDEAL_REDUCER, add_json, add_reducer, page_path
+from cli.written import say_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -47,7 +48,7 @@ def run_effects(options: argparse.Namespace) -> int:
     elif not page:
         show_list(chosen, options.name)
     if page and not options.json:
-        print(page)
+        say_file(page)
     return 0
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json
+from cli.written import say_file
 from exports.plain import plain_json
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
@@ -97,7 +98,7 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
         screen.json_text(found)
     else:
         show(found)
-        print(f"result  {path}")
+        say_file(path, "result  ")
     if options.export:
         from studies.ensemble.tables import tables_of
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from cli.completion import completed_by
 from cli.options import add_json
+from cli.written import say_file
 from fmu_src.faults import InputFault, nearest
 
 # File or folder in ``examples/`` -> what it shows.
@@ -60,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
 
         json_text({"example": options.name, "path": str(made)})
     else:
-        print(made)
+        say_file(made)
     return 0
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cli.options import add_json, page_path
+from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -35,6 +36,7 @@ def run_family(options: argparse.Namespace) -> int:
             fitted = fitted_share(dials)
     if page:
         write_page(dials, members, page)
+        only_file(page)
     if options.json:
         json_text({"dials": dials, "fixed": FIXED, "support_share_fitted": fitted, "sizes": [as_json(one) for one in members],
                    "marks": [vars(mark) for mark in marks(members)]})

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.options import add_json
+from cli.written import say_file
 
 if TYPE_CHECKING:
     from fmu_src.verification import Findings
@@ -68,12 +69,12 @@ def verdict(findings: "Findings") -> str:
 def run_sign(options: argparse.Namespace) -> int:
     from fmu_src.verification import sign
 
-    print(sign(Path(options.file), Path(options.key)))
+    say_file(sign(Path(options.file), Path(options.key)))
     return 0
 
 
 def run_compile(options: argparse.Namespace) -> int:
     from fmu_src.package import compile_sources
 
-    print(compile_sources(Path(options.file), Path(options.output)))
+    say_file(compile_sources(Path(options.file), Path(options.output)))
     return 0

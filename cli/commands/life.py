@@ -11,6 +11,7 @@ from cli.ending import exit_code
 from cli.exporting import WIDTH_HELP, add_exports, check_exports, write_exports
 from cli.options import add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, reducer_of, result_path, settings_of
 from cli.overload import told_overload
+from cli.written import say_file
 from fmu_src.checked_file import Damaged, set_aside
 from fmu_src.faults import InputFault, nearest_path
 from fmu_src.held_file import held
@@ -151,9 +152,9 @@ def show_life(options: argparse.Namespace, dataset: "xr.Dataset", path: Path, be
         screen.json_text({"reducer": options.reducer, "result": str(path)} | results.figure_arrays(dataset) | beyond)
     else:
         life_table(dataset)
-        print(f"result  {path}")
+        say_file(path, "result  ")
         if not options.no_report:
-            print(f"report  {page}")
+            say_file(page, "report  ")
     if options.export or options.picture:
         from exports.tables import tables_of
         from studies.report.page import figures_of
@@ -178,7 +179,7 @@ def dynamics_wear(options: argparse.Namespace) -> int:
         screen.json_text(as_json(found) | {"page": str(page)})
     else:
         show_dynamics(found)
-        print(f"page  {page}")
+        say_file(page, "page  ")
     return 0
 
 
@@ -197,7 +198,7 @@ def report(options: argparse.Namespace) -> int:
             write_report(dataset, page)
     except Damaged as fault:
         raise Damaged(f"{fault}; {REMEDY}") from None
-    print(page)
+    say_file(page)
     return 0
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from cli.commands import check_reducer
 from cli.completion import completed_by, reducer_completions
 from cli.options import add_json, number_in
+from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 
@@ -59,13 +60,14 @@ def run_new(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.new_reducer import show, show_against, show_influences
     from fmu_src.checked_file import write_text
+    from reducers.completion.command import usual_name
     from reducers.completion.compare import against
     from reducers.completion.complete import complete
     from reducers.completion.file import text_of
     from reducers.reducer import load_reducer
 
     given = given_by(options)
-    name = options.name or f"ratio-{given.ratio:g}-{given.rated:g}Nm"
+    name = options.name or usual_name(given)
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
@@ -73,9 +75,11 @@ def run_new(options: argparse.Namespace) -> int:
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)
+    only_file(target)
     found = sensitivity(completion) if options.sensitivity else []
     if page is not None:
         write_page(completion, reducer, found, page)
+        only_file(page)
     rows = against(completion, load_reducer(options.against)) if options.against else []
     if options.json:
         compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}

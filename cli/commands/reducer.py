@@ -65,7 +65,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     import math
 
     from cli import screen
-    from studies.figure_units import HELD
+    from studies.figure_units import HELD, WIDTHS
     from studies.hysteresis import hysteresis as measure
     from studies.turn import loop_dataset, loop_figures
 
@@ -82,7 +82,7 @@ def hysteresis(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name} | figures | curve | beyond)
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
-        screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=HELD)
+        screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=f"{HELD}\n{WIDTHS}")
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
 

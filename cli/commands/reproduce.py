@@ -5,6 +5,7 @@ from pathlib import Path
 
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, require_place
+from cli.written import say_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import say
 
@@ -32,26 +33,29 @@ def reproduce(options: argparse.Namespace) -> int:
     from reproduce.judging import run as judge
     from reproduce.page import write_page
     from reproduce.statements import stated
-    from reproduce.table import as_json, print_table, tables_of
+    from reproduce.table import as_json, holdings, print_table, tables_of
 
     check_exports(options)
     if options.picture and not any(one.has_figure for one in stated(options.claims or None).values()):
         drawn = ", ".join(name for name, one in stated().items() if one.has_figure)
         raise InputFault(f"--picture {options.picture[0]}: {', '.join(options.claims)} has no figure; these claims have: {drawn}")
-    page, note = Path(options.output), note_of(options.set)
+    page = Path(options.output)
     require_place(page, "--output", ".html")
     require_settings(options.set)
     claims = judge(options.claims or None, say, options.set)
-    write_page(claims, page, options.set)
+    # Of the last, as it is reached with all reducers that were altered.
+    altered = claims[-1].altered if claims else ()
+    note = note_of(altered)
+    write_page(claims, page, altered)
     if options.json:
-        screen.json_text(as_json(claims) | {"page": str(page), "set": options.set})
+        screen.json_text(as_json(claims) | {"page": str(page), "set": options.set, "altered": list(altered)})
     else:
         print_table(claims)
         if note:
             print(note)
-        print(f"page  {page}")
-    figures = [noted_figure(figure, note) for claim in claims for figure in claim.figures]
-    write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures)
+        say_file(page, "page  ")
+    figures = [noted_figure(figure, note_of(claim.altered)) for claim in claims for figure in claim.figures]
+    write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures, holdings(claims))
     return 0 if options.set or all(claim.stands for claim in claims) else 1
 
 

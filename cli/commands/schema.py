@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from cli.written import say_file
 from fmu_src.faults import InputFault
 
 # The keys of cli.schemas.KINDS; a schema is made when it is asked for.
@@ -30,5 +31,5 @@ def schema(options: argparse.Namespace) -> int:
     if path.suffix != ".json":
         raise InputFault(f"--output {path}: the name must end in .json")
     write_text(path, text)
-    print(f'{path}; first line of the TOML file: "#:schema ./{path.name}"')
+    say_file(path, more=f'; first line of the TOML file: "#:schema ./{path.name}"')
     return 0

@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cli.options import SHORTHANDS, add_coupling_options, add_json, add_reducer_options, chosen, folder, number_in, result_path
+from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 from orchestrator.schemes import SCHEMES
@@ -117,6 +118,7 @@ def run_reducer(options: argparse.Namespace) -> tuple[str, dict[str, object], di
               "parameters": {"plant": results.parameters_of(pair.plant), "wear": results.parameters_of(pair.wear)}}
     pair.master.close()
     netcdf.write(netcdf.series_dataset(series, units, inputs), path)
+    only_file(path)
     summary = {"result": str(path), "steps": len(series["time"]), "end_time_s": float(series["time"][-1])}
     return name, summary, at_the_end(series), units
 
@@ -198,6 +200,7 @@ def run_system(options: argparse.Namespace) -> tuple[dict[str, object], dict[str
     # An element has the unit of its array.
     units |= {name: units[name.partition("[")[0]] for name in series if name not in units and name != "time"}
     write_series(series, units, {"system": system.text}, path)
+    only_file(path)
     show_warnings(system)
     show_end(options, float(series["time"][-1] - series["time"][0]), system.master.step_size)
     summary: dict[str, object] = {"result": str(path), "steps": len(series["time"]) - 1, "end_time_s": float(series["time"][-1])}

@@ -27,7 +27,10 @@ def show(found: Check) -> None:
         out.print(styled(("doubtful: ", "yellow"), text))
     for text in found.faults:
         out.print(styled(("cannot be made: ", "bold red"), text))
-    if found.completing:
+    if found.outdated:
+        out.print("of a number that was measured say so as its source, and it stays; the others are completed anew with what the file gives:")
+        out.print(f"  {found.completing}", soft_wrap=True)
+    elif found.completing:
         out.print(f"to have them completed by design rules, with ranges:\n  {found.completing}", soft_wrap=True)
     if not found.faults:
         out.print("its parts fit each other" + (", but look at what is doubtful" if found.doubts else ""))

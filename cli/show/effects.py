@@ -29,7 +29,8 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     from discrepancy.catalogue.signature import number
 
     out, e = console(WIDTH), entry.effect
-    out.print(styled((e.title, "bold"), f"  {entry.name}, number {entry.number} of the physics audit, acts in the {entry.part}"))
+    numbered = f", number {e.number} of the physics audit" if e.number else ""
+    out.print(styled((e.title, "bold"), f"  {entry.name}{numbered}, acts in the {entry.part}"))
     for head, text in (("law", e.law), ("source", e.source), ("signature", e.signature), ("shows in", ", ".join(e.signals) or "every quantity")):
         out.print(f"  {head:<10}{text}")
     table = dense("parameters")

@@ -96,6 +96,9 @@ a line for each parameter: its unit, the one that answers give it in, and whethe
 because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m),
 rpm for rad/s, um for m), always with the unit beside the number, and JSON has the SI value as `si`, too.
 
+Kernels call kernels (of the file, or imported from `rv_plant`, `wear_fmu` and `fmu_src`), the functions of `math` (`import math` at the head
+of the file) and abs, min, max, int, float, bool and len; numpy and other modules do not reach machine code and FMUs.
+
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
 

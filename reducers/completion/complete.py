@@ -80,7 +80,7 @@ def complete(given: Given) -> Completion:
 
     A number's range adds what each dial, at either end of its own range, makes of it, see ``span``.
     """
-    dials = [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
+    dials = dials_for(given)
     middle = {dial.name: dial.value for dial in dials}
     values = numbers_of(given, middle)
     check_geometry(given, values)
@@ -93,6 +93,11 @@ def complete(given: Given) -> Completion:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
     return Completion(given, dials, numbers, [*rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
+
+
+def dials_for(given: Given) -> list[Dial]:
+    """All that is free in the design of such a reducer."""
+    return [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
 
 
 def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
@@ -121,6 +126,9 @@ def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
     if name == "pin.circle_radius":
         return f"{COMPLETED}: {own_dial(dials['ring_torque' if given.diameter is None else 'ring_share'])}"
     rule, own = RULES[name]
+    if name == "input.speed":
+        # The one place of a file that says the output's speed: teeth that change later change the ratio.
+        rule += f" of {given.speed:.9g} rpm"
     return f"{COMPLETED}: {rule}" + (f", {own_dial(dials[own])}" if own else "")
 
 

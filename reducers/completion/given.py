@@ -71,9 +71,14 @@ class Given:
         return (self.ratio - 1.0) / self.pins
 
     @property
+    def suns(self) -> list[int]:
+        """Teeth of the suns that make the ratio with whole planets."""
+        return [sun for sun in SUN_TEETH if self.makes_whole_planets(sun)] if FIRST_STAGE[0] <= self.stage <= FIRST_STAGE[1] else []
+
+    @property
     def teeth(self) -> tuple[int, int]:
         """Teeth (planet, sun) of a first stage that makes the ratio, with the known sun or as few as possible; InputFault where none does."""
-        fitting = [sun for sun in SUN_TEETH if self.makes_whole_planets(sun)] if FIRST_STAGE[0] <= self.stage <= FIRST_STAGE[1] else []
+        fitting = self.suns
         if not fitting:
             raise InputFault(
                 f"--ratio {self.ratio:g} with --pins {self.pins}: the first stage would need {self.stage:.4g} = planet over sun teeth, which no sun of"

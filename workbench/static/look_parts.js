@@ -7,7 +7,7 @@ const CLEAR = 3,
 const tone = (off) => (off > 5 ? "bad" : off > CLEAR ? "fair" : "");
 
 // In the order in which one asks.
-const ORDER = ["torsional stiffness", "lost motion", "width of the loop", "peak to peak"];
+const ORDER = ["torsional stiffness", "lost motion", "mean width of the loop", "peak to peak"];
 const rank = (f) => {
   const i = ORDER.findIndex((name) => f.name.startsWith(name));
   return i < 0 ? ORDER.length : i + (f.name.length > ORDER[i].length ? 0.5 : 0);

@@ -1,0 +1,116 @@
+"""What a completed file would hold if it were completed anew from the counts and given numbers that it has now.
+
+A completed file keeps its numbers when somebody changes teeth or a measure by hand: what hung on the former ones is outdated.
+"""
+
+import re
+import shlex
+from collections.abc import Collection
+
+from fmu_src.faults import InputFault
+from fmu_src.units import conversion
+from reducers.completion.command import described, usual_name, words_of
+from reducers.completion.complete import COMPLETED, RULES, UNITS, dials_for, numbers_of
+from reducers.completion.dials import dials_of
+from reducers.completion.given import SUN, Given
+from reducers.completion.known import FROM_OPTIONS
+from reducers.reducer import Reducer
+from reducers.usual import DERIVED, FAR, USUAL
+from rv_plant.gear_stage import total_ratio
+
+# What sources and description of a completed file say of options that no number of it is.
+SPEED = re.compile(r"(?:speed of|N m at) ([\d.e+-]+) rpm")
+GAP = re.compile(r"flank gap by equidistant modification 0 to ([\d.e+-]+) arcmin")
+FIGURE = r"([0-9.e+]+)"
+NAMED = re.compile(f"ratio-{FIGURE}-{FIGURE}Nm")
+DESCRIBED = re.compile(f"(ratio {FIGURE}, rated {FIGURE} N m at {FIGURE} rpm).*, completed by design rules")
+# Name and description have the ratio as it was given, which a catalogue rounds.
+ROUNDED = 0.005
+
+
+def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | None:
+    """What is given of a reducer now, the numbers ``measured`` among it whatever their sources say; None of drives that the rules are not for."""
+    t, numbers, sources = reducer.topology, in_units(reducer), sources_of(reducer)
+    if t.output_pins or t.discs != 2 or numbers.get("first_stage.ratio", 0.0) <= 0.0:
+        return None
+    completed = completed_names(reducer) - set(measured)
+    ratio = float(f"{float(total_ratio(numbers['first_stage.ratio'], t.pins, t.lobes)):.9g}")
+    # What no number of the file is: an input speed that was completed tells the output's with the ratio of that time alone.
+    told = SPEED.search(f"{sources['input.speed']} {reducer.description}") if "input.speed" in completed else None
+    gap = GAP.search(sources.get("disc.equidistant_modification", ""))
+    ring = next(dial for dial in dials_of(t.pins, t.rollers, True, Given.lost_motion) if dial.name == "ring_share")
+    by_diameter = "pin.circle_radius" in completed and ring.meaning in sources["pin.circle_radius"]
+    known = {
+        name: value for name, value in numbers.items()
+        if name not in completed and name not in FROM_OPTIONS and not sources[name].startswith((f"{DERIVED}: ", f"{USUAL}: "))
+    }  # fmt: skip
+    try:
+        return Given(
+            ratio, t.pins, abs(numbers["output.load_torque"]), numbers["pin.circle_radius"] / ring.value if by_diameter else None,
+            float(told[1]) if told else abs(numbers["input.speed"]) / ratio, t.cranks, t.rollers,
+            2.0 * float(gap[1]) if gap else Given.lost_motion, known=known,
+        )  # fmt: skip
+    except InputFault:
+        return None
+
+
+def command(reducer: Reducer, measured: Collection[str] = ()) -> str:
+    """The command that completes the file with all that it states itself, and the numbers ``measured``; empty where none does."""
+    given = given_again(reducer, measured)
+    if given is None:
+        return ""
+    name = usual_name(given) if NAMED.fullmatch(reducer.name) else reducer.name
+    return shlex.join([*words_of(given), "--name", name, "--output", f"{name}_completed.toml"])
+
+
+def outdated(reducer: Reducer) -> list[str]:
+    """Each number that was completed and that would be another now, what it is and would be; name and description likewise."""
+    completed, given = completed_names(reducer), given_again(reducer)
+    if not completed or given is None:
+        return []
+    have = in_units(reducer)
+    try:
+        anew = numbers_of(given, {dial.name: dial.value for dial in dials_for(given)})
+    except (InputFault, ArithmeticError, ValueError):
+        # No reducer follows from what is given now; what forbids it is told as a fault.
+        return []
+    found = []
+    # Whether the teeth go with each other is told as a fault where they do not; nothing else hangs on those of the sun.
+    for name in (name for name in anew if name in completed and name != SUN):
+        if abs(have[name] - anew[name]) > FAR * max(abs(have[name]), abs(anew[name])):
+            unit = "" if UNITS[name] == "1" else f" {UNITS[name]}"
+            rule = f" ({RULES[name][0]})" if name in RULES else ""
+            found.append(
+                f"{name} = {have[name]:.5g}{unit} was completed{rule} from other numbers than the file has now, of which it would be {anew[name]:.5g}{unit}"
+            )
+    if (named := NAMED.fullmatch(reducer.name)) and not all(map(alike, named.groups(), (given.ratio, given.rated))):
+        found.append(f"reducer.name = {reducer.name} is made of other numbers than the file has now, of which it would be {usual_name(given)}")
+    if (said := DESCRIBED.match(reducer.description)) and not all(map(alike, said.groups()[1:], (given.ratio, given.rated, given.speed))):
+        found.append(f'reducer.description says "{said[1]}", and would be "{described(given)}"')
+    return found
+
+
+def alike(written: str, value: float) -> bool:
+    return abs(float(written) - value) <= ROUNDED * value
+
+
+def completed_names(reducer: Reducer) -> set[str]:
+    """Numbers whose sources say that they were completed."""
+    return {name for name, source in sources_of(reducer).items() if source.startswith(COMPLETED)}
+
+
+def in_units(reducer: Reducer) -> dict[str, float]:
+    """The numbers of the file that the rules know, in the units of ``UNITS``."""
+    found = {}
+    for table in (reducer.plant, reducer.wear, reducer.joint):
+        for v in table.variables:
+            if v.path in UNITS and v.name in reducer.starts:
+                factor, offset = conversion(v.unit, UNITS[v.path])
+                found[v.path] = factor * reducer.starts[v.name] + offset
+    return found
+
+
+def sources_of(reducer: Reducer) -> dict[str, str]:
+    """Where these are from."""
+    variables = [v for table in (reducer.plant, reducer.wear, reducer.joint) for v in table.variables]
+    return {v.path: reducer.sources.get(v.name, "") for v in variables if v.path in UNITS and v.name in reducer.starts}
