@@ -213,6 +213,33 @@ MILLION = """async () => {
   }"""
 
 
+def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
+    """The error on unused runs rose: in bad colours, no units to build, the other of what was named to try instead."""
+    page = bench.page
+    page.goto(bench.address)
+    refused, kept = (page.evaluate(ADDED, [is_kept, after]) for is_kept, after in ((False, 25.5), (True, 1.2)))
+    assert "How the error fell" not in refused["heads"] and "How the error fell" in kept["heads"]
+    assert any(head.startswith("Refused: crank eccentricity + raceway wear (inner)") for head in refused["heads"])
+    assert refused["after"] == "bad" and kept["after"] == "good"
+    assert not {"Look at the better model", "Build its FMUs"} & set(refused["buttons"]) and "Build its FMUs" in kept["buttons"]
+    assert {"Try crank eccentricity alone", "Try raceway wear (inner) alone", "Back to the answer"} <= set(refused["buttons"])
+
+
+# What stands below an answer once its two effects were added.
+ADDED = """async ([kept, after]) => {
+    const { addPart, ladder } = await import('./static/better.js');
+    const effects = ['crank_eccentricity', 'raceway_wear.inner'], page = { cards: [], sections: [] };
+    const step = { effects, kept, verdict: kept ? 'helped' : 'did not help', training_before: 9, training_after: 2, held_out_before: 4.82, held_out_after: after };
+    const answer = { model: 'RV20E-121', effects: effects.map((e) => ({ candidates: [e] })), base_off: [], confusable: [], rejected: [] };
+    const extension = { kept, verdict: step.verdict, reason: 'error on unused runs went elsewhere', effects, steps: [step], left: '', page, ladder: page, command: '' };
+    const bag = { answer, extension, built: null, context: { busy: () => '', model: () => 'RV20E-121' }, old: '' };
+    const place = document.createElement('div');
+    place.append(addPart(bag), ladder(bag));
+    const texts = (what) => [...place.querySelectorAll(what)].map((e) => e.textContent);
+    return { heads: texts('h2, h3'), buttons: texts('button'), after: place.querySelectorAll('#ladder tbody td')[4].firstElementChild.className };
+  }"""
+
+
 def test_names_beside_each_other_are_told_by_what_differs(bench):
     page = bench.page
     page.goto(bench.address)
