@@ -166,6 +166,27 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     assert not any(question in said["text"] for said in (*found["proposal"]["doubts"], *found["findings"]))
 
 
+def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_at_once(tmp_path, capsys):
+    """The factor survives saving, and the page's command writes the same; a factor in a unit is none."""
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    given = {"reducer": "RV20E-121", "tags": {"locked": "output"}}
+    header = view(folder)["proposal"]["runs"][0]["columns"]["value"]["header"]
+    for part, text, words in (("units", "arcsec/3437.75", "is not known.*a factor is no part of a unit"), ("units", "parsnip", "'parsnip' is not known"), ("scales", "much", "is no number"),
+                              ("scales", "0", "other than 0")):  # fmt: skip
+        with pytest.raises(InputFault, match=words) as refused:
+            wish(folder, {**given, part: {f"loop_20degC_1.csv:{header}": text}})
+        assert "--" not in str(refused.value)
+    wish(folder, {**given, "scales": {f"loop_20degC_1.csv:{header}": "1/8"}})
+    save(folder)
+    found = view(folder)
+    assert found["same"] and found["proposal"]["runs"][0]["columns"]["value"]["scale"] == 0.125 and "scale = 0.125" in found["text"]
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+
+
 def test_a_head_that_says_motor_needs_no_mending(tmp_path):
     from workbench.intake import wish
 

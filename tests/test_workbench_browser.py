@@ -136,6 +136,24 @@ def test_an_angle_of_the_motor_is_mended_by_a_click_and_by_its_role(bench, tmp_p
     assert page.get_by_text("which is kept, not").count() == 0
 
 
+def test_a_unit_is_refused_where_it_is_typed_and_a_scale_stays(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    page.reload()
+    page.get_by_label("unit of Verdrehung [arcmin]").select_option("other…")
+    page.get_by_label("unit", exact=True).fill("arcmin/3437.75")
+    page.keyboard.press("Tab")
+    cell = page.locator("td", has=page.get_by_label("unit", exact=True))
+    cell.get_by_text("a factor is no part of a unit").wait_for()
+    assert page.get_by_label("unit", exact=True).input_value() == "arcmin/3437.75"
+    page.get_by_label("scale of Verdrehung [arcmin]").fill("1/3437.75")
+    page.keyboard.press("Tab")
+    page.get_by_label("unit of Verdrehung [arcmin]").wait_for()
+    bench.view("in")
+    page.reload()
+    page.get_by_label("scale of Verdrehung [arcmin]").wait_for()
+    assert page.get_by_label("scale of Verdrehung [arcmin]").input_value() == "1/3437.75" and "scale = 0.0002908" in page.locator("pre.file").text_content()
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)

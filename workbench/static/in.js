@@ -65,19 +65,20 @@ export function show(root, context) {
     await load();
   }
 
-  // What was corrected goes to the folder, and the guesses come back anew; what was refused is shown as it was.
-  async function sent(path, given) {
-    const found = await context.act(post(path, given), faults);
+  // What was corrected goes to the folder, and the guesses come back anew; what was refused is shown as it was, or with the reason at ``place``.
+  async function sent(path, given, place = faults) {
+    const found = await context.act(post(path, given), place);
     if (found) {
       clear(faults);
       data = found;
     }
-    draw();
+    if (found || place === faults) draw();
+    return Boolean(found);
   }
-  const wish = (change) => {
+  const wish = (change, place) => {
     const given = structuredClone(data.wishes);
     change(given);
-    return sent("in/wishes", given);
+    return sent("in/wishes", given, place);
   };
   const mend = (column, role) => sent("in/mend", { column, role });
   // A cell of campaign.toml itself, one after the other: each is meant for the file as the one before it left it.

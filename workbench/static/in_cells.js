@@ -1,6 +1,7 @@
 // A campaign.toml as it stands, corrected cell by cell: conditions, and the columns by which each file is read.
 
 import { choose, h, table, words } from "./dom.js";
+import { SCALE } from "./in_unit.js";
 
 // ``put(place, value)`` sends a correction; what is refused is shown as it was.  ``quantities`` have the roles that a column may take.
 export function cells(found, quantities, put) {
@@ -44,6 +45,7 @@ export function cells(found, quantities, put) {
           part(r, i, role),
           field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
           field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
+          h("label", { class: "inline", title: SCALE }, "×", field(["runs", i, "columns", role, "scale"], c.scale, `scale of ${role} in ${r.id}`, 4)),
         ),
       ),
     ),
@@ -54,7 +56,7 @@ export function cells(found, quantities, put) {
       "details",
       { class: "panel", id: "cells-runs" },
       h("summary", {}, h("b", {}, "Correct the columns of single files")),
-      table(["run and file", "quantity", "condition", "roles, columns and units"], found.runs.map(run), [], { class: "rows" }),
+      table(["run and file", "quantity", "condition", "roles, columns, units and factors"], found.runs.map(run), [], { class: "rows" }),
     ),
   ];
 }
