@@ -187,6 +187,29 @@ def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_a
     assert folder.campaign.read_text(encoding="utf-8") == found["text"]
 
 
+def test_what_is_wrong_with_numbers_stands_open_and_in_is_told_all_that_the_check_says(tmp_path, capsys):
+    """A scale, which takes a model, is asked for apart and kept; what of the page is open is of numbers alone."""
+    from workbench.intake import wish
+    from workbench.scales import scales
+
+    folder = opened(tmp_path / "b")
+    rows = "\n".join(f"{t},{3000 * t + 40 * (t % 7)}" for t in range(-160, 170, 4))
+    folder.new_file("loop_20degC_1.csv", f"torque [Nm],turning [arcsec]\n{rows}\n".encode())
+    assert scales(folder) == {"findings": []}
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "output"}})
+    save(folder)
+    (scale,) = scales(folder)["findings"]
+    assert scale["open"] and scale["text"].startswith("run loop_20degC_1: hysteresis varies by") and folder.recall("scales")["findings"] == [scale]
+    told = [scale, *view(folder)["findings"]]
+    assert [finding["text"] for finding in told if finding["open"]] == [scale["text"]]
+    capsys.readouterr()
+    main(["campaign", "check", str(folder.root), "--json"])
+    said = json.loads(capsys.readouterr().out)
+    assert {finding["text"] for finding in told} == {finding["text"] for finding in (*said["problems"], *said["warnings"])}
+    folder.campaign.write_text(folder.campaign.read_text().replace('unit = "arcsec"', 'unit = "urad", scale = 0.01'))
+    assert scales(folder) == {"findings": []}
+
+
 def test_a_head_that_says_motor_needs_no_mending(tmp_path):
     from workbench.intake import wish
 

@@ -286,8 +286,8 @@ def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
     words += ["--reducer", wishes.reducer] if wishes.reducer else []
     for pattern in wishes.names:
         words += ["--names", pattern]
-    for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("scale", wishes.scales), ("counts", wishes.counts), ("quantity", wishes.quantities),
-                          ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
+    for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("scale", wishes.scales), ("counts", wishes.counts),
+                          ("quantity", wishes.quantities), ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
         for name, value in pairs.items():
             words += [f"--{option}", f"{name}={exactly(value) if isinstance(value, float) else value}"]
     if wishes.held_out is not None:

@@ -39,7 +39,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),
         ("--column", "ROLE=COLUMN", "what a column is: value, angle, input_angle, torque, time, output_speed, temperature ... (docs/campaigns.md);"
          " FILES:ROLE=COLUMN for some files"),
-        ("--scale", "COLUMN=FACTOR", "what a column is multiplied by, where an instrument wrote it by another factor (-1: the other sense); FILES:COLUMN=FACTOR for some files"),
+        ("--scale", "COLUMN=FACTOR", "what a column is multiplied by ('y=0.001'; -1: the other sense); FILES:COLUMN=FACTOR for some files"),
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),

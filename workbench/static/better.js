@@ -108,7 +108,7 @@ export function addPart(bag) {
           "button",
           {
             type: "button",
-            class: "main",
+            class: extension && !extension.kept ? "" : "main",
             id: "extend",
             disabled: !!busy,
             title: busy || undefined,

@@ -16,6 +16,7 @@ export function show(root, context) {
     closed = false,
     taking = false;
   const faults = h("div"),
+    numbers = h("div", { id: "numbers" }),
     body = h("div", {}, h("p", { class: "quiet" }, "Reading the files…"));
   root.append(faults, body);
   const input = h("input", { type: "file", multiple: true, hidden: true, id: "files", onchange: () => upload([...input.files]) });
@@ -42,6 +43,21 @@ export function show(root, context) {
       data = found;
       draw();
     }
+  }
+
+  // What of the numbers cannot be, or hardly, stands open before all else; scales are held against a model, which takes some seconds.
+  async function judge() {
+    const asked = data;
+    if (!data.campaign) {
+      clear(numbers);
+      return;
+    }
+    const read = (data.findings ?? []).filter((f) => f.open);
+    clear(numbers, doubtNotes(read, mend), data.scales ? null : h("p", { class: "quiet small", role: "status" }, "Holding the scale of the numbers against the model…"));
+    data.scales ??= (await get("in/scales").catch(() => ({ findings: [] }))).findings;
+    if (data !== asked) return;
+    const found = [...data.scales, ...read];
+    clear(numbers, found.length && data.own && !data.same ? h("p", { class: "quiet small" }, "Of campaign.toml as it was saved:") : null, doubtNotes(found, mend));
   }
 
   async function upload(files) {
@@ -95,6 +111,7 @@ export function show(root, context) {
       data = found;
       // The cells stay: another of them may be in the hand by now.  Of a column with another role each has another place.
       if (!own && place.length !== ROLE.length) {
+        judge();
         clear(document.getElementById("there"), elsewhere());
         clear(document.getElementById("findings"), findings());
         return;
@@ -132,14 +149,16 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
+      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
       for (const id of open) if (id) document.getElementById(id)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
+      judge();
       return;
     }
     const held = document.activeElement?.id;
     clear(
       body,
+      numbers,
       head(),
       data.fault
         ? [
@@ -156,6 +175,7 @@ export function show(root, context) {
       data.gone.map((text) => note(text)),
       data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
+    judge();
     if (held) document.getElementById(held)?.focus();
   }
 
@@ -193,15 +213,15 @@ export function show(root, context) {
         ),
       ),
     );
-  // What is found of a column stands where the column does.
+  // What is found of a column stands where the column does, what is found of numbers above them.
   const ofColumn = (f) => f.column !== undefined;
   const findings = () => {
-    const found = (data.findings ?? []).filter((f) => !ofColumn(f));
+    const found = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open);
     return found.length
       ? h(
           "details",
           { open: found.some((f) => f.level === "problem") || found.length < 4 },
-          h("summary", {}, `${found.length} finding${found.length === 1 ? "" : "s"} of the check`),
+          h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
           found.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
         )
       : null;

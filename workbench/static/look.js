@@ -246,7 +246,7 @@ export function show(root, context) {
       "div",
       { class: "panel" },
       chips,
-      signal.axis.name === "angle" ? doubtsBefore(result, context, "compare") : null,
+      signal.axis.name === "angle" ? doubtsBefore(result, context, "compare", (d) => d.column !== undefined) : null,
       plot.element,
       h(
         "div",

@@ -2,6 +2,8 @@
 
 import { effectName, h } from "./dom.js";
 
+const MOST_TURNED_DOWN = 4;
+
 // Names as they are asked for: what was named together first, then each of it alone.
 export function offered(answer) {
   const named = answer.effects.flatMap((e) => e.candidates),
@@ -15,7 +17,8 @@ export function offered(answer) {
 // ``add(name)`` tries another one.
 export function refusal(answer, extension, busy, add) {
   const tried = new Set(extension.steps.filter((s) => s.kept === false).map((s) => s.effects.join(" + "))).add(extension.effects.join(" + ")),
-    others = offered(answer).filter((name) => !tried.has(name));
+    // What was turned down first stands nearest.
+    others = [...new Set([...offered(answer), ...answer.rejected.slice(0, MOST_TURNED_DOWN).map((r) => r.name)])].filter((name) => !tried.has(name));
   return h(
     "div",
     { id: "refused" },
@@ -25,8 +28,8 @@ export function refusal(answer, extension, busy, add) {
       "p",
       { class: "quiet" },
       others.length
-        ? "What can be done: try another one of what the diagnosis named, or go back to its answer and measure what it asks for next."
-        : "All that the diagnosis named was tried. Go back to its answer: what it asks for next tells the rivals apart.",
+        ? "What can be done: try another effect that the diagnosis looked at, or go back to its answer and measure what it asks for next."
+        : "All that the diagnosis named was tried. Go back to its answer, and measure what it asks for next.",
     ),
     h(
       "div",
