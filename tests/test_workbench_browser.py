@@ -293,6 +293,27 @@ def test_a_reducer_that_is_read_says_so(bench):
     assert page.get_by_text("Reading the reducer…").count() == 0
 
 
+def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
+    """Neither while the next one is still fetched nor when what the former waited for comes at last."""
+    page, held = dropped(bench, tmp_path), {}
+    page.select_option("#measured", "RV20E-121")
+    page.locator("#save:enabled").wait_for()
+    page.evaluate("() => fetch('in/save', { method: 'POST', body: '{}' })")
+    page.route("**/try", lambda route: held.setdefault("try", route))
+    page.route("**/static/reducer.js", lambda route: held.setdefault("reducer", route))
+    page.click("#tab-try")
+    page.get_by_text("Making the model ready…").wait_for()
+    page.click("#tab-reducer")
+    page.locator("#tab-reducer[aria-selected=true]").wait_for()
+    tries = page.locator("#view").get_by_placeholder("search effects").or_(page.get_by_text("Making the model ready"))
+    assert tries.count() == 0 and page.locator("#view").inner_text() == "Loading…"
+    held["reducer"].continue_()
+    page.get_by_role("button", name="Complete one from a few numbers").wait_for()
+    held["try"].fulfill(status=400, json={"fault": "too late"})
+    page.wait_for_timeout(300)
+    assert tries.count() == 0 and page.get_by_text("too late").count() == 0
+
+
 @pytest.mark.campaign
 def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)

@@ -13,7 +13,6 @@ const ROLE = ["runs", "number", "columns", "role"];
 export function show(root, context) {
   let data = null,
     choices = null,
-    closed = false,
     taking = false;
   const faults = h("div"),
     numbers = h("div", { id: "numbers" }),
@@ -39,7 +38,7 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (found && choices && !closed) {
+    if (found && choices) {
       data = found;
       draw();
     }
@@ -112,8 +111,8 @@ export function show(root, context) {
       // The cells stay: another of them may be in the hand by now.  Of a column with another role each has another place.
       if (!own && place.length !== ROLE.length) {
         judge();
-        clear(document.getElementById("there"), elsewhere());
-        clear(document.getElementById("findings"), findings());
+        clear(root.querySelector("#there"), elsewhere());
+        clear(root.querySelector("#findings"), findings());
         return;
       }
     }
@@ -150,7 +149,7 @@ export function show(root, context) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
       clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
-      for (const id of open) if (id) document.getElementById(id)?.setAttribute("open", "");
+      for (const id of open) if (id) root.querySelector(`#${id}`)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
       judge();
       return;
@@ -349,12 +348,6 @@ export function show(root, context) {
       if (taking) return;
       if (count !== undefined && state.files !== count && data) load();
       count = state.files;
-    },
-    close() {
-      closed = true;
-      root.removeEventListener("dragover", over);
-      root.removeEventListener("dragleave", over);
-      root.removeEventListener("drop", dropped);
     },
   };
 }
