@@ -258,6 +258,27 @@ ADDED = """async ([kept, after]) => {
   }"""
 
 
+def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
+    page = bench.page
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    cut = page.evaluate("""async () => {
+      const { h, table } = await import('./static/dom.js'), place = document.getElementById('view');
+      place.replaceChildren(h('div', { class: 'panel' }, table(['signal', 'changes it by', 'error before', 'after'], [['transmission error', '0.0777 arcsec', '0.467 arcsec', '0.467 arcsec']])));
+      const box = place.querySelector('.scroll'), work = document.getElementById('work');
+      work.replaceChildren(h('b', {}, 'Looking for the next experiment'), h('progress'), h('span', { class: 'doing' }, 'screening, pin_seats.four_waves: 23 of 86, about 36 s left'), h('button', {}, 'Stop'));
+      work.hidden = false;
+      return [box.scrollWidth - box.clientWidth, getComputedStyle(box.querySelectorAll('td')[3], '::before').content, work.offsetHeight];
+    }""")
+    assert cut[:2] == [0, '"after "'] and cut[2] < 42
+    lines = page.evaluate("""async () => {
+      const { folded } = await import('./static/paint.js'), c = document.createElement('canvas').getContext('2d');
+      return folded(c, '1500rpm_167N.m_warm', c.measureText('1500rpm_167N.').width);
+    }""")
+    assert "".join(lines) == "1500rpm_167N.m_warm" and len(lines) > 1
+
+
 def test_names_beside_each_other_are_told_by_what_differs(bench):
     page = bench.page
     page.goto(bench.address)
