@@ -154,6 +154,31 @@ def test_a_unit_is_refused_where_it_is_typed_and_a_scale_stays(bench, tmp_path):
     assert page.get_by_label("scale of Verdrehung [arcmin]").input_value() == "1/3437.75" and "scale = 0.0002908" in page.locator("pre.file").text_content()
 
 
+def test_families_of_one_quantity_are_corrected_together_and_conditions_in_one_place(bench, tmp_path):
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", [str(loop_file(tmp_path / name, 200, 400.0)) for name in ("cold_0degC_1.csv", "warm_40degC_1.csv")])
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    page.get_by_label("the same for all of this quantity").first.check()
+    unit = page.get_by_label("unit of Verdrehung [arcmin]")
+    unit.first.select_option("arcsec")
+    while [one.input_value() for one in unit.all()] != ["arcsec", "arcsec"]:
+        page.wait_for_timeout(100)
+    # The box stands at the height of its row's fields.
+    page.get_by_role("checkbox", name="held out").first.check()
+    page.locator("label.held .reason").first.wait_for()
+    middles = page.evaluate("""() => [...document.querySelector('label.held .reason').closest('tr').querySelectorAll('input')].map((e) => {
+      const box = e.getBoundingClientRect(); return box.top + box.height / 2; })""")
+    assert max(middles) - min(middles) < 2
+    assert "fault" not in page.evaluate("async () => (await fetch('in/save', { method: 'POST', body: '{}' })).text()")
+    page.goto(f"{bench.address}#in")
+    page.reload()
+    page.locator("#cells-runs").wait_for()
+    assert page.locator("#cells-conditions").count() == 0
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)

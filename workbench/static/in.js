@@ -2,7 +2,7 @@
 
 import { choose, clear, command, h, note, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
-import { cells } from "./in_cells.js";
+import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
 import { drop, get, post, put } from "./net.js";
@@ -33,7 +33,14 @@ export function show(root, context) {
   root.addEventListener("dragleave", over);
   root.addEventListener("drop", dropped);
 
-  async function load() {
+  // One after the other, what is read anew too: each correction is meant for what the one before it left.
+  let corrected = Promise.resolve();
+  const inTurn = (next) => {
+    corrected = corrected.then(next, next);
+    return corrected;
+  };
+  const load = () => inTurn(read);
+  async function read() {
     // An empty folder needs nothing but its invitation.
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
@@ -90,17 +97,15 @@ export function show(root, context) {
     if (found || place === faults) draw();
     return Boolean(found);
   }
-  const wish = (change, place) => {
-    const given = structuredClone(data.wishes);
-    change(given);
-    return sent("in/wishes", given, place);
-  };
-  const mend = (column, role) => sent("in/mend", { column, role });
-  // A cell of campaign.toml itself, one after the other: each is meant for the file as the one before it left it.
-  let corrected = Promise.resolve();
-  const correct = (place, value) => {
-    corrected = corrected.then(() => correctNow(place, value));
-  };
+  const wish = (change, place) =>
+    inTurn(() => {
+      const given = structuredClone(data.wishes);
+      change(given);
+      return sent("in/wishes", given, place);
+    });
+  const mend = (column, role) => inTurn(() => sent("in/mend", { column, role }));
+  // A cell of campaign.toml itself.
+  const correct = (place, value) => inTurn(() => correctNow(place, value));
   // What is refused is shown as it was.
   async function correctNow(place, value) {
     const found = await context.act(post("in/edit", { of: data.cells.of, place, value }), faults);
@@ -132,6 +137,9 @@ export function show(root, context) {
     context,
     faults,
     load,
+    // Quantities of which all files are corrected alike.
+    together: new Set(),
+    redraw: () => draw(),
   };
   const putIn = (part, key, value) =>
     wish((w) => {
@@ -148,7 +156,7 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
+      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
       for (const id of open) if (id) root.querySelector(`#${id}`)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
       judge();
@@ -172,7 +180,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
     judge();
     if (held) document.getElementById(held)?.focus();

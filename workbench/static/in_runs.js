@@ -48,15 +48,32 @@ export function runs(bag) {
   );
 }
 
+// Families of one quantity are told apart by their names or units; what is corrected of one may be so of all.
+function alike(quantity, { together, redraw }) {
+  const box = h("input", {
+    type: "checkbox",
+    checked: together.has(quantity),
+    onchange: () => {
+      if (box.checked) together.add(quantity);
+      else together.delete(quantity);
+      redraw();
+    },
+  });
+  return h("label", { class: "inline small", title: `a unit, a scale or a quantity that is corrected here is so for all files of ${words(quantity)}` }, box, "the same for all of this quantity");
+}
+
 function group(bag, members) {
-  const { data, choices, wish, mend, putIn, context, faults, load } = bag;
+  const { data, choices, wish, mend, putIn, context, faults, load, together } = bag;
   const first = members[0],
     quantity = choices.quantities[first.quantity.value];
-  const own = [...new Set(members.map((m) => m.file.split("/").at(-1)))];
+  const named = (runs) => [...new Set(runs.map((run) => run.file.split("/").at(-1)))],
+    own = named(members),
+    kin = named(data.proposal.runs.filter((run) => run.quantity.value === first.quantity.value));
+  // A correction is meant for the files of this family, or for all of its quantity.
   const forAll = (part, of, value, place) =>
     wish((w) => {
       w[part] = { ...w[part] };
-      for (const name of own) {
+      for (const name of together.has(first.quantity.value) ? kin : own) {
         const key = of(name);
         if (value) w[part][key] = value;
         else delete w[part][key];
@@ -135,6 +152,7 @@ function group(bag, members) {
         ),
         first.quantity.sure ? null : h("span", { class: "tag fair" }, "not sure"),
         tags,
+        kin.length > own.length ? alike(first.quantity.value, bag) : null,
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),

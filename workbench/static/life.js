@@ -135,12 +135,20 @@ export function show(root, context) {
       );
     }
     plot.set({ xTitle: "operating time [h]", panes });
+    const drawing = h("p", { class: "quiet", role: "status" }, "Drawing the report…");
     clear(
       below,
       result
         ? [
             h("h2", {}, "On the parts, over the turn, by order"),
-            (report = h("iframe", { class: "report", src: embedded(), title: "report of the life", sandbox: "allow-scripts" })),
+            drawing,
+            (report = h("iframe", {
+              class: "report",
+              src: embedded(),
+              title: "report of the life",
+              sandbox: "allow-scripts",
+              onload: () => drawing.remove(),
+            })),
             h(
               "p",
               { class: "quiet small" },
