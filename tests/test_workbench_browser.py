@@ -360,6 +360,25 @@ def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
     assert tries.count() == 0 and page.get_by_text("too late").count() == 0
 
 
+def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
+    page, held = bench.page, []
+    page.goto(bench.address)
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    page.route("**/results/life/report*", lambda route: held.append(route))
+    page.evaluate("""async () => {
+      const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true } } };
+      const place = document.getElementById('view');
+      place.replaceChildren();
+      show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
+    }""")
+    word = page.get_by_text("Drawing the report…")
+    word.wait_for()
+    while not held:
+        page.wait_for_timeout(50)
+    held[0].fulfill(body="<p>report</p>", content_type="text/html")
+    word.wait_for(state="hidden")
+
+
 @pytest.mark.campaign
 def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)

@@ -17,7 +17,9 @@ export function show(root, context) {
     hours = "10000",
     torque = "",
     plot = null,
-    report = null;
+    report = null,
+    // The report is large: its box is empty for seconds.
+    drawing = null;
   const top = h("div"),
     words = h("div"),
     chart = h("div", { class: "panel", hidden: true }),
@@ -135,19 +137,20 @@ export function show(root, context) {
       );
     }
     plot.set({ xTitle: "operating time [h]", panes });
-    const drawing = h("p", { class: "quiet", role: "status" }, "Drawing the report…");
     clear(
       below,
       result
         ? [
             h("h2", {}, "On the parts, over the turn, by order"),
-            drawing,
+            (drawing = h("p", { class: "quiet", role: "status" }, "Drawing the report…")),
             (report = h("iframe", {
               class: "report",
               src: embedded(),
               title: "report of the life",
               sandbox: "allow-scripts",
-              onload: () => drawing.remove(),
+              onload: () => {
+                drawing.hidden = true;
+              },
             })),
             h(
               "p",
@@ -177,7 +180,10 @@ export function show(root, context) {
     recolour: () => {
       plot?.later();
       lives.recolour();
-      if (report && report.getAttribute("src") !== embedded()) report.src = embedded();
+      if (report && report.getAttribute("src") !== embedded()) {
+        drawing.hidden = false;
+        report.src = embedded();
+      }
     },
     close: () => {
       plot?.destroy();
