@@ -12,7 +12,7 @@ from discrepancy import as_told
 from discrepancy.calibrated_doubts import calibrated_doubts
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
-from discrepancy.campaign.findings import missing_factors
+from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
@@ -44,7 +44,8 @@ class Comparison:
 
     ``runs``: one entry per run with rms error and noise floor in the record's SI unit;
     ``signals``: the same by signal, apart for training and held-out runs; ``predictions``:
-    predicted values per run, in the order of ``model.records``.
+    predicted values per run, in the order of ``model.records``; ``scale_doubts``: those of ``warnings``
+    that doubt the scale of what was measured.
     """
 
     model: PhysicalModel
@@ -56,6 +57,7 @@ class Comparison:
     predictions: list[Floats]
     outlying: list[Outlying] = field(default_factory=list)
     figures: list[KeyFigure] = field(default_factory=list)
+    scale_doubts: list[Finding] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         tables, units = as_told.tables_of(self.model), {p.name: p.unit for p in self.model.nuisances}
@@ -82,12 +84,13 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     floating = floating_of(model.campaign)
     runs = [run | {"near_no_torque": floating.get(run["run"], 0)} for run in runs_of(space, predictions)]
     found = outlying(space.records)
-    doubts = [f"{d.text}; {d.remedy}" for d in (*doubts_of(zip(space.records, predictions), campaign), *locked_doubts(campaign))]
+    scales = doubts_of(zip(space.records, predictions), campaign)
+    doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *locked_doubts(campaign))]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model))
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures)
+    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures, scales)
 
 
 def floating_of(campaign: Campaign) -> dict[str, int]:

@@ -13,6 +13,7 @@ from pages.look import Trace
 STROKE, SIGN = 0.6, 0.55
 # What a sign of a label takes [mm].
 SIGN_WIDTH = 1.3
+INCH = 25.4
 DASHES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-.", "longdash": (0, (8, 3))}
 SYMBOLS = {
     "circle": "o", "diamond": "D", "square": "s", "x": "x", "cross": "+", "triangle-up": "^", "line-ew-open": "_", "line-ns-open": "|", "circle-open": "o",
@@ -102,8 +103,23 @@ def bars(axes: Any, trace: Trace, alike: Sequence[Trace]) -> None:
     drawn = (axes.barh if lying else axes.bar)(at, values, spacing * thick, base, color=colours, label=name_of(trace), zorder=2)
     if isinstance(trace.get("text"), list):
         axes.bar_label(drawn, [spelled(text) for text in trace["text"]], padding=2, fontsize=6.5)
-    if worded:
-        getattr(axes, "set_yticks" if lying else "set_xticks")(np.arange(len(words)), [spelled(word) for word in words])
+    names = [spelled(word) for word in words]
+    if worded and lying:
+        axes.set_yticks(np.arange(len(words)), names)
+    elif worded:
+        named = standing_apart(axes, names, [max(abs(float(v or 0.0)) for v in tall) for tall in zip(*(other["y"] for other in alike))])
+        axes.set_xticks(named, [names[k] for k in named])
+
+
+def standing_apart(axes: Any, names: Sequence[str], tall: Sequence[float]) -> list[int]:
+    """Places of upright bars whose names do not run together below the axis, as the page has them: the tallest keep theirs first."""
+    cell = INCH * axes.figure.get_figwidth() * axes.get_position().width / len(names)
+    wide = [SIGN_WIDTH * max(len(line) for line in name.split("\n")) for name in names]
+    kept: list[int] = []
+    for k in sorted(range(len(names)), key=lambda k: -tall[k]):
+        if all(abs(k - other) * cell > 0.5 * (wide[k] + wide[other]) + SIGN_WIDTH for other in kept):
+            kept.append(k)
+    return sorted(kept)
 
 
 def polar_curve(axes: Any, trace: Trace) -> None:

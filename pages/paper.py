@@ -14,7 +14,7 @@ from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart
 from pages.cells import heat, is_worded, least_height
 from pages.look import Figure, Layout, Trace
-from pages.marks import SIGN_WIDTH, bars, line_of, polar_curve, spelled
+from pages.marks import INCH, SIGN_WIDTH, bars, line_of, polar_curve, spelled
 
 ENDINGS = (".svg", ".pdf", ".png")
 # Widths of a paper's columns [mm]: one, one and a half, both (Elsevier's; IEEE's are 88 and 181).
@@ -22,7 +22,8 @@ WIDTHS = {"single": 90.0, "middle": 140.0, "double": 190.0}
 NARROWEST, WIDEST = 30.0, 1000.0
 # What a column of the page is wide on the screen [px], for a figure's height in proportion; curves have a share of the width, rows of cells some mm, at least.
 SCREEN_COLUMN, FLATTEST, LOWEST = 92.0, 0.6, 25.0
-INCH = 25.4
+# Upright bars have a share of the width, too, for the title of their axis stands beside them.
+LOWEST_BARS = 0.5
 # What is left of a plot's height when labels and legend have theirs.
 SHARE_OF_AXES = 0.75
 # Of a picture's width, what a line of the title below it may take.
@@ -103,6 +104,8 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
 
     lines = any(trace.get("type") in ("scatter", "scatterpolar") for trace in figure.data)
     height = max(FLATTEST if lines else LOWEST / width, figure.height / (SCREEN_COLUMN * max(figure.columns, 6))) * width
+    if any(trace.get("type") == "bar" and trace.get("orientation") != "h" for trace in figure.data):
+        height = max(height, LOWEST_BARS * width)
     if figure.aspect:
         across, _, along = figure.aspect.partition("/")
         height = width * float(along or 1.0) / float(across)

@@ -5,6 +5,8 @@ import pytest
 
 from discrepancy.page import maps
 from discrepancy.page.panels import band, ways
+from pages import look
+from pages.look import Figure
 
 
 def area_of(trace):
@@ -40,3 +42,23 @@ def test_a_map_of_one_column_is_a_table():
     figures, tables = maps.localisation("place", [*places, places[0] | {"dependence": "load"}], 1e-3)
     # Beside a map, what is significant answers for itself.
     assert len(figures) == 1 and [row[1] for row in tables[0].rows] == ["along torque"]
+
+
+def test_orders_in_a_picture_have_names_that_stand_apart_and_a_whole_title():
+    """Of neighbours the tallest is named; bars are high enough for the title beside them."""
+    pytest.importorskip("matplotlib", reason="no matplotlib: pip install matplotlib")
+    from pages.paper import drawn
+
+    orders = [*range(111, 123), 156, 195]
+    heights = [0.1] * 5 + [3.0] + [0.2] * 6 + [1.0, 2.0]
+    data = [{"type": "bar", "name": name, "x": [str(o) for o in orders], "y": heights} for name in ("measured", "predicted")]
+    layout = look.layout(barmode="group", showlegend=True, xaxis=look.axis("order", type="category", tickangle=0), yaxis=look.axis("transmission error [arcsec]"))
+    picture = drawn(Figure("response_orders_x", "", "", data, layout, 12, 260))
+    picture.canvas.draw()
+    (axes,) = picture.axes
+    named = [label for label in axes.get_xticklabels() if label.get_text()]
+    boxes = [label.get_window_extent() for label in named]
+    assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:])) and {"116", "195"} <= {label.get_text() for label in named}
+    title, whole = axes.yaxis.label.get_window_extent(), picture.bbox
+    assert whole.y0 <= title.y0 and title.y1 <= whole.y1 and "transmission error" in axes.get_ylabel().replace("\n", " ")
+    assert axes.get_window_extent().height / picture.dpi * 25.4 > 20.0

@@ -166,6 +166,50 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     assert not any(question in said["text"] for said in (*found["proposal"]["doubts"], *found["findings"]))
 
 
+def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_at_once(tmp_path, capsys):
+    """The factor survives saving, and the page's command writes the same; a factor in a unit is none."""
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    given = {"reducer": "RV20E-121", "tags": {"locked": "output"}}
+    header = view(folder)["proposal"]["runs"][0]["columns"]["value"]["header"]
+    for part, text, words in (("units", "arcsec/3437.75", "is not known.*a factor is no part of a unit"), ("units", "parsnip", "'parsnip' is not known"), ("scales", "much", "is no number"),
+                              ("scales", "0", "other than 0")):  # fmt: skip
+        with pytest.raises(InputFault, match=words) as refused:
+            wish(folder, {**given, part: {f"loop_20degC_1.csv:{header}": text}})
+        assert "--" not in str(refused.value)
+    wish(folder, {**given, "scales": {f"loop_20degC_1.csv:{header}": "1/8"}})
+    save(folder)
+    found = view(folder)
+    assert found["same"] and found["proposal"]["runs"][0]["columns"]["value"]["scale"] == 0.125 and "scale = 0.125" in found["text"]
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+
+
+def test_what_is_wrong_with_numbers_stands_open_and_in_is_told_all_that_the_check_says(tmp_path, capsys):
+    """A scale, which takes a model, is asked for apart and kept; what of the page is open is of numbers alone."""
+    from workbench.intake import wish
+    from workbench.scales import scales
+
+    folder = opened(tmp_path / "b")
+    rows = "\n".join(f"{t},{3000 * t + 40 * (t % 7)}" for t in range(-160, 170, 4))
+    folder.new_file("loop_20degC_1.csv", f"torque [Nm],turning [arcsec]\n{rows}\n".encode())
+    assert scales(folder) == {"findings": []}
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "output"}})
+    save(folder)
+    (scale,) = scales(folder)["findings"]
+    assert scale["open"] and scale["text"].startswith("run loop_20degC_1: hysteresis varies by") and folder.recall("scales")["findings"] == [scale]
+    told = [scale, *view(folder)["findings"]]
+    assert [finding["text"] for finding in told if finding["open"]] == [scale["text"]]
+    capsys.readouterr()
+    main(["campaign", "check", str(folder.root), "--json"])
+    said = json.loads(capsys.readouterr().out)
+    assert {finding["text"] for finding in told} == {finding["text"] for finding in (*said["problems"], *said["warnings"])}
+    folder.campaign.write_text(folder.campaign.read_text().replace('unit = "arcsec"', 'unit = "urad", scale = 0.01'))
+    assert scales(folder) == {"findings": []}
+
+
 def test_a_head_that_says_motor_needs_no_mending(tmp_path):
     from workbench.intake import wish
 

@@ -151,6 +151,49 @@ def test_whose_angle_it_is_is_doubted_and_chosen_beside_the_columns(bench, tmp_p
     assert page.get_by_label("whose angle").input_value() == "input"
 
 
+def test_a_unit_is_refused_where_it_is_typed_and_a_scale_stays(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    page.reload()
+    page.get_by_label("unit of Verdrehung [arcmin]").select_option("other…")
+    page.get_by_label("unit", exact=True).fill("arcmin/3437.75")
+    page.keyboard.press("Tab")
+    cell = page.locator("td", has=page.get_by_label("unit", exact=True))
+    cell.get_by_text("a factor is no part of a unit").wait_for()
+    assert page.get_by_label("unit", exact=True).input_value() == "arcmin/3437.75"
+    page.get_by_label("scale of Verdrehung [arcmin]").fill("1/3437.75")
+    page.keyboard.press("Tab")
+    page.get_by_label("unit of Verdrehung [arcmin]").wait_for()
+    bench.view("in")
+    page.reload()
+    page.get_by_label("scale of Verdrehung [arcmin]").wait_for()
+    assert page.get_by_label("scale of Verdrehung [arcmin]").input_value() == "1/3437.75" and "scale = 0.0002908" in page.locator("pre.file").text_content()
+
+
+def test_families_of_one_quantity_are_corrected_together_and_conditions_in_one_place(bench, tmp_path):
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", [str(loop_file(tmp_path / name, 200, 400.0)) for name in ("cold_0degC_1.csv", "warm_40degC_1.csv")])
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    page.get_by_label("the same for all of this quantity").first.check()
+    unit = page.get_by_label("unit of Verdrehung [arcmin]")
+    unit.first.select_option("arcsec")
+    while [one.input_value() for one in unit.all()] != ["arcsec", "arcsec"]:
+        page.wait_for_timeout(100)
+    # The box stands at the height of its row's fields.
+    page.get_by_role("checkbox", name="held out").first.check()
+    page.locator("label.held .reason").first.wait_for()
+    middles = page.evaluate("""() => [...document.querySelector('label.held .reason').closest('tr').querySelectorAll('input')].map((e) => {
+      const box = e.getBoundingClientRect(); return box.top + box.height / 2; })""")
+    assert max(middles) - min(middles) < 2
+    assert "fault" not in page.evaluate("async () => (await fetch('in/save', { method: 'POST', body: '{}' })).text()")
+    page.goto(f"{bench.address}#in")
+    page.reload()
+    page.locator("#cells-runs").wait_for()
+    assert page.locator("#cells-conditions").count() == 0
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)
@@ -228,6 +271,54 @@ MILLION = """async () => {
   }"""
 
 
+def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
+    """The error on unused runs rose: in bad colours, no units to build, the other of what was named to try instead."""
+    page = bench.page
+    page.goto(bench.address)
+    refused, kept = (page.evaluate(ADDED, [is_kept, after]) for is_kept, after in ((False, 25.5), (True, 1.2)))
+    assert "How the error fell" not in refused["heads"] and "How the error fell" in kept["heads"]
+    assert any(head.startswith("Refused: crank eccentricity + raceway wear (inner)") for head in refused["heads"])
+    assert refused["after"] == "bad" and kept["after"] == "good"
+    assert not {"Look at the better model", "Build its FMUs"} & set(refused["buttons"]) and "Build its FMUs" in kept["buttons"]
+    assert {"Try crank eccentricity alone", "Try raceway wear (inner) alone", "Back to the answer"} <= set(refused["buttons"])
+
+
+# What stands below an answer once its two effects were added.
+ADDED = """async ([kept, after]) => {
+    const { addPart, ladder } = await import('./static/better.js');
+    const effects = ['crank_eccentricity', 'raceway_wear.inner'], page = { cards: [], sections: [] };
+    const step = { effects, kept, verdict: kept ? 'helped' : 'did not help', training_before: 9, training_after: 2, held_out_before: 4.82, held_out_after: after };
+    const answer = { model: 'RV20E-121', effects: effects.map((e) => ({ candidates: [e] })), base_off: [], confusable: [], rejected: [] };
+    const extension = { kept, verdict: step.verdict, reason: 'error on unused runs went elsewhere', effects, steps: [step], left: '', page, ladder: page, command: '' };
+    const bag = { answer, extension, built: null, context: { busy: () => '', model: () => 'RV20E-121' }, old: '' };
+    const place = document.createElement('div');
+    place.append(addPart(bag), ladder(bag));
+    const texts = (what) => [...place.querySelectorAll(what)].map((e) => e.textContent);
+    return { heads: texts('h2, h3'), buttons: texts('button'), after: place.querySelectorAll('#ladder tbody td')[4].firstElementChild.className };
+  }"""
+
+
+def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
+    page = bench.page
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    cut = page.evaluate("""async () => {
+      const { h, table } = await import('./static/dom.js'), place = document.getElementById('view');
+      place.replaceChildren(h('div', { class: 'panel' }, table(['signal', 'changes it by', 'error before', 'after'], [['transmission error', '0.0777 arcsec', '0.467 arcsec', '0.467 arcsec']])));
+      const box = place.querySelector('.scroll'), work = document.getElementById('work');
+      work.replaceChildren(h('b', {}, 'Looking for the next experiment'), h('progress'), h('span', { class: 'doing' }, 'screening, pin_seats.four_waves: 23 of 86, about 36 s left'), h('button', {}, 'Stop'));
+      work.hidden = false;
+      return [box.scrollWidth - box.clientWidth, getComputedStyle(box.querySelectorAll('td')[3], '::before').content, work.offsetHeight];
+    }""")
+    assert cut[:2] == [0, '"after "'] and cut[2] < 42
+    lines = page.evaluate("""async () => {
+      const { folded } = await import('./static/paint.js'), c = document.createElement('canvas').getContext('2d');
+      return folded(c, '1500rpm_167N.m_warm', c.measureText('1500rpm_167N.').width);
+    }""")
+    assert "".join(lines) == "1500rpm_167N.m_warm" and len(lines) > 1
+
+
 def test_names_beside_each_other_are_told_by_what_differs(bench):
     page = bench.page
     page.goto(bench.address)
@@ -261,6 +352,46 @@ def test_a_reducer_that_is_read_says_so(bench):
     held[0].continue_()
     page.get_by_text("Choose a reducer, or complete one").wait_for()
     assert page.get_by_text("Reading the reducer…").count() == 0
+
+
+def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
+    """Neither while the next one is still fetched nor when what the former waited for comes at last."""
+    page, held = dropped(bench, tmp_path), {}
+    page.select_option("#measured", "RV20E-121")
+    page.locator("#save:enabled").wait_for()
+    page.evaluate("() => fetch('in/save', { method: 'POST', body: '{}' })")
+    page.route("**/try", lambda route: held.setdefault("try", route))
+    page.route("**/static/reducer.js", lambda route: held.setdefault("reducer", route))
+    page.click("#tab-try")
+    page.get_by_text("Making the model ready…").wait_for()
+    page.click("#tab-reducer")
+    page.locator("#tab-reducer[aria-selected=true]").wait_for()
+    tries = page.locator("#view").get_by_placeholder("search effects").or_(page.get_by_text("Making the model ready"))
+    assert tries.count() == 0 and page.locator("#view").inner_text() == "Loading…"
+    held["reducer"].continue_()
+    page.get_by_role("button", name="Complete one from a few numbers").wait_for()
+    held["try"].fulfill(status=400, json={"fault": "too late"})
+    page.wait_for_timeout(300)
+    assert tries.count() == 0 and page.get_by_text("too late").count() == 0
+
+
+def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
+    page, held = bench.page, []
+    page.goto(bench.address)
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    page.route("**/results/life/report*", lambda route: held.append(route))
+    page.evaluate("""async () => {
+      const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true } } };
+      const place = document.getElementById('view');
+      place.replaceChildren();
+      show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
+    }""")
+    word = page.get_by_text("Drawing the report…")
+    word.wait_for()
+    while not held:
+        page.wait_for_timeout(50)
+    held[0].fulfill(body="<p>report</p>", content_type="text/html")
+    word.wait_for(state="hidden")
 
 
 @pytest.mark.campaign

@@ -91,6 +91,12 @@ def test_what_could_not_be_read_is_refused_and_nothing_is_written(folder, place,
     assert sorted(p.name for p in folder.root.iterdir() if not p.name.startswith(".w")) == ["a.csv", "b.csv", "campaign.toml"]
 
 
+def test_a_factor_of_one_column_is_a_cell(folder):
+    assert "scale = 0.25" in put(folder, ["runs", 0, "columns", "value", "scale"], "1/4")
+    assert view(folder)["cells"]["runs"][0]["columns"]["value"]["scale"] == 0.25
+    assert "scale" not in put(folder, ["runs", 0, "columns", "value", "scale"], "")
+
+
 def test_an_older_view_of_the_file_is_refused(folder):
     of = cells(folder)["of"]
     put(folder, ["conditions", "warm", "temperature"], "39 degC")

@@ -1,20 +1,28 @@
-"""What is doubted of a campaign's columns, in words of the page: told at the file's row, above the chart and before a verdict, where a click mends it."""
+"""What is doubted of a campaign's columns and numbers, in words of the page: at the file's row, above numbers and before a verdict, mended by a click."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from discrepancy.campaign.angle_doubts import angle_doubts
+from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.mending import TITLES
+from discrepancy.campaign.repetition_words import words
+from discrepancy.repetitions import outlying
 
 if TYPE_CHECKING:
     from discrepancy.campaign.findings import Finding
     from discrepancy.campaign.model import Campaign
 
+# Findings of numbers that cannot be, or hardly: they stand open above whatever is made of the numbers, all others are a list to be opened.
+OF_NUMBERS = ("implausible scale", "impossible torque", "outlying samples", "outlying repetition", "rows out of order", "loop against the torque",
+              "loop the wrong way round", "angle jumps", "time runs back")  # fmt: skip
+
 
 def as_told(finding: "Finding") -> dict[str, Any]:
-    """With the column that it is about and, where a click mends it, the role that the column takes then and that role's title."""
+    """With the column that it is about and, where a click mends it, the role that the column takes then and that role's title; ``open``: see ``OF_NUMBERS``."""
     of = finding.of
-    told = {"level": finding.level, "text": finding.text, "remedy": of.remedy(on_page=True) if of and of.role else finding.remedy}
+    told = {"level": finding.level, "text": finding.text, "remedy": of.remedy(on_page=True) if of and of.role else finding.remedy,
+            "open": finding.code in OF_NUMBERS}  # fmt: skip
     return told | ({"column": of.column, "role": of.role, "title": TITLES.get(of.role, "")} if of else {})
 
 
@@ -23,8 +31,10 @@ def doubts(campaign: "Campaign") -> list[dict[str, Any]]:
     return [as_told(finding) for finding in angle_doubts(campaign)]
 
 
-def apart(warnings: Sequence[str], campaign: "Campaign") -> tuple[list[dict[str, Any]], list[str]]:
-    """``doubts``, and the warnings of a result less those that they tell."""
-    found = angle_doubts(campaign)
-    told = {finding.sentence for finding in found}
-    return [as_told(finding) for finding in found], [text for text in warnings if text not in told]
+def apart(warnings: Sequence[str], campaign: "Campaign", more: "Sequence[Finding]" = ()) -> tuple[list[dict[str, Any]], list[str]]:
+    """What is doubted of angles and numbers, ``more`` among it, and the warnings of a result less those that it tells."""
+    found = [*more, *(finding for finding in check_campaign(campaign).findings if finding.of or finding.code in OF_NUMBERS)]
+    told = {text for finding in found for text in (finding.sentence, f"{finding.text}; {finding.remedy}")}
+    # Of a repetition a result says besides what the model makes of it.
+    repetitions = tuple(words(repetition) for repetition in outlying(campaign.records))
+    return [as_told(finding) for finding in found], [text for text in warnings if text not in told and not text.startswith(repetitions)]

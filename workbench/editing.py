@@ -12,6 +12,7 @@ from discrepancy.campaign.load import load_campaign
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
+from workbench.form import factor
 
 # Of a condition what is one word; of a run's column what says how it is read.
 CONDITION = tuple(name for name in ConditionEntry.model_fields if name not in ("interventions", "notes"))
@@ -118,7 +119,9 @@ def fitting(before: Any, key: str, value: Any) -> Any:
     text = str(value if value is not None else "").strip()
     if not text:
         return None
-    if key == "scale" or (isinstance(before, (int, float)) and not isinstance(before, bool)):
+    if key == "scale":
+        return factor(text, key)
+    if isinstance(before, (int, float)) and not isinstance(before, bool):
         try:
             number = float(text)
         except ValueError:

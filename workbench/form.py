@@ -29,6 +29,18 @@ def whole(value: Any, what: str) -> int:
     return int(found)
 
 
+def factor(value: Any, what: str) -> float:
+    """What a column is multiplied by: a number, or a fraction such as 1/3437.75."""
+    above, _, below = str(value).partition("/")
+    divisor = number(below, what) if below else 1.0
+    if divisor == 0.0:
+        raise InputFault(f"{what}: {value!r} divides by nothing")
+    found = number(above, what) / divisor
+    if found == 0.0:
+        raise InputFault(f"{what}: a number other than 0 is needed")
+    return found
+
+
 def exactly(value: float) -> str:
     """As a command takes it, with all its digits."""
     return f"{value:.15g}"

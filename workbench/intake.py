@@ -27,6 +27,7 @@ from reducers.library import available
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
+from workbench.form import exactly, factor, number
 
 # Points of the little curve that shows what a column looks like, and columns of a file that are shown.
 POINTS, MOST_COLUMNS = 80, 40
@@ -59,19 +60,15 @@ def wishes_of(given: Mapping[str, Any]) -> Wishes:
     texts = {}
     for key in ("units", "columns", "quantities", "conditions", "tags"):
         texts[key] = {str(name): str(value) for name, value in mapping(given, key).items() if str(value).strip()}
-    counts = {}
-    for column, steps in mapping(given, "counts").items():
-        try:
-            counts[str(column)] = float(steps)
-        except (TypeError, ValueError):
-            raise InputFault(f"counts of {column!r}: {steps!r} is no number of steps a turn") from None
+    counts = {str(column): number(steps, f"counts of {column}") for column, steps in mapping(given, "counts").items()}
+    scales = {str(column): factor(text, f"scale of {column}") for column, text in mapping(given, "scales").items()}
     held = given.get("held_out")
     names = given.get("names", ())
     if not isinstance(names, (list, tuple)) or not (held is None or isinstance(held, list)):
         raise InputFault("names and held_out are lists")
     return Wishes(str(given["reducer"]) if given.get("reducer") else None, tuple(str(n) for n in names if str(n).strip()), texts["units"], texts["columns"],
                   counts, texts["quantities"], texts["conditions"], None if held is None else tuple(map(str, held)), texts["tags"],
-                  str(given["angle_of"]) if given.get("angle_of") else None)  # fmt: skip
+                  str(given["angle_of"]) if given.get("angle_of") else None, scales)  # fmt: skip
 
 
 def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -290,10 +287,10 @@ def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
     words += ["--reducer", wishes.reducer] if wishes.reducer else []
     for pattern in wishes.names:
         words += ["--names", pattern]
-    for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("counts", wishes.counts), ("quantity", wishes.quantities),
-                          ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
+    for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("scale", wishes.scales), ("counts", wishes.counts),
+                          ("quantity", wishes.quantities), ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
         for name, value in pairs.items():
-            words += [f"--{option}", f"{name}={value:g}" if isinstance(value, float) else f"{name}={value}"]
+            words += [f"--{option}", f"{name}={exactly(value) if isinstance(value, float) else value}"]
     words += ["--angle-of", wishes.angle_of] if wishes.angle_of else []
     if wishes.held_out is not None:
         words += ["--held-out", *wishes.held_out]

@@ -55,7 +55,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     columns = Columns()
     named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
     page = comparison.page(result)
-    doubts, warnings = apart(page.warnings, model.campaign)
+    doubts, warnings = apart(page.warnings, model.campaign, result.scale_doubts)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cards": [asdict(c) for c in page.cards],

@@ -51,6 +51,7 @@ class Workbench:
             Route("/", self.index), Route("/events", self.events), Route("/plotly.js", self.plotly), Route("/narrow.js", self.narrow),
             Route("/in", said(self.intake), methods=get), Route("/in/choices", said(self.choices), methods=get),
             Route("/in/wishes", said(self.wish), methods=post), Route("/in/save", said(self.save), methods=post),
+            Route("/in/scales", said(self.scales), methods=get),
             Route("/in/edit", said(self.edit), methods=post), Route("/in/mend", said(self.mend), methods=post),
             Route("/files/{name:path}", said(self.upload), methods=["PUT"]), Route("/files/{name:path}", said(self.remove), methods=["DELETE"]),
             Route("/state", said(self.state), methods=get), Route("/state", said(self.set_state), methods=post),
@@ -88,6 +89,12 @@ class Workbench:
         from workbench.intake import choices
 
         return JSONResponse(await run_in_threadpool(choices))
+
+    async def scales(self, _: Request) -> Response:
+        """What takes a model and some seconds, apart from what is read."""
+        from workbench.scales import scales
+
+        return JSONResponse(await run_in_threadpool(scales, self.folder))
 
     async def wish(self, request: Request) -> Response:
         from workbench.intake import wish

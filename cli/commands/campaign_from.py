@@ -40,6 +40,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--unit", "COLUMN=UNIT", "unit of a column, where the guess is wrong; FILES:COLUMN=UNIT for some files ('loop*:y=arcmin')"),
         ("--column", "ROLE=COLUMN", "what a column is: value, angle, input_angle, torque, time, output_speed, temperature ... (docs/campaigns.md);"
          " FILES:ROLE=COLUMN for some files"),
+        ("--scale", "COLUMN=FACTOR", "what a column is multiplied by ('y=0.001'; -1: the other sense); FILES:COLUMN=FACTOR for some files"),
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
@@ -112,7 +113,7 @@ def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     words = ["rvwear", "campaign", "from", *options.files]
     for option in ("output", "reducer", "angle-of"):
         words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
-    for option in ("names", "unit", "column", "counts", "quantity", "condition", "tag"):
+    for option in ("names", "unit", "column", "scale", "counts", "quantity", "condition", "tag"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
     if options.held_out is not None:
         words += ["--held-out", *options.held_out]
@@ -136,12 +137,21 @@ def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":
     for column, steps in counts.items():
         if not steps.strip().isdigit() or int(steps) == 0:
             raise InputFault(f"--counts {column}={steps}: the steps of one turn are a whole number, for instance {column}=4096")
+    scales = {column: factor_of(column, text) for column, text in pairs("--scale", options.scale).items()}
     quantities = pairs("--quantity", [text if "=" in text else f"*={text}" for text in options.quantity])
     return Wishes(
         reducer, tuple(options.names), pairs("--unit", options.unit), pairs("--column", options.column), {c: float(n) for c, n in counts.items()}, quantities,
         pairs("--condition", options.condition), None if options.held_out is None else tuple(options.held_out), pairs("--tag", options.tag),
-        options.angle_of,
+        options.angle_of, scales,
     )  # fmt: skip
+
+
+def factor_of(column: str, text: str) -> float:
+    """InputFault where it is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputFault(f"--scale {column}={text}: the factor is a number, for instance {column}=0.001") from None
 
 
 def pairs(option: str, texts: Sequence[str]) -> dict[str, str]:

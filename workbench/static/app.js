@@ -34,9 +34,10 @@ export const context = { state: null, go, act, start, busy, modelChooser, choose
 const main = document.getElementById("view"),
   work = document.getElementById("work"),
   gone = document.getElementById("gone");
-let current = null,
-  opening = 0,
-  shown = "";
+// The view that was drawn last, with the place that it alone draws into; it is left as soon as another one is asked for.
+let last = null,
+  opening = 0;
+const current = () => (last?.place.isConnected ? last.view : null);
 const loaded = new Set();
 
 // colours ---------------------------------------------------------------------------------
@@ -50,7 +51,7 @@ try {
 function paint() {
   document.documentElement.classList.toggle("dark", chosen ? chosen === "dark" : dark.matches);
   recolour();
-  current?.recolour?.();
+  current()?.recolour?.();
 }
 dark.addEventListener("change", paint);
 document.getElementById("colours").addEventListener("click", () => {
@@ -87,23 +88,27 @@ async function open(name) {
   const mine = ++opening;
   // A view that was never opened cannot be had from a server that is gone: the one that is seen stays.
   if (!gone.hidden && !loaded.has(name)) {
-    if (shown) history.replaceState(null, "", `#${shown}`);
+    if (last) history.replaceState(null, "", `#${last.name}`);
     return;
   }
   select(name);
+  // Whatever the view that is left still waits for comes into a place that is no part of the page any more.
+  const place = h("div", {}, h("p", { class: "quiet", role: "status" }, "Loading…"));
+  clear(main, place);
   const module = await import(`./${name}.js`).catch(() => null);
   if (mine !== opening) return;
   if (!module) {
     lost();
-    if (shown) select(shown);
+    if (!last) return;
+    select(last.name);
+    clear(main, last.place);
     return;
   }
   loaded.add(name);
-  shown = name;
-  current?.close?.();
-  clear(main);
-  current = module.show(main, context);
-  if (context.state) current.update?.(context.state);
+  last?.view.close?.();
+  clear(place);
+  last = { name, place, view: module.show(place, context) };
+  if (context.state) last.view.update?.(context.state);
 }
 const wanted = () => (NAMES.includes(location.hash.slice(1)) ? location.hash.slice(1) : context.state?.saved ? "look" : "in");
 addEventListener("hashchange", () => open(wanted()));
@@ -168,7 +173,7 @@ function showWork(jobs) {
     work,
     h("b", {}, WORK[kind]),
     bar,
-    h("span", { class: "doing" }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h("span", { class: "doing", title: inner?.sentence }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
   );
@@ -181,7 +186,7 @@ function heard(state) {
   document.getElementById("folder").title = state.folder;
   showWork(state.jobs);
   if (first) open(wanted());
-  else current?.update?.(state);
+  else current()?.update?.(state);
   return state;
 }
 

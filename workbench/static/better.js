@@ -2,6 +2,7 @@
 
 import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
+import { offered, refusal } from "./refused.js";
 
 export function nextPart(bag) {
   const { next, context } = bag;
@@ -69,11 +70,9 @@ export function addPart(bag) {
   let anyway = false;
   // What a former model lacks may be in this one already.
   const busy = context.busy() || (old && `${old} Diagnose that first.`);
-  const named = answer.effects.flatMap((e) => e.candidates),
-    numbersOff = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
-  const one = answer.confusable.length ? answer.effects.map((e) => e.candidates[0]) : null;
-  const options = one ?? (named.length ? [named.join(" + ")] : numbersOff.length ? [numbersOff.join(" + ")] : answer.rejected.slice(0, 5).map((r) => r.name));
+  const options = offered(answer);
   if (!options.length) return null;
+  const add = (name) => context.start("extend", { model: answer.model, effects: name.split(" + "), anyway });
   let choice = options[0];
   const keep = h("input", {
     type: "checkbox",
@@ -109,11 +108,11 @@ export function addPart(bag) {
           "button",
           {
             type: "button",
-            class: "main",
+            class: extension && !extension.kept ? "" : "main",
             id: "extend",
             disabled: !!busy,
             title: busy || undefined,
-            onclick: () => context.start("extend", { model: answer.model, effects: choice.split(" + "), anyway }),
+            onclick: () => add(choice),
           },
           "Add it",
         ),
@@ -121,11 +120,13 @@ export function addPart(bag) {
       ),
       extension
         ? [
-            h(
-              "p",
-              { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
-              `${extension.effects.map(effectName).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
-            ),
+            extension.kept
+              ? h(
+                  "p",
+                  { class: `lead ${extension.verdict === "helped" ? "good" : "fair"}`, id: "added" },
+                  `${extension.effects.map(effectName).join(" + ")}: ${extension.verdict}; ${extension.reason}`,
+                )
+              : refusal(answer, extension, busy, add),
             extension.left ? h("p", { class: "fair", id: "left" }, extension.left) : null,
             cards(extension.page.cards),
             sections(extension.page.sections),
@@ -148,7 +149,12 @@ export function ladder(bag) {
       if (kind === "compare") context.go("look");
       context.start(kind, { model: "model.toml" });
     };
-  const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.training_before ?? 0]), 1);
+  const most = Math.max(...steps.flatMap((s) => [s.held_out_before ?? 0, s.held_out_after ?? 0, s.training_before ?? 0, s.training_after ?? 0]), 1),
+    inModel = steps.some((s) => s.kept !== false),
+    last = steps.at(-1),
+    fell = (last?.held_out_after ?? last?.training_after ?? 0) < (last?.held_out_before ?? last?.training_before ?? 0);
+  // An error that rose is no success, whatever became of the step.
+  const tone = (before, after) => (after > before ? "bad" : after < before ? "good" : "");
   const bar = (value, tone) =>
     value === null || value === undefined
       ? "–"
@@ -161,7 +167,7 @@ export function ladder(bag) {
   return h(
     "section",
     { id: "ladder" },
-    h("h2", {}, "How the error fell"),
+    h("h2", {}, extension.kept && fell ? "How the error fell" : "What became of the error"),
     h(
       "div",
       { class: "panel" },
@@ -171,24 +177,27 @@ export function ladder(bag) {
           s.effects.map(effectName).join(" + "),
           bar(s.training_before, "quiet"),
           bar(s.training_after, "quiet"),
-          bar(s.held_out_before, "bad"),
-          bar(s.held_out_after, "good"),
+          bar(s.held_out_before, "quiet"),
+          bar(s.held_out_after, tone(s.held_out_before, s.held_out_after)),
           `${s.verdict}${s.kept === false ? ", not kept" : ""}`,
         ]),
       ),
       extension.left ? h("p", { class: "fair" }, extension.left) : null,
       h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
-      h(
-        "div",
-        { class: "row" },
-        h(
-          "button",
-          { type: "button", id: "better", disabled: !!busy, title: busy || undefined, onclick: chosen("compare") },
-          "Look at the better model",
-        ),
-        h("button", { type: "button", id: "else", disabled: !!busy, title: busy || undefined, onclick: chosen("diagnose") }, "Is anything else missing?"),
-        h("button", { type: "button", id: "build", disabled: !!busy, title: busy || undefined, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
-      ),
+      // Where nothing was ever added there is no better model.
+      inModel
+        ? h(
+            "div",
+            { class: "row" },
+            h(
+              "button",
+              { type: "button", id: "better", disabled: !!busy, title: busy || undefined, onclick: chosen("compare") },
+              extension.kept ? (fell ? "Look at the better model" : "Look at the new model") : "Look at the model as it stands",
+            ),
+            h("button", { type: "button", id: "else", disabled: !!busy, title: busy || undefined, onclick: chosen("diagnose") }, "Is anything else missing?"),
+            h("button", { type: "button", id: "build", disabled: !!busy, title: busy || undefined, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
+          )
+        : null,
       built
         ? [
             h("h3", {}, "FMUs"),

@@ -32,7 +32,10 @@ export function choose(options, value, onchange, given = {}) {
   return list;
 }
 
-// A table with right-aligned columns of numbers; cells may be elements.
+// So many columns stand beside each other on a telephone.
+const MOST_BESIDE = 3;
+
+// A table with right-aligned columns of numbers; cells may be elements.  One of many columns becomes rows where the screen is narrow.
 export function table(head, rows, right = [], given = {}) {
   const side = (i) => (right.includes(i) ? { class: "num" } : {});
   return h(
@@ -40,7 +43,7 @@ export function table(head, rows, right = [], given = {}) {
     { class: "scroll" },
     h(
       "table",
-      given,
+      { class: head.length > MOST_BESIDE ? "rows" : undefined, ...given },
       h(
         "thead",
         {},

@@ -2,7 +2,7 @@
 
 import { choose, clear, command, h, note, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
-import { cells } from "./in_cells.js";
+import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
 import { drop, get, post, put } from "./net.js";
@@ -13,9 +13,9 @@ const ROLE = ["runs", "number", "columns", "role"];
 export function show(root, context) {
   let data = null,
     choices = null,
-    closed = false,
     taking = false;
   const faults = h("div"),
+    numbers = h("div", { id: "numbers" }),
     body = h("div", {}, h("p", { class: "quiet" }, "Reading the files…"));
   root.append(faults, body);
   const input = h("input", { type: "file", multiple: true, hidden: true, id: "files", onchange: () => upload([...input.files]) });
@@ -33,15 +33,37 @@ export function show(root, context) {
   root.addEventListener("dragleave", over);
   root.addEventListener("drop", dropped);
 
-  async function load() {
+  // One after the other, what is read anew too: each correction is meant for what the one before it left.
+  let corrected = Promise.resolve();
+  const inTurn = (next) => {
+    corrected = corrected.then(next, next);
+    return corrected;
+  };
+  const load = () => inTurn(read);
+  async function read() {
     // An empty folder needs nothing but its invitation.
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (found && choices && !closed) {
+    if (found && choices) {
       data = found;
       draw();
     }
+  }
+
+  // What of the numbers cannot be, or hardly, stands open before all else; scales are held against a model, which takes some seconds.
+  async function judge() {
+    const asked = data;
+    if (!data.campaign) {
+      clear(numbers);
+      return;
+    }
+    const read = (data.findings ?? []).filter((f) => f.open);
+    clear(numbers, doubtNotes(read, mend), data.scales ? null : h("p", { class: "quiet small", role: "status" }, "Holding the scale of the numbers against the model…"));
+    data.scales ??= (await get("in/scales").catch(() => ({ findings: [] }))).findings;
+    if (data !== asked) return;
+    const found = [...data.scales, ...read];
+    clear(numbers, found.length && data.own && !data.same ? h("p", { class: "quiet small" }, "Of campaign.toml as it was saved:") : null, doubtNotes(found, mend));
   }
 
   async function upload(files) {
@@ -65,26 +87,25 @@ export function show(root, context) {
     await load();
   }
 
-  // What was corrected goes to the folder, and the guesses come back anew; what was refused is shown as it was.
-  async function sent(path, given) {
-    const found = await context.act(post(path, given), faults);
+  // What was corrected goes to the folder, and the guesses come back anew; what was refused is shown as it was, or with the reason at ``place``.
+  async function sent(path, given, place = faults) {
+    const found = await context.act(post(path, given), place);
     if (found) {
       clear(faults);
       data = found;
     }
-    draw();
+    if (found || place === faults) draw();
+    return Boolean(found);
   }
-  const wish = (change) => {
-    const given = structuredClone(data.wishes);
-    change(given);
-    return sent("in/wishes", given);
-  };
-  const mend = (column, role) => sent("in/mend", { column, role });
-  // A cell of campaign.toml itself, one after the other: each is meant for the file as the one before it left it.
-  let corrected = Promise.resolve();
-  const correct = (place, value) => {
-    corrected = corrected.then(() => correctNow(place, value));
-  };
+  const wish = (change, place) =>
+    inTurn(() => {
+      const given = structuredClone(data.wishes);
+      change(given);
+      return sent("in/wishes", given, place);
+    });
+  const mend = (column, role) => inTurn(() => sent("in/mend", { column, role }));
+  // A cell of campaign.toml itself.
+  const correct = (place, value) => inTurn(() => correctNow(place, value));
   // What is refused is shown as it was.
   async function correctNow(place, value) {
     const found = await context.act(post("in/edit", { of: data.cells.of, place, value }), faults);
@@ -94,8 +115,9 @@ export function show(root, context) {
       data = found;
       // The cells stay: another of them may be in the hand by now.  Of a column with another role each has another place.
       if (!own && place.length !== ROLE.length) {
-        clear(document.getElementById("there"), elsewhere());
-        clear(document.getElementById("findings"), findings());
+        judge();
+        clear(root.querySelector("#there"), elsewhere());
+        clear(root.querySelector("#findings"), findings());
         return;
       }
     }
@@ -115,6 +137,9 @@ export function show(root, context) {
     context,
     faults,
     load,
+    // Quantities of which all files are corrected alike.
+    together: new Set(),
+    redraw: () => draw(),
   };
   const putIn = (part, key, value) =>
     wish((w) => {
@@ -131,14 +156,16 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, h("div", { id: "there" }, elsewhere()), data.cells ? cells(data.cells, choices.quantities, correct) : null, h("div", { id: "findings" }, findings()));
-      for (const id of open) if (id) document.getElementById(id)?.setAttribute("open", "");
+      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
+      for (const id of open) if (id) root.querySelector(`#${id}`)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
+      judge();
       return;
     }
     const held = document.activeElement?.id;
     clear(
       body,
+      numbers,
       head(),
       data.fault
         ? [
@@ -153,8 +180,9 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? cells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
+    judge();
     if (held) document.getElementById(held)?.focus();
   }
 
@@ -192,15 +220,15 @@ export function show(root, context) {
         ),
       ),
     );
-  // What is found of a column stands where the column does.
+  // What is found of a column stands where the column does, what is found of numbers above them.
   const ofColumn = (f) => f.column !== undefined;
   const findings = () => {
-    const found = (data.findings ?? []).filter((f) => !ofColumn(f));
+    const found = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open);
     return found.length
       ? h(
           "details",
           { open: found.some((f) => f.level === "problem") || found.length < 4 },
-          h("summary", {}, `${found.length} finding${found.length === 1 ? "" : "s"} of the check`),
+          h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
           found.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
         )
       : null;
@@ -328,12 +356,6 @@ export function show(root, context) {
       if (taking) return;
       if (count !== undefined && state.files !== count && data) load();
       count = state.files;
-    },
-    close() {
-      closed = true;
-      root.removeEventListener("dragover", over);
-      root.removeEventListener("dragleave", over);
-      root.removeEventListener("drop", dropped);
     },
   };
 }

@@ -1,21 +1,39 @@
 // A campaign.toml as it stands, corrected cell by cell: conditions, and the columns by which each file is read.
 
 import { choose, h, table, words } from "./dom.js";
+import { SCALE } from "./in_unit.js";
 
-// ``put(place, value)`` sends a correction; what is refused is shown as it was.  ``quantities`` have the roles that a column may take.
-export function cells(found, quantities, put) {
-  const field = (place, value, label, size = 12) =>
-    h("input", {
-      type: "text",
-      value: value ?? "",
-      size,
-      id: `cell-${place.join("-")}`,
-      "aria-label": label,
-      style: { width: `${Math.max(size, String(value ?? "").length + 2)}ch` },
-      onchange: (event) => put(place, event.target.value),
-    });
-  const tick = (place, value, label) =>
-    h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
+// ``put(place, value)`` sends a correction; what is refused is shown as it was.
+const fieldOf = (put) => (place, value, label, size = 12) =>
+  h("input", {
+    type: "text",
+    value: value ?? "",
+    size,
+    id: `cell-${place.join("-")}`,
+    "aria-label": label,
+    style: { width: `${Math.max(size, String(value ?? "").length + 2)}ch` },
+    onchange: (event) => put(place, event.target.value),
+  });
+
+export function conditionCells(found, put) {
+  const field = fieldOf(put),
+    tick = (place, value, label) =>
+      h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
+  const condition = (name) => [
+    h("b", {}, name),
+    ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
+  ];
+  return h(
+    "details",
+    { class: "panel", id: "cells-conditions" },
+    h("summary", {}, h("b", {}, "Correct conditions")),
+    table(["condition", ...found.keys.map(words)], Object.keys(found.conditions).map(condition), [], { class: "rows" }),
+  );
+}
+
+// ``quantities`` have the roles that a column may take.
+export function runCells(found, quantities, put) {
+  const field = fieldOf(put);
   const part = (r, i, role) =>
     quantities[r.quantity]
       ? choose(
@@ -26,10 +44,6 @@ export function cells(found, quantities, put) {
         )
       : h("span", { class: "quiet" }, words(role));
   const names = Object.keys(found.conditions);
-  const condition = (name) => [
-    h("b", {}, name),
-    ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
-  ];
   const run = (r, i) => [
     h("div", {}, h("b", {}, r.id), h("div", { class: "quiet small" }, r.file)),
     words(r.quantity),
@@ -44,17 +58,15 @@ export function cells(found, quantities, put) {
           part(r, i, role),
           field(["runs", i, "columns", role, "column"], c.column, `column of ${role} in ${r.id}`),
           field(["runs", i, "columns", role, "unit"], c.unit, `unit of ${role} in ${r.id}`, 8),
+          h("label", { class: "inline", title: SCALE }, "×", field(["runs", i, "columns", role, "scale"], c.scale, `scale of ${role} in ${r.id}`, 4)),
         ),
       ),
     ),
   ];
-  return [
-    h("details", { class: "panel", id: "cells-conditions" }, h("summary", {}, h("b", {}, "Correct conditions")), table(["condition", ...found.keys.map(words)], names.map(condition), [], { class: "rows" })),
-    h(
-      "details",
-      { class: "panel", id: "cells-runs" },
-      h("summary", {}, h("b", {}, "Correct the columns of single files")),
-      table(["run and file", "quantity", "condition", "roles, columns and units"], found.runs.map(run), [], { class: "rows" }),
-    ),
-  ];
+  return h(
+    "details",
+    { class: "panel", id: "cells-runs" },
+    h("summary", {}, h("b", {}, "Correct the columns of single files")),
+    table(["run and file", "quantity", "condition", "roles, columns, units and factors"], found.runs.map(run), [], { class: "rows" }),
+  );
 }

@@ -104,7 +104,7 @@ export function conditions(bag) {
           ? h("span", { class: "inline" }, label.querySelector("input"), " ", h("span", { class: "quiet" }, UNITS[key] ?? ""))
           : label;
       }),
-      h("label", { title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, ` ${held.reason}`) : ""),
+      h("label", { class: "held", title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, held.reason) : ""),
     ];
   });
   return h(
@@ -116,6 +116,6 @@ export function conditions(bag) {
       { class: "quiet small" },
       "Read from names and heads of the files; what stands here wins. Held-out conditions are never fitted: the error that counts is theirs.",
     ),
-    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows" })),
+    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );
 }

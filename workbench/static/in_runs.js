@@ -2,9 +2,10 @@
 
 import { choose, h, spark, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
+import { unitOf } from "./in_unit.js";
 import { drop } from "./net.js";
 
-const COLUMNS = ["role", "column", "curve", "unit", "why"];
+const COLUMNS = ["role", "column", "curve", "unit, scale", "why"];
 
 // Files that nothing could be made of: each with the reason, and a way out.
 export function unread({ data, context, faults, load }) {
@@ -36,7 +37,7 @@ export function runs(bag) {
   const { data } = bag;
   const groups = new Map();
   for (const run of data.proposal.runs) {
-    const key = JSON.stringify([run.quantity.value, Object.entries(run.columns).map(([role, e]) => [role, e.header, e.unit.value]), run.names, run.tags]);
+    const key = JSON.stringify([run.quantity.value, Object.entries(run.columns).map(([role, e]) => [role, e.header, e.unit.value, e.scale]), run.names, run.tags]);
     groups.set(key, [...(groups.get(key) ?? []), run]);
   }
   return h(
@@ -47,20 +48,37 @@ export function runs(bag) {
   );
 }
 
+// Families of one quantity are told apart by their names or units; what is corrected of one may be so of all.
+function alike(quantity, { together, redraw }) {
+  const box = h("input", {
+    type: "checkbox",
+    checked: together.has(quantity),
+    onchange: () => {
+      if (box.checked) together.add(quantity);
+      else together.delete(quantity);
+      redraw();
+    },
+  });
+  return h("label", { class: "inline small", title: `a unit, a scale or a quantity that is corrected here is so for all files of ${words(quantity)}` }, box, "the same for all of this quantity");
+}
+
 function group(bag, members) {
-  const { data, choices, wish, mend, putIn, context, faults, load } = bag;
+  const { data, choices, wish, mend, putIn, context, faults, load, together } = bag;
   const first = members[0],
     quantity = choices.quantities[first.quantity.value];
-  const own = [...new Set(members.map((m) => m.file.split("/").at(-1)))];
-  const forAll = (part, of, value) =>
+  const named = (runs) => [...new Set(runs.map((run) => run.file.split("/").at(-1)))],
+    own = named(members),
+    kin = named(data.proposal.runs.filter((run) => run.quantity.value === first.quantity.value));
+  // A correction is meant for the files of this family, or for all of its quantity.
+  const forAll = (part, of, value, place) =>
     wish((w) => {
       w[part] = { ...w[part] };
-      for (const name of own) {
+      for (const name of together.has(first.quantity.value) ? kin : own) {
         const key = of(name);
         if (value) w[part][key] = value;
         else delete w[part][key];
       }
-    });
+    }, place);
   const headers = (data.columns[first.file] ?? []).map((c) => c.name);
   const roles = Object.entries(quantity.roles).map(([role, r]) => [role, r.title]);
   // A column that takes a role of another gives that one its own, if it has one.
@@ -89,7 +107,7 @@ function group(bag, members) {
         { "aria-label": `column of ${role}` },
       ),
       column ? spark(column.curve) : "",
-      unitOf(entry, units, (unit) => forAll("units", (name) => `${name}:${entry.header}`, unit)),
+      unitOf(entry, { units, factor: data.wishes.scales?.[`${own[0]}:${entry.header}`] }, (part, value, place) => forAll(part, (name) => `${name}:${entry.header}`, value, place)),
       h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.column.reason}; unit: ${entry.unit.reason}`),
     ];
   });
@@ -156,6 +174,7 @@ function group(bag, members) {
         ),
         first.quantity.sure ? null : h("span", { class: "tag fair" }, "not sure"),
         tags,
+        kin.length > own.length ? alike(first.quantity.value, bag) : null,
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
@@ -216,24 +235,4 @@ function group(bag, members) {
       ),
     ),
   );
-}
-
-function unitOf(entry, units, change) {
-  const other = "other…",
-    all = units.includes(entry.unit.value) ? units : [entry.unit.value, ...units];
-  const list = choose(
-    [...all.map((u) => [u, u]), [other, other]],
-    entry.unit.value,
-    (value) => {
-      if (value !== other) {
-        change(value);
-        return;
-      }
-      const field = h("input", { type: "text", size: 8, "aria-label": "unit", onchange: () => change(field.value.trim()) });
-      list.replaceWith(field);
-      field.focus();
-    },
-    { "aria-label": `unit of ${entry.header}` },
-  );
-  return list;
 }

@@ -17,7 +17,9 @@ export function show(root, context) {
     hours = "10000",
     torque = "",
     plot = null,
-    report = null;
+    report = null,
+    // The report is large: its box is empty for seconds.
+    drawing = null;
   const top = h("div"),
     words = h("div"),
     chart = h("div", { class: "panel", hidden: true }),
@@ -140,7 +142,16 @@ export function show(root, context) {
       result
         ? [
             h("h2", {}, "On the parts, over the turn, by order"),
-            (report = h("iframe", { class: "report", src: embedded(), title: "report of the life", sandbox: "allow-scripts" })),
+            (drawing = h("p", { class: "quiet", role: "status" }, "Drawing the report…")),
+            (report = h("iframe", {
+              class: "report",
+              src: embedded(),
+              title: "report of the life",
+              sandbox: "allow-scripts",
+              onload: () => {
+                drawing.hidden = true;
+              },
+            })),
             h(
               "p",
               { class: "quiet small" },
@@ -169,7 +180,10 @@ export function show(root, context) {
     recolour: () => {
       plot?.later();
       lives.recolour();
-      if (report && report.getAttribute("src") !== embedded()) report.src = embedded();
+      if (report && report.getAttribute("src") !== embedded()) {
+        drawing.hidden = false;
+        report.src = embedded();
+      }
     },
     close: () => {
       plot?.destroy();

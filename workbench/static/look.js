@@ -130,8 +130,8 @@ export function show(root, context) {
 
   function redrawLists() {
     const before = document.activeElement?.type === "search";
-    document.getElementById("figures")?.replaceWith(figures());
-    const list = document.getElementById("signals");
+    root.querySelector("#figures")?.replaceWith(figures());
+    const list = root.querySelector("#signals");
     list?.replaceWith(signalChips());
     if (before) {
       const field = body.querySelector("input[type=search]");
@@ -158,7 +158,7 @@ export function show(root, context) {
                 condition = null;
                 shift = 0;
                 draw();
-                document.getElementById("curves")?.scrollIntoView({ block: "nearest" });
+                root.querySelector("#curves")?.scrollIntoView({ block: "nearest" });
               },
             },
             `${s.title} ${number(worst, 2)}×`,
@@ -246,7 +246,7 @@ export function show(root, context) {
       "div",
       { class: "panel" },
       chips,
-      signal.axis.name === "angle" ? doubtsBefore(result, context, "compare") : null,
+      signal.axis.name === "angle" ? doubtsBefore(result, context, "compare", (d) => d.column !== undefined) : null,
       plot.element,
       h(
         "div",

@@ -2,10 +2,17 @@
 
 import { h, number, table } from "./dom.js";
 import { distinct } from "./names.js";
-import { LEFT, RIGHT, fitting } from "./paint.js";
+import { LEFT, RIGHT, folded } from "./paint.js";
 import { Plot } from "./plot.js";
 
+const FONT = "11.5px system-ui, sans-serif";
 const SHOWN = 12;
+const STRONGEST = ["order", "measured", "predicted", "of the residual", "makes it"];
+// A row of the waterfall, a line of its name, and what stands below the rows [px].
+const ROW = 26,
+  LINE = 13,
+  BELOW = 34,
+  MOST_TALL = 420;
 
 export function orders(signal, condition, result, plots) {
   const chosen = signal.spectra.find((s) => s.condition === condition);
@@ -54,13 +61,13 @@ export function orders(signal, condition, result, plots) {
         {},
         h("summary", {}, `The ${strongest.length} strongest orders, and what makes them`),
         table(
-          ["order", "measured", "predicted", "of the residual", "makes it"],
+          STRONGEST,
           strongest.map((o) =>
             h(
               "tr",
               { tabindex: 0, onfocus: () => hover(o), onpointerenter: () => hover(o) },
               [h("b", {}, String(o)), number(chosen.measured[o], 3), number(chosen.predicted[o], 3), number(chosen.residual[o], 3), makersOf(o, result)].map(
-                (cell, i) => h("td", { class: i && i < 4 ? "num" : undefined }, cell),
+                (cell, i) => h("td", { class: i && i < 4 ? "num" : undefined, "data-head": STRONGEST[i] }, cell),
               ),
             ),
           ),
@@ -95,7 +102,7 @@ function about(order, result, spectrum, unit) {
 // Conditions above each other, orders along: the darker the stronger, of what was measured or of what is left.
 function waterfall(signal, said, result) {
   const canvas = h("canvas", {
-    style: { width: "100%", height: `${Math.min(420, 26 * signal.spectra.length + 40)}px` },
+    style: { width: "100%", height: `${Math.min(MOST_TALL, ROW * signal.spectra.length + BELOW)}px` },
     role: "img",
     "aria-label": `orders of ${signal.title} for each condition`,
   });
@@ -103,24 +110,28 @@ function waterfall(signal, said, result) {
   const names = distinct(signal.spectra.map((s) => s.condition));
   const draw = () => {
     const ratio = window.devicePixelRatio || 1,
-      width = canvas.clientWidth,
-      height = canvas.clientHeight;
+      width = canvas.clientWidth;
     if (!width) return;
+    const left = Math.min(150, width * 0.3),
+      c = canvas.getContext("2d");
+    // A name that is wider than its place takes more lines, and all rows as much height.
+    c.font = FONT;
+    const lines = names.map((name) => folded(c, name, left - 8)),
+      height = Math.max(canvas.clientHeight, (Math.max(...lines.map((l) => l.length)) * LINE + 5) * names.length + BELOW);
+    canvas.style.height = `${height}px`;
     canvas.width = width * ratio;
     canvas.height = height * ratio;
-    const c = canvas.getContext("2d"),
-      style = getComputedStyle(document.documentElement);
+    const style = getComputedStyle(document.documentElement);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    c.font = "11.5px system-ui, sans-serif";
-    const left = Math.min(150, width * 0.3),
-      tall = (height - 34) / signal.spectra.length,
+    c.font = FONT;
+    const tall = (height - BELOW) / signal.spectra.length,
       count = Math.min(...signal.spectra.map((s) => s[which].length));
     const most = Math.max(...signal.spectra.flatMap((s) => s[which].slice(0, count)));
     signal.spectra.forEach((s, row) => {
       c.fillStyle = style.getPropertyValue("--quiet");
       c.textAlign = "right";
       c.textBaseline = "middle";
-      c.fillText(fitting(c, names[row], left - 8), left - 6, (row + 0.5) * tall);
+      lines[row].forEach((line, i) => c.fillText(line, left - 6, (row + 0.5) * tall + (i - (lines[row].length - 1) / 2) * LINE));
       c.fillStyle = style.getPropertyValue("--predicted");
       for (let order = 1; order < count; order++) {
         c.globalAlpha = Math.min(1, Math.sqrt(s[which][order] / (most || 1)));
@@ -148,7 +159,7 @@ function waterfall(signal, said, result) {
       left = Math.min(150, box.width * 0.3),
       count = signal.spectra[0][which].length;
     const order = 1 + Math.floor(((event.clientX - box.left - left) / (box.width - left - 8)) * (count - 1)),
-      row = Math.floor((event.clientY - box.top) / ((box.height - 34) / signal.spectra.length));
+      row = Math.floor((event.clientY - box.top) / ((box.height - BELOW) / signal.spectra.length));
     const s = signal.spectra[row];
     if (s && order > 0 && order < count) said.replaceChildren(h("b", {}, `${s.condition}, `), ...about(order, result, s, signal.unit));
   });

@@ -61,9 +61,7 @@ const tableOf = (t) =>
     { style: { "margin-top": "10px" } },
     t.folded ? h("summary", {}, t.folded) : null,
     t.title ? h("h3", {}, t.title) : null,
-    table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right, {
-      class: t.head.length > 2 ? "rows" : undefined,
-    }),
+    table(t.whys?.length ? [...t.head, ""] : t.head, t.whys?.length ? t.rows.map((row, i) => [...row, why(t.whys[i], row.find(Boolean))]) : t.rows, t.right, t.head.length > 2 ? { class: "rows" } : {}),
     t.note ? h("p", { class: "quiet small" }, t.note) : null,
   );
 

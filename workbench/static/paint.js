@@ -223,3 +223,13 @@ export function fitting(c, text, room) {
   while (short.length > 4 && c.measureText(`${short}…`).width > room) short = short.slice(0, -1);
   return `${short}…`;
 }
+
+// In lines of this room at most, parted behind blanks and signs; a word that is wider itself is cut.
+export function folded(c, text, room) {
+  const lines = [""];
+  for (const word of text.match(/[^\s_,;-]+[\s_,;-]*/g) ?? [text]) {
+    if (lines.at(-1) && c.measureText((lines.at(-1) + word).trim()).width > room) lines.push("");
+    lines[lines.length - 1] += word;
+  }
+  return lines.map((line) => fitting(c, line.trim(), room));
+}

@@ -60,7 +60,8 @@ export function show(root, context) {
     }
     clear(faults, h("p", { class: "quiet" }, "Making the model ready…"));
     const found = await context.act(post("try", { model }), faults);
-    if (!found) return;
+    // Who went on wants no curve of it.
+    if (!found || !root.isConnected) return;
     clear(faults);
     data = found;
     run =

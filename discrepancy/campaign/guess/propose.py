@@ -25,6 +25,7 @@ from discrepancy.campaign.guess.wishes import OPEN, Wishes
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
+from discrepancy.campaign.scales import Scales
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -86,6 +87,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     guessed = with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes)
     require_names(paths, wishes)
     require_columns(guessed, wishes)
+    require_units(guessed, wishes)
     require_roles(guessed, wishes)
     states = [state_of(run, wishes) for run in guessed]
     names = named_conditions(states)
@@ -134,12 +136,29 @@ def require_names(paths: Sequence[Path], wishes: Wishes) -> None:
 
 
 def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
-    """InputFault for a unit of a column that no file has."""
+    """InputFault for a unit or a scale of a column that no file has."""
     known = sorted({header for run in runs for header in run.headers})
-    for key, unit in wishes.units.items():
+    given = [*(("--unit", *pair) for pair in wishes.units.items()), *(("--scale", key, f"{factor:g}") for key, factor in wishes.scales.items())]
+    for option, key, text in given:
         header = name_of(key.rpartition(":")[2])
         if header not in known:
-            raise InputFault(f"--unit {key}={unit}: no file has a column {header!r} of numbers; there are {', '.join(known)}{nearest(header, known)}")
+            raise InputFault(f"{option} {key}={text}: no file has a column {header!r} of numbers; there are {', '.join(known)}{nearest(header, known)}")
+
+
+def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
+    """InputFault for a unit that is given and that the campaign could not be read with: said here, where it was typed."""
+    any_reducer = Scales(None, 1.0, 1.0)
+    for run in runs:
+        units = wishes.units_for(run.path.name)
+        for role, entry in run.columns.items():
+            given = next((units[known] for known in (entry.header, entry.column.value, name_of(entry.header)) if known in units), None)
+            if given is None:
+                continue
+            try:
+                any_reducer.conversion(roles_of(QUANTITIES[run.quantity.value])[role], entry.unit.value, f"--unit {entry.header}={given}")
+            except InputFault as fault:
+                factor = "; a factor is no part of a unit, it is given by --scale" if re.search(r"[*/]\s*[\d.]+|^[\d.]+\s*[*/]", given) else ""
+                raise InputFault(f"{fault}{factor}") from None
 
 
 def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:

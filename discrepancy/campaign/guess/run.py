@@ -63,7 +63,7 @@ class GuessedRun:
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     """InputFault with the file's name where nothing can be made of it."""
-    wishes = replace(wishes, columns=wishes.columns_for(path.name))
+    wishes = replace(wishes, columns=wishes.columns_for(path.name), scales=wishes.scales_for(path.name))
     table = table_of(path)
     name = parsed(path, wishes.names)
     columns = columns_of(table, wishes.units_for(path.name))
@@ -188,13 +188,16 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     what = quantity if role == VALUE else role
     doubts: list[tuple[str, str]] = []
     keys: dict[str, Any] = {}
+    scale = next((wishes.scales[known] for known in (header, column.name, name_of(header)) if known in wishes.scales), 1.0)
+    if scale != 1.0:
+        keys["scale"] = scale
     counts = wishes.counts.get(header) or wishes.counts.get(column.name)
     if counts or (column.stated and column.stated[0] == COUNTS):
         if not counts:
             counts = 2.0 ** np.ceil(np.log2(max(column.shape.high - min(column.shape.low, 0.0), 1.0)))
             text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed (the power of two above its range)"
             doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'"))
-        keys["scale"] = 1.0 / float(counts)
+        keys["scale"] = scale / float(counts)
         unit = Guess("turn", f"steps of an encoder, {counts:.0f} a turn")
         if column.shape.jumps:
             doubts.append((f"column {header!r} jumps where a turn is over", "export it running on over full turns"))

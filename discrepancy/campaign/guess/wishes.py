@@ -1,8 +1,10 @@
 """What is given instead of guessed."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
+from typing import TypeVar
 
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
 from fmu_src.faults import InputFault, nearest
@@ -11,6 +13,8 @@ from fmu_src.faults import InputFault, nearest
 OPEN = "..."
 # Whose angle a transmission error may stand over.
 OUTPUT, INPUT = "output", "input"
+
+Value = TypeVar("Value")
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class Wishes:
     files that do not say otherwise, or condition's name:key for that one.
     ``held_out``: names of conditions, () for none, None for what is proposed.  ``tags``: for runs whose quantity has them.
     ``angle_of``: "output" or "input", whose angle transmission errors stand over; None where nobody says it.
+    ``scales``: header, or pattern of file names:header -> what its numbers are multiplied by.
     """
 
     reducer: str | None = None
@@ -35,6 +40,7 @@ class Wishes:
     held_out: tuple[str, ...] | None = None
     tags: Mapping[str, str] = field(default_factory=dict)
     angle_of: str | None = None
+    scales: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """InputFault for what there is not."""
@@ -47,6 +53,9 @@ class Wishes:
             for name in given:
                 if name not in choices:
                     raise InputFault(f"{option} {name}: there is no such thing; choose from {', '.join(choices)}{nearest(name, choices)}")
+        for key, factor in self.scales.items():
+            if not math.isfinite(factor) or factor == 0.0:
+                raise InputFault(f"--scale {key}={factor:g}: a finite number other than 0 is needed, what the column is multiplied by")
         for key, text in self.conditions.items():
             if text == OPEN:
                 example = FACTOR_KEYS[own].example if (own := key.rpartition(":")[2]) in FACTOR_KEYS else "..."
@@ -59,12 +68,16 @@ class Wishes:
         """Header -> unit for a file; what is given for its name wins."""
         return for_file(self.units, name)
 
+    def scales_for(self, name: str) -> dict[str, float]:
+        """Header -> factor for a file; what is given for its name wins."""
+        return for_file(self.scales, name)
+
     def columns_for(self, name: str) -> dict[str, str]:
         """Role -> header for a file; what is given for its name wins."""
         return for_file(self.columns, name)
 
 
-def for_file(given: Mapping[str, str], name: str) -> dict[str, str]:
+def for_file(given: Mapping[str, Value], name: str) -> dict[str, Value]:
     """Of ``KEY`` and ``PATTERN:KEY`` those that hold for a file's name, by KEY; a pattern wins."""
     parted = [(*key.rpartition(":"), value) for key, value in given.items()]
     general = {key: value for _, colon, key, value in parted if not colon}

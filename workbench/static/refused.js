@@ -1,0 +1,41 @@
+// What may be added of an answer; and where unused runs contradict it: that it was refused, and what can be done then.
+
+import { effectName, h } from "./dom.js";
+
+const MOST_TURNED_DOWN = 4;
+
+// Names as they are asked for: what was named together first, then each of it alone.
+export function offered(answer) {
+  const named = answer.effects.flatMap((e) => e.candidates),
+    off = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
+  if (answer.confusable.length) return answer.effects.map((e) => e.candidates[0]);
+  const together = named.length ? named : off;
+  if (together.length) return [...new Set([together.join(" + "), ...together])];
+  return answer.rejected.slice(0, 5).map((r) => r.name);
+}
+
+// ``add(name)`` tries another one.
+export function refusal(answer, extension, busy, add) {
+  const tried = new Set(extension.steps.filter((s) => s.kept === false).map((s) => s.effects.join(" + "))).add(extension.effects.join(" + ")),
+    // What was turned down first stands nearest.
+    others = [...new Set([...offered(answer), ...answer.rejected.slice(0, MOST_TURNED_DOWN).map((r) => r.name)])].filter((name) => !tried.has(name));
+  return h(
+    "div",
+    { id: "refused" },
+    h("h3", { class: "bad" }, `Refused: ${extension.effects.map(effectName).join(" + ")} is not in the model`),
+    h("p", { class: "lead" }, `${extension.verdict}; ${extension.reason}`),
+    h(
+      "p",
+      { class: "quiet" },
+      others.length
+        ? "What can be done: try another effect that the diagnosis looked at, or go back to its answer and measure what it asks for next."
+        : "All that the diagnosis named was tried. Go back to its answer, and measure what it asks for next.",
+    ),
+    h(
+      "div",
+      { class: "row" },
+      others.map((name) => h("button", { type: "button", disabled: !!busy, title: busy || undefined, onclick: () => add(name) }, `Try ${effectName(name)}${name.includes(" + ") ? "" : " alone"}`)),
+      h("button", { type: "button", onclick: () => document.getElementById("verdict")?.scrollIntoView({ block: "start" }) }, "Back to the answer"),
+    ),
+  );
+}
