@@ -2,6 +2,7 @@
 
 import json
 import math
+import shlex
 from dataclasses import dataclass
 
 from discrepancy.campaign.model import Source
@@ -28,7 +29,9 @@ class KnownFactor:
             return f"{self.words}; divide the numbers by {self.size:.6g} then"
         scale = source.factor / conversion(source.unit, si)[0] / self.size
         entry = f"column = {json.dumps(header, ensure_ascii=False)}, unit = {json.dumps(source.unit, ensure_ascii=False)}, scale = {scale:.6g}"
-        return f"{self.words} Then scale = {scale:.6g} takes it out, of this column in each of its runs in campaign.toml: columns.value = {{ {entry} }}"
+        again = f"--scale {shlex.quote(f'{header}={scale:.6g}')}"
+        return (f"{self.words} Then scale = {scale:.6g} takes it out, with {again} of rvwear campaign from, or of this column in each of its runs in"
+                f" campaign.toml: columns.value = {{ {entry} }}")  # fmt: skip
 
 
 def known_factor(times: float, stated: str, si: str, ratio: float | None) -> KnownFactor | None:
