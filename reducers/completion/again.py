@@ -5,18 +5,20 @@ A completed file keeps its numbers when somebody changes teeth or a measure by h
 
 import re
 import shlex
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from typing import Protocol
 
 from fmu_src.faults import InputFault
+from fmu_src.table import Table
 from fmu_src.units import conversion
 from reducers.completion.command import described, usual_name, words_of
 from reducers.completion.complete import COMPLETED, RULES, UNITS, dials_for, numbers_of
 from reducers.completion.dials import dials_of
 from reducers.completion.given import SUN, Given
 from reducers.completion.known import FROM_OPTIONS
-from reducers.reducer import Reducer
 from reducers.usual import DERIVED, FAR, USUAL
 from rv_plant.gear_stage import total_ratio
+from rv_plant.topology import Topology
 
 # What sources and description of a completed file say of options that no number of it is.
 SPEED = re.compile(r"(?:speed of|N m at) ([\d.e+-]+) rpm")
@@ -26,6 +28,27 @@ NAMED = re.compile(f"ratio-{FIGURE}-{FIGURE}Nm")
 DESCRIBED = re.compile(f"(ratio {FIGURE}, rated {FIGURE} N m at {FIGURE} rpm).*, completed by design rules")
 # Name and description have the ratio as it was given, which a catalogue rounds.
 ROUNDED = 0.005
+
+
+class Reducer(Protocol):
+    """What is looked at of one; ``reducers.reducer``, which says these commands where a file cannot be read, has the class."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def topology(self) -> Topology: ...
+    @property
+    def starts(self) -> Mapping[str, float]: ...
+    @property
+    def sources(self) -> Mapping[str, str]: ...
+    @property
+    def plant(self) -> Table: ...
+    @property
+    def wear(self) -> Table: ...
+    @property
+    def joint(self) -> Table: ...
 
 
 def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | None:
