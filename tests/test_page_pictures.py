@@ -1,5 +1,7 @@
 """Pieces of the pages' pictures: bands of loops, maps of a misfit."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -58,7 +60,7 @@ def test_orders_in_a_picture_have_names_that_stand_apart_and_a_whole_title():
     (axes,) = picture.axes
     named = [label for label in axes.get_xticklabels() if label.get_text()]
     boxes = [label.get_window_extent() for label in named]
-    assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:])) and {"116", "195"} <= {label.get_text() for label in named}
+    assert all(left.x1 < right.x0 for left, right in pairwise(boxes)) and {"116", "195"} <= {label.get_text() for label in named}
     title, whole = axes.yaxis.label.get_window_extent(), picture.bbox
     assert whole.y0 <= title.y0 and title.y1 <= whole.y1 and "transmission error" in axes.get_ylabel().replace("\n", " ")
     assert axes.get_window_extent().height / picture.dpi * 25.4 > 20.0
