@@ -291,6 +291,13 @@ def test_stop_asks_and_ends_nobody_by_number(tmp_path):
 
 
 # what the page is told ------------------------------------------------------------------------
+def test_signals_in_what_a_page_says_have_one_form():
+    from discrepancy.page.amounts import with_titles
+
+    said = "misfit: hysteresis[locked=input], along torque; wear_depth[hours=9,surface=inner_race] in errors.pin[2]=7um"
+    assert with_titles(said) == "misfit: hysteresis (locked input), along torque; wear depth (hours 9, surface inner race) in errors.pin[2]=7um"
+
+
 def test_numbers_have_as_many_decimals_as_their_noise():
     from workbench.look import decimals_of, text_of
 

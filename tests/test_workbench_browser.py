@@ -377,9 +377,13 @@ def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
 
 def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
     page, held = bench.page, []
+
+    def asked(route):
+        held.append(route)
+
     page.goto(bench.address)
     page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
-    page.route("**/results/life/report*", held.append)
+    page.route("**/results/life/report*", asked)
     page.evaluate("""async () => {
       const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true } } };
       const place = document.getElementById('view');

@@ -85,6 +85,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
+    from discrepancy.page.amounts import with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
@@ -107,7 +108,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
         "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
-        "laws": [law.text for law in answer.laws],
+        "laws": [with_titles(law.text) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
         "doubts": doubts,
     }  # fmt: skip
@@ -130,14 +131,18 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
 
 def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from discrepancy.next_run import next_run
+    from discrepancy.page.amounts import with_titles
     from discrepancy.page.write import page_of
 
     with task("looking for the next experiment"):
         run = next_run(*inputs(folder, given), jobs=jobs)
         report(run, place)
-    proposals = [{"experiment": p.experiment, "cost": p.cost, "least": p.least, "mean": p.score} for p in run.result.proposals[:12]] if run.result else []
+    asked = [{key: with_titles(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
+    best = run.result.proposals[:12] if run.result else ()
+    proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
     write_json(place / "result.json", {
-        "verdict": run.verdict, "rivals": run.rivals, "asked": [asdict(asked) for asked in run.asked], "proposals": proposals, "stakes": run.stakes(),
+        "verdict": with_titles(run.verdict), "rivals": run.rivals, "asked": asked, "proposals": proposals,
+        "stakes": {with_titles(where): at_stake for where, at_stake in run.stakes().items()}, "cost_unit": run.cost_unit,
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip
     return False

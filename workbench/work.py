@@ -43,7 +43,9 @@ class Teller:
         self.tasks.remove(task)
 
     def say(self, text: str) -> None:
-        self.said.append(text)
+        from discrepancy.page.amounts import with_titles
+
+        self.said.append(with_titles(text))
         del self.said[:-MOST_SAID]
 
     def beat(self) -> None:

@@ -1,5 +1,6 @@
 """SI values in the units of a bench, for axes and for text."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -70,6 +71,11 @@ def signal_title(signal: str) -> str:
     name, _, tags = signal.partition("[")
     words = name.replace("_", " ")
     return words + (f" ({tags.rstrip(']').replace('=', ' ').replace(',', ', ').replace('_', ' ')})" if tags else "")
+
+
+def with_titles(text: str) -> str:
+    """A text whose signals stand as ``wear_depth[surface=pin]``, with their words instead."""
+    return re.sub(r"[a-z_]+\[[a-z_]+=[^\]]*\]", lambda match: signal_title(match[0]), text)
 
 
 def signal_axis(signal: str, unit: str) -> str:

@@ -7,6 +7,7 @@ import { offered, refusal } from "./refused.js";
 export function nextPart(bag) {
   const { next, context } = bag;
   const busy = context.busy();
+  const price = next?.cost_unit ? `price [${next.cost_unit}]` : "price";
   const sheet = next
     ? [
         h("p", { class: "lead" }, next.verdict),
@@ -15,7 +16,7 @@ export function nextPart(bag) {
               "div",
               { id: "asked" },
               table(
-                ["☐", "measure", "because", "condition", "price", "expected misfit"],
+                ["☐", "measure", "because", "condition", price, "expected misfit"],
                 next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : number(a.cost, 4), number(a.expected, 3)]),
                 [4, 5],
                 { class: "rows" },
@@ -27,7 +28,7 @@ export function nextPart(bag) {
               "div",
               { id: "sheet" },
               table(
-                ["☐", "experiment", "price", "least separation", "mean separation"],
+                ["☐", "experiment", price, "least separation", "mean separation"],
                 next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
                 [2, 3, 4],
                 { class: "rows" },

@@ -160,6 +160,8 @@ export function singles(signal) {
   );
 }
 
+const titleOf = (result, signal) => result.signals.find((s) => s.signal === signal)?.title ?? words(signal);
+
 export const fails = (result, context) =>
   result.places.length
     ? h(
@@ -175,11 +177,11 @@ export const fails = (result, context) =>
             result.places
               .slice(0, 20)
               .map((p) => [
-                result.signals.find((s) => s.signal === p.signal)?.title ?? words(p.signal),
+                titleOf(result, p.signal),
                 p.feature,
                 words(p.dependence),
                 `${Math.round(100 * p.share)} %, p = ${p.p.toExponential(0)}`,
-                why(p.why, `${words(p.signal)}, ${p.feature}`),
+                why(p.why, `${titleOf(result, p.signal)}, ${p.feature}`),
               ]),
             [3],
             { class: "rows" },
