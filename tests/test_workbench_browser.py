@@ -427,19 +427,19 @@ def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench
     page = dropped(bench, tmp_path)
     page.select_option("#measured", "RV20E-121")
     page.locator("#save:enabled").wait_for()
-    page.get_by_label("locked").select_option("output")
+    page.get_by_role("combobox", name="locked").select_option("output")
     page.wait_for_function("document.querySelector('label.inline select') !== null")
     other = bench.tab()
     other.goto(f"{bench.address}#in")
     other.locator("select[aria-label=quantity]").wait_for()
-    assert other.get_by_label("locked").input_value() == "output" and other.input_value("#measured") == "RV20E-121"
+    assert other.get_by_role("combobox", name="locked").input_value() == "output" and other.input_value("#measured") == "RV20E-121"
     other.close()
     bench.kill()
     page.locator("#gone").wait_for()
     bench.start()
     bench.view("in")
-    page.get_by_label("locked").wait_for()
-    assert page.get_by_label("locked").input_value() == "output"
+    page.get_by_role("combobox", name="locked").wait_for()
+    assert page.get_by_role("combobox", name="locked").input_value() == "output"
     assert sorted(p.name for p in bench.folder.iterdir()) == [".workbench", "loop_20degC_1.csv", "loop_20degC_2.csv"]
 
 
@@ -503,7 +503,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     slider.focus()
     for _ in range(8):
         page.keyboard.press("ArrowRight")
-    page.get_by_text("What it would do to each signal").wait_for()
+    page.get_by_text("What it would do to each signal").wait_for(timeout=180_000)
     # Next experiment, the better model, its units.
     bench.view("diagnose")
     page.locator("#next:enabled").click()
