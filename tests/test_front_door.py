@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 IMPORT = 0.3
 MODULES = ("rvwear.reducer", "rvwear.files", "rvwear.measured")
 # Examples that take longer than all others together.
-LONG = {"life", "compare", "diagnose"}
+LONG = {"life", "diagnose"}
 
 
 def examples():
