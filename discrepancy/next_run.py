@@ -139,7 +139,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         text = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance, then ask again"
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
-        text = start or (f"nothing is left to separate: {known} stands alone" if known else "nothing is left to separate: no effect was found")
+        text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         return NextRun(answer, None, list(names), text, left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)

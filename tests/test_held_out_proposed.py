@@ -57,3 +57,8 @@ def test_the_rest_keeps_its_loads_and_its_only_repetitions(states, repeated, kep
     found = held_out(conditions, {name: ["te"] for name in names}, {} if repeated is None else {names[repeated]: {"te"}})
     assert list(found) == ([] if kept is None else [names[kept]])
     assert [guess.reason for guess in found.values()] == ([] if kept is None else [f"kept for the test of what is found: {reason}"])
+
+
+def test_of_places_at_which_the_input_was_locked_any_may_be_held_out_but_the_repeated_one():
+    conditions = {f"{angle}g": {"locked_at": f"{angle} deg"} for angle in (0, 120, 240)}
+    assert list(held_out(conditions, {name: ["hysteresis"] for name in conditions}, {"120g": {"hysteresis"}})) == ["240g"]

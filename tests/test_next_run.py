@@ -122,7 +122,7 @@ def test_of_what_is_left_only_what_was_tried_is_said(names, said):
 
 def test_nothing_is_left_after_one_effect_or_none():
     assert proposal_for(answer_of(ONE, ["drag"]), CAMPAIGN).verdict == "nothing is left to separate: drag stands alone"
-    assert "no effect was found" in proposal_for(answer_of(NONE), CAMPAIGN).verdict
+    assert "nothing is missing" in proposal_for(answer_of(NONE), CAMPAIGN).verdict
 
 
 def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():

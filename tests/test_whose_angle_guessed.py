@@ -66,3 +66,14 @@ def test_command_and_workbench_say_the_same(bench, capsys):
     folder.remember("wishes", {"reducer": "RV20E-121", "angle_of": "input"})
     found = view(folder)
     assert TEXT not in [doubt["text"] for doubt in found["proposal"]["doubts"]] and "--angle-of input" in found["command"] and 'angle_of = "input"' in found["text"]
+
+
+@pytest.mark.parametrize("header", ["Ángulo de entrada / i [°]", "input angle / ratio [deg]", "Antriebswinkel / 121 [°]", "angle moteur / i (deg)"])
+def test_an_angle_of_the_input_over_the_ratio_turns_as_the_output_does(tmp_path, header):
+    """It was divided by 121 again, its orders lay at 9,680, and nothing doubted it."""
+    table = pd.DataFrame({header: np.degrees(ANGLE), "error [arcsec]": ERROR / ARCSEC})
+    table.to_csv(tmp_path / "te_167Nm_15rpm_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    (record,) = checked(proposal).records
+    assert record.axes["angle"] == pytest.approx(ANGLE) and not record.of_output
+    assert proposal.angle_of.value == "input" and proposal.angle_of.sure and TEXT not in [doubt.text for doubt in proposal.doubts]

@@ -294,4 +294,6 @@ def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
     words += ["--angle-of", wishes.angle_of] if wishes.angle_of else []
     if wishes.held_out is not None:
         words += ["--held-out", *wishes.held_out]
+    # What is here already stays but for this.
+    words += ["--overwrite"] if (folder.root / "campaign.toml").is_file() else []
     return shlex.join(words)

@@ -28,6 +28,8 @@ BY_CHANCE = 0.2
 HIDDEN, MOST_HIDDEN = 0.1, 3
 # So many of the nearest effects are said on the way.
 NEAREST = 3
+# Computers run out of digits before nature does.
+LEAST_P = 1e-300
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -237,12 +239,12 @@ class Diagnostician:
             return
         best, more = found[0], f", and {len(found) - 1} more" if len(found) > 1 else ""
         where = "everywhere alike" if best.dependence == "everywhere" else f"changing with {best.dependence}"
-        say(f"misfit: {best.signal}, {best.feature}, {where} (p = {best.p:.1g}){more}")
+        say(f"misfit: {best.signal}, {best.feature}, {where} (p = {max(best.p, LEAST_P):.1g}){more}")
 
     def say_scores(self) -> None:
         """Which effects come nearest before any is fitted in earnest."""
         nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
-        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} (p = {s.p_adjusted:.1g})" for s in nearest))
+        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} (p = {max(s.p_adjusted, LEAST_P):.1g})" for s in nearest))
 
     def stopped(self) -> Diagnosis:
         """What is known so far: base fit, localisation, scores, and the best fit."""

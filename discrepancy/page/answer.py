@@ -122,5 +122,5 @@ def cards(answer: Answer) -> list[Card]:
             why=whys.of_localising(answer),
         )
     )
-    made.append(Card("Screening of the effects", f"{diagnosis.p_screen:.1g}", "smallest p over all effects together", why=whys.of_screening(answer)))
+    made.append(Card("Screening of the effects", amounts.chance(diagnosis.p_screen), "smallest p over all effects together", why=whys.of_screening(answer)))
     return made

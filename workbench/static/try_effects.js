@@ -61,10 +61,17 @@ function slider(p, values, follow) {
     value: plain(value),
     "aria-label": `${words(p.name)}, number`,
     onchange: () => {
-      range.value = field.value;
-      set(Number(field.value));
+      const [low, high] = p.bounds,
+        asked = Number(field.value),
+        taken = Math.min(Math.max(asked, low), high);
+      // What is beyond the bounds is computed at them, and so it says.
+      refused.textContent = asked === taken ? "" : ` ${plain(asked)} lies outside: ${plain(taken)} is tried`;
+      field.value = plain(taken);
+      range.value = taken;
+      set(taken);
     },
   });
+  const refused = h("span", { class: "bad", role: "status" });
   range.addEventListener("keydown", (event) => {
     const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (by) {
@@ -89,6 +96,7 @@ function slider(p, values, follow) {
       "span",
       { class: "quiet small", style: { "grid-column": "1 / -1" } },
       `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`,
+      refused,
     ),
   );
 }

@@ -38,6 +38,10 @@ MEANINGS = {
     "time": r"time|zeit|temps|tempo|tiempo|时间|時間|uhr|clock|(?:^|[ _.-])t(?:$|[ _.-])|timestamp|时刻|時刻",
 }  # fmt: skip
 FITS = {meaning: re.compile(words, re.IGNORECASE) for meaning, words in MEANINGS.items()}
+# An angle of the input that was divided already, and so turns as the output does.
+OVER_RATIO = re.compile(
+    r"[/÷]\s*(?:i|n|u|ratio|r[áa]tio|rapport|rapporto|relaci[óo]n|[üu]bersetzung|减速比|減速比|\d{2,3}(?:[.,]\d+)?)\s*(?:$|[\[(,;])"
+    r"|over (?:the )?ratio|divided by (?:the )?ratio", re.IGNORECASE)  # fmt: skip
 AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IGNORECASE)
 
 # Quantity -> words of a file's name or of lines above its table.
@@ -70,9 +74,16 @@ def meaning_of(name: str) -> str | None:
     """``input_angle``, ``output_speed``, ``input_torque``, or one of MEANINGS; None if the name says nothing."""
     name = re.sub(r"(?<=[a-zäöüßéè])(?=[A-ZÄÖÜÉ])", " ", name)
     found = next((meaning for meaning, words in FITS.items() if words.search(name)), None)
+    if found == "angle" and over_ratio(name):
+        return "angle"
     if found in ("angle", "speed", "torque") and AT_INPUT.search(name) and not AT_OUTPUT.search(name):
         return f"input_{found}"
     return "output_speed" if found == "speed" and AT_OUTPUT.search(name) else found
+
+
+def over_ratio(name: str) -> bool:
+    """Whether a name says an angle of the input over the ratio."""
+    return bool(AT_INPUT.search(name) and OVER_RATIO.search(name))
 
 
 def quantities_named(text: str) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from discrepancy.campaign.findings import LEAST_CONDITIONS
 from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.quantities import FACTOR_KEYS
+from discrepancy.held_names import LOCKED_AT
 
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?")
 # What the conditions that stay have to cover first: several numbers that are calibrated, as lag and angle of an encoder, are told apart by loads alone.
@@ -43,8 +44,10 @@ def held_out(
 
 def covered(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]], free: Sequence[str]) -> tuple[str, str] | None:
     """Of those that are ``free`` the condition whose numbers, the first ones first, lie within those of the other ``names``, and the reason;
-    of several the nearest to the middle.  None where each lies beyond the others in the first number that differs."""
-    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if key in FACTOR_KEYS and (m := NUMBER.match(text))} for name in names}
+    of several the nearest to the middle.  None where each lies beyond the others in the first number that differs.  Places at which the input
+    was locked go round: none is beyond the others."""
+    keys = FACTOR_KEYS.keys() - {LOCKED_AT}
+    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if key in keys and (m := NUMBER.match(text))} for name in names}
     differing = sorted((key for key in levels[names[0]] if all(key in found for found in levels.values()) and len(values_of(levels, key)) > 1), key=rank)
     beyond = {name: [key for key in differing if is_beyond(levels[name][key], [levels[n][key] for n in names if n != name])] for name in free}
     fitting = [name for name in free if not differing or differing[0] not in beyond[name]]

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
+from discrepancy.campaign.guess.column_words import over_ratio
 from discrepancy.campaign.guess.run import GuessedRun
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.wishes import INPUT, OUTPUT, Wishes
@@ -30,5 +31,7 @@ def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str,
         return None, [idle] if wishes.angle_of else []
     if wishes.angle_of:
         return Guess(wishes.angle_of, "given"), []
+    if all(over_ratio(run.columns["angle"].header) for _, run in over):
+        return Guess(INPUT, "its name says the input's over the ratio"), []
     either = [run for condition, run in over if "input_angle" not in run.columns and conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
     return Guess(OUTPUT, REASON, not either), [Doubt(run.path.name, TEXT, REMEDY) for run in either]
