@@ -420,6 +420,13 @@ def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
         page.wait_for_timeout(100)
     held[0].continue_()
     page.locator("#followed", has_not_text="first look").wait_for()
+    # What was tried is there again when the view is, or the page.
+    tried = page.locator("[data-parameter=thermal_expansion]").input_value()
+    page.unroute("**/try/curve")
+    for again in (lambda: (bench.view("look"), bench.view("try")), page.reload):
+        again()
+        page.locator("#followed", has_text="thermal expansion").wait_for(timeout=60_000)
+        assert page.locator("[data-parameter=thermal_expansion]").input_value() == tried
 
 
 @pytest.mark.campaign

@@ -64,12 +64,31 @@ export function show(root, context) {
     if (!found || !root.isConnected) return;
     clear(faults);
     data = found;
+    if (!Object.keys(values).length) values = remembered();
     run =
       data.runs.find((r) => r.run === run)?.run ??
       (data.runs.find((r) => r.signal.startsWith("transmission_error")) ?? data.runs.find((r) => r.axis) ?? data.runs[0])?.run;
     drawTop();
     drawList();
     follow();
+  }
+
+  // What was tried is there again when the view is, or the page.
+  const memory = () => `tried ${context.state.folder} ${model}`;
+  function remembered() {
+    const known = new Set(parameters().map((p) => p.name));
+    try {
+      return Object.fromEntries(Object.entries(JSON.parse(localStorage.getItem(memory())) ?? {}).filter(([name]) => known.has(name)));
+    } catch {
+      return {};
+    }
+  }
+  function remember() {
+    try {
+      localStorage.setItem(memory(), JSON.stringify(values));
+    } catch {
+      // A browser that keeps nothing: so be it.
+    }
   }
 
   function drawTop() {
@@ -190,6 +209,7 @@ export function show(root, context) {
   // One request at a time; while it is on its way only the last position of the hand counts.
   async function follow(roughly = true) {
     if (!run) return;
+    remember();
     if (busy) {
       again = true;
       return;
