@@ -25,7 +25,7 @@ def files_alone() -> Iterator[None]:
 def say_file(path: Path | str, label: str = "", more: str = "") -> None:
     """A file that was written, between a label and what else is said of it."""
     if ALONE:
-        print(path, file=ALONE[-1])
+        only_file(path)
     else:
         print(f"{label}{path}{more}")
 

@@ -1,6 +1,6 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise, product
 from typing import Any
@@ -275,16 +275,15 @@ def conditions(example: Record, model: PhysicalModel, rig: Rig | None, campaign:
         names = ["speed", "load", "temperature"]
     if example.quantity in AGED:
         names.append("hours")
-    levels = []
+    levels: dict[str, Sequence[float]] = {}
     if example.quantity in HELD and LOCKED_AT in example.factors:
         # Evenly over a turn of the cranks.
-        names = [LOCKED_AT, *names]
         turn = 2.0 * np.pi * abs(model.bench.ratio) / model.bench.reducer.topology.lobes
-        levels.append(list(np.linspace(0.0, turn, POSITIONS, endpoint=False)))
-    for name in names[len(levels) :]:
+        levels[LOCKED_AT] = np.linspace(0.0, turn, POSITIONS, endpoint=False).tolist()
+    for name in names:
         low, high = limits(name, model, rig, campaign)
-        levels.append([low] if high <= low else list(np.linspace(low, high, LEVELS)))
-    return [dict(zip(names, map(float, values))) for values in product(*levels)]
+        levels[name] = [low] if high <= low else np.linspace(low, high, LEVELS).tolist()
+    return [dict(zip(levels, map(float, values))) for values in product(*levels.values())]
 
 
 def limits(name: str, model: PhysicalModel, rig: Rig | None, campaign: Campaign) -> tuple[float, float]:

@@ -6,12 +6,9 @@ The seat of one crank, too far forward by as much as it might be too far back, o
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.separable import APART
 from discrepancy.inference.verdict import STOPPED, Diagnosis
-from discrepancy.other_places import LEFT
+from discrepancy.other_places import as_shown
 
 
 def sign_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[str]:
@@ -28,19 +25,12 @@ def sign_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[str
 
 
 def either_sign(member: Refit, found: Diagnosis) -> bool:
-    """Whether the effect of a member shows the same with all its amplitudes the other way round: by less than the best test sees, or than ``LEFT`` of
-    what it changes."""
-    space, fitted = found.fits.space, dict(member.fit.values)
+    """Whether the effect of a member shows the same with all its amplitudes the other way round."""
+    fitted = dict(member.fit.values)
     amplitudes = [p for c in member.candidates for p in c.amplitudes if fitted[p.name] != p.off]
     opposite = {p.name: 2.0 * p.off - fitted[p.name] for p in amplitudes}
     if not amplitudes or any(p.sign or not p.lower <= opposite[p.name] <= p.upper for p in amplitudes):
         return False
-    shown = space.predictions(fitted, space.training)
-
-    def apart(values: dict[str, float]) -> float:
-        predicted = space.predictions(values, space.training)
-        return float(np.linalg.norm(space.whiten({i: a - b for i, a, b in zip(space.training, predicted, shown)})))
-
     own = {p.name for p in member.own}
     rest = {name: value for name, value in fitted.items() if name not in own}
-    return apart({**fitted, **opposite}) < max(APART, LEFT * apart(rest))
+    return as_shown(found.fits.space, fitted, rest)({**fitted, **opposite})

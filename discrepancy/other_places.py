@@ -4,11 +4,13 @@ A diagnosis fits such an effect at the part that its choices name, the first.  W
 other's lobe at the other disc, in every signal of the reducer as a whole: then no fit says which of both is to be opened.
 """
 
+from collections.abc import Callable, Mapping
 from itertools import product
 from typing import Any
 
 import numpy as np
 
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.separable import APART
 from discrepancy.inference.verdict import STOPPED, Diagnosis
@@ -52,13 +54,7 @@ def look_alikes(candidate: str, model: PhysicalModel, member: Refit, found: Diag
     own = [p.variable.name for p in groups(effect)[group][0]]
     fitted = dict(member.fit.values)
     rest = {name: value for name, value in fitted.items() if name not in own}
-    shown = space.predictions(fitted, space.training)
-
-    def apart(values: dict[str, float]) -> float:
-        predicted = space.predictions(values, space.training)
-        return float(np.linalg.norm(space.whiten({i: a - b for i, a, b in zip(space.training, predicted, shown)})))
-
-    enough = max(APART, LEFT * apart(rest))
+    shows_the_same = as_shown(space, fitted, rest)
     here, alike = current(chosen, model), []
     for sibling, numbers in product(siblings(effect, group, topology.cranks), product(*(range(1, parts(p, model) + 1) for p in chosen))):
         if numbers == here:
@@ -66,10 +62,23 @@ def look_alikes(candidate: str, model: PhysicalModel, member: Refit, found: Diag
         names = [p.variable.name for p in groups(effect)[sibling][0]]
         for sign in (1.0, -1.0):
             there = {new: sign * fitted[old] for old, new in zip(own, names)} | {p.variable.name: float(n) for p, n in zip(chosen, numbers)}
-            if apart({**rest, **there}) < enough:
+            if shows_the_same({**rest, **there}):
                 alike.append(words(sibling, chosen, numbers))
                 break
     return alike
+
+
+def as_shown(space: Workspace, fitted: Mapping[str, float], rest: Mapping[str, float]) -> Callable[[Mapping[str, float]], bool]:
+    """Whether values show in the fitted runs what the ``fitted`` ones do: by less than the best test sees, or than ``LEFT`` of what these change beside
+    the ``rest``, which are without the effect."""
+    shown = space.predictions(fitted, space.training)
+
+    def apart(values: Mapping[str, float]) -> float:
+        predicted = space.predictions(values, space.training)
+        return float(np.linalg.norm(space.whiten({i: a - b for i, a, b in zip(space.training, predicted, shown)})))
+
+    enough = max(APART, LEFT * apart(rest))
+    return lambda values: apart(values) < enough
 
 
 def effect_of(candidate: str) -> str:

@@ -8,6 +8,7 @@ from scipy.special import chdtrc, fdtrc
 
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.chance import chance
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
@@ -28,8 +29,6 @@ BY_CHANCE = 0.2
 HIDDEN, MOST_HIDDEN = 0.1, 3
 # So many of the nearest effects are said on the way.
 NEAREST = 3
-# Computers run out of digits before nature does.
-LEAST_P = 1e-300
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -239,12 +238,12 @@ class Diagnostician:
             return
         best, more = found[0], f", and {len(found) - 1} more" if len(found) > 1 else ""
         where = "everywhere alike" if best.dependence == "everywhere" else f"changing with {best.dependence}"
-        say(f"misfit: {best.signal}, {best.feature}, {where} (p = {max(best.p, LEAST_P):.1g}){more}")
+        say(f"misfit: {best.signal}, {best.feature}, {where} ({chance(best.p)}){more}")
 
     def say_scores(self) -> None:
         """Which effects come nearest before any is fitted in earnest."""
         nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
-        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} (p = {max(s.p_adjusted, LEAST_P):.1g})" for s in nearest))
+        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
 
     def stopped(self) -> Diagnosis:
         """What is known so far: base fit, localisation, scores, and the best fit."""

@@ -55,11 +55,6 @@ def axis_title(name: str, speed: Scale = AXES["speed"]) -> str:
     return f"{title} [{unit}]" if unit else title
 
 
-def chance(p: float) -> str:
-    """``p = 2e-07``; computers run out of digits before nature does."""
-    return f"p = {p:.1g}" if p > 1e-300 else "p < 1e-300"
-
-
 def effect_title(name: str) -> str:
     """``sensor_gain.input_torque`` as words."""
     effect, _, variant = name.replace("_", " ").partition(".")

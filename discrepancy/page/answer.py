@@ -4,8 +4,9 @@ from typing import Any
 
 from discrepancy import wording
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.page import amounts, comparison, profiles, response, whys
+from discrepancy.page import comparison, profiles, response, whys
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -118,9 +119,9 @@ def cards(answer: Answer) -> list[Card]:
         Card(
             "Findings of the localisation",
             str(len(diagnosis.localisation.get("findings", []))),
-            f"smallest {amounts.chance(diagnosis.p_localise)}",
+            f"smallest {chance(diagnosis.p_localise)}",
             why=whys.of_localising(answer),
         )
     )
-    made.append(Card("Screening of the effects", amounts.chance(diagnosis.p_screen), "smallest p over all effects together", why=whys.of_screening(answer)))
+    made.append(Card("Screening of the effects", chance(diagnosis.p_screen), "smallest p over all effects together", why=whys.of_screening(answer)))
     return made

@@ -5,6 +5,7 @@ from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison
+from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
@@ -82,7 +83,7 @@ def finding(result: Comparison) -> str:
     where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
     return (
         start
-        + f" The misfit is most significant in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({amounts.chance(best.p)})."
+        + f" The misfit is most significant in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({chance(best.p)})."
     )
 
 

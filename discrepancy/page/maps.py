@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.page.amounts import chance, signal_title
+from discrepancy.inference.chance import chance
+from discrepancy.page.amounts import signal_title
 from discrepancy.page.runs import slug
 from discrepancy.page.whys import of_place
 from pages import look

@@ -12,6 +12,7 @@ from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.guess.shape import Shape, shape_of
 from discrepancy.campaign.guess.table import Table
 from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
+from discrepancy.campaign.guess.wishes import of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE, roles_of
 from discrepancy.held_names import LOCKED_AT
 
@@ -79,7 +80,7 @@ def columns_of(table: Table, stated: Mapping[str, str]) -> list[Column]:
             unit = (*own, "its name is a unit")
         if (line := unit_of(table.units.get(name, ""))) and line[0] != "1":
             unit = (*line, f"the file states {table.units[name].strip()}")
-        if given := stated.get(header) or stated.get(name) or stated.get(name_of(header)):
+        if given := of_column(stated, header, name):
             known = unit_of(given)
             unit = (known[0] if known else given, known[1] if known else "", f"given: {given}")
         found.append(Column(name, meaning_with(meaning_of(name_of(header)), unit), unit, shape))

@@ -21,7 +21,7 @@ from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.whose_angle import whose_angle
-from discrepancy.campaign.guess.wishes import OPEN, Wishes
+from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
@@ -151,7 +151,7 @@ def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     for run in runs:
         units = wishes.units_for(run.path.name)
         for role, entry in run.columns.items():
-            given = next((units[known] for known in (entry.header, entry.column.value, name_of(entry.header)) if known in units), None)
+            given = of_column(units, entry.header, entry.column.value)
             if given is None:
                 continue
             try:

@@ -18,7 +18,7 @@ from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
 from discrepancy.campaign.guess.unit_words import COUNTS, name_of, unknown_in
-from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.wishes import Wishes, of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
 from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.faults import InputFault
@@ -188,7 +188,7 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     what = quantity if role == VALUE else role
     doubts: list[tuple[str, str]] = []
     keys: dict[str, Any] = {}
-    scale = next((wishes.scales[known] for known in (header, column.name, name_of(header)) if known in wishes.scales), 1.0)
+    scale = of_column(wishes.scales, header, column.name) or 1.0
     if scale != 1.0:
         keys["scale"] = scale
     counts = wishes.counts.get(header) or wishes.counts.get(column.name)

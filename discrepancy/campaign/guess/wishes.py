@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from typing import TypeVar
 
+from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
 from fmu_src.faults import InputFault, nearest
 
@@ -75,6 +76,11 @@ class Wishes:
     def columns_for(self, name: str) -> dict[str, str]:
         """Role -> header for a file; what is given for its name wins."""
         return for_file(self.columns, name)
+
+
+def of_column(given: Mapping[str, Value], header: str, name: str) -> Value | None:
+    """What is given of a column: by its header as the file has it, by the reader's name of it, or without its unit."""
+    return next((given[known] for known in (header, name, name_of(header)) if known in given), None)
 
 
 def for_file(given: Mapping[str, Value], name: str) -> dict[str, Value]:

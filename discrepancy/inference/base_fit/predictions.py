@@ -33,8 +33,8 @@ class Predictions:
             for shape in c.shapes:
                 self.shaping.setdefault(shape.name, set()).update(p.name for p in c.amplitudes)
         self.store: dict[Key, dict[int, Floats]] = {}
-        self.beside_store: dict[tuple[bool, Key, Key], dict[int, Floats]] = {}
-        self.near_store: dict[tuple[Key, Key], dict[int, Floats]] = {}
+        # By how they are seen ("exactly", "roughly" to first order, or "near"), values, and those that they are seen from.
+        self.beside_store: dict[tuple[str, Key, Key], dict[int, Floats]] = {}
         self.rough_store: dict[Key, dict[int, Floats]] = {}
         self.calls = 0
         self.reported: set[Key] = set()
@@ -46,7 +46,7 @@ class Predictions:
         if self.unfinished:
             return dict(self.__dict__)
         kept = {key: known for key, known in self.store.items() if key in self.reported}
-        return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}, "near_store": {}}
+        return self.__dict__ | {"store": kept, "rough_store": {}, "beside_store": {}}
 
     def report(self, values: Mapping[str, float]) -> None:
         """The predictions of these values stay when this is kept for later."""
@@ -66,7 +66,7 @@ class Predictions:
             return self._kept(known, which, lambda missing: model.predict_roughly(active, missing))
         if (seen_from := ANCHOR.get()) is not None and seen_from != active and isinstance(model, Cheaper):
             anchor = dict(seen_from)
-            known = self.near_store.setdefault((tuple(sorted(active.items())), tuple(sorted(anchor.items()))), {})
+            known = self.beside_store.setdefault(("near", tuple(sorted(active.items())), tuple(sorted(anchor.items()))), {})
             return self._kept(known, which, lambda missing: model.predict_near(active, anchor, missing))
         known = self.store.setdefault(tuple(sorted(active.items())), {})
         return self._kept(known, which, lambda missing: model.predict(active, missing))
@@ -77,7 +77,7 @@ class Predictions:
         if not isinstance(model, Cheaper):
             return self(values, which)
         values, base, rough = self.active(values), self.active(base), self.rough
-        known = self.beside_store.setdefault((rough, tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
+        known = self.beside_store.setdefault(("roughly" if rough else "exactly", tuple(sorted(values.items())), tuple(sorted(base.items()))), {})
         return self._kept(known, which, lambda missing: model.predict_beside(values, base, missing, rough))
 
     def changes(self, values: Mapping[str, float], base: Mapping[str, float], which: Sequence[int], first_order: bool) -> list[Floats]:
@@ -107,9 +107,6 @@ class Predictions:
         for pair in list(self.beside_store):
             if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
                 self.beside_store.pop(pair, None)
-        for near in list(self.near_store):
-            if self.effects(dict(near[0])) | self.effects(dict(near[1])) >= effects:
-                self.near_store.pop(near, None)
 
     def effects(self, active: Mapping[str, float]) -> frozenset[str]:
         return frozenset(name for name in active if name in self.amplitudes)
