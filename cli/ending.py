@@ -5,13 +5,16 @@ import select
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
 # How long what runs may take to be left [s].
 GRACE = 5.0
+# How long after it was lost an interruption is asked for once more [s].
+AGAIN = 0.01
 
 
 class Terminated(KeyboardInterrupt):
@@ -24,7 +27,8 @@ def termination_heard() -> Iterator[None]:
     if os.name != "posix" or threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGTERM, terminate)
+    before, told_before = signal.signal(signal.SIGTERM, terminate), sys.unraisablehook
+    sys.unraisablehook = partial(ask_again, told_before)
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     woken = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
@@ -34,8 +38,23 @@ def termination_heard() -> Iterator[None]:
     finally:
         signal.set_wakeup_fd(woken)
         signal.signal(signal.SIGTERM, before)
+        sys.unraisablehook = told_before
         # The thread ends with it.
         os.close(writer)
+
+
+def ask_again(told: Callable[["sys.UnraisableHookArgs"], object], lost: "sys.UnraisableHookArgs") -> None:
+    """Where Python lets nothing be raised (a weak reference's callback, __del__), an interruption is lost: it is asked for once more.
+
+    Such callbacks belong to imports and to memory that is given back; both come at any time.
+    """
+    if not isinstance(lost.exc_value, KeyboardInterrupt):
+        told(lost)
+        return
+    asked = signal.SIGTERM if isinstance(lost.exc_value, Terminated) else signal.SIGINT
+    again = threading.Timer(AGAIN, signal.pthread_kill, (threading.main_thread().ident, asked))
+    again.daemon = True
+    again.start()
 
 
 def insist(signals: int) -> None:

@@ -66,3 +66,27 @@ def test_termination_is_heard_before_anything_is_loaded():
     program = "import signal, sys, cli.entry; print(sorted({'cli.main', 'numpy', 'argparse'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+LOST = """
+import signal, sys, time
+from cli.ending import exit_code, termination_heard
+
+class Given:
+    def __del__(self):
+        # Nothing can be raised in here.
+        signal.raise_signal(getattr(signal, sys.argv[1]))
+
+try:
+    with termination_heard():
+        Given()
+        time.sleep(30.0)
+except KeyboardInterrupt as interruption:
+    sys.exit(exit_code(interruption))
+"""
+
+
+@pytest.mark.parametrize(("asked", "code"), [("SIGTERM", 143), ("SIGINT", 130)])
+def test_an_interruption_that_python_cannot_raise_where_it_comes_is_asked_for_once_more(asked, code):
+    done = subprocess.run([sys.executable, "-c", LOST, asked], cwd=ROOT, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (code, "")
