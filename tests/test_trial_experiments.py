@@ -8,8 +8,8 @@ import pytest
 from benchmarks.blind_trial import experiments
 from benchmarks.blind_trial.criteria import CRITERIA, Prediction, buzzi_ferraris, hunter_reiner, jensen_renyi, reduced
 from benchmarks.blind_trial.generator.make import Task, drawn
-from benchmarks.blind_trial.results import KINDS, resolved
-from benchmarks.blind_trial.words import EXPERIMENTS
+from benchmarks.blind_trial.results import KINDS, finished, pack, peers_in, resolved, unpack
+from benchmarks.blind_trial.words import ABOUT, BESIDE, EXPERIMENTS, RESULTS, SEALS
 
 RNG = np.random.default_rng(4)
 NONE = np.zeros((30, 0))
@@ -70,6 +70,15 @@ def test_random_experiments_are_all_over_what_the_rig_can_do():
     assert loads.max() > 235.0
     assert {s.setting.direction for s in found} == {1, -1}
     assert all(283.0 < s.setting.temperature < 334.0 for s in found)
+    # Nothing of the trial's reducers wears but what is measured as wear.
+    assert all(s.setting.hours == 0.0 for s in found)
+
+
+def test_random_wear_is_measured_after_hours():
+    made = drawn(Task(1, 5, "effect", ("surfaces that tire",), 12.0, "small"))
+    rng = np.random.default_rng(0)
+    found = [experiments.at_random(made, rng) for _ in range(50)]
+    assert all((s.setting.hours > 0.0) == (s.quantity == "wear_depth") for s in found)
 
 
 def test_further_cases_are_fixed_and_small():
@@ -89,3 +98,18 @@ def test_shares_by_who_chose(tmp_path):
     shares = resolved(tmp_path)
     assert (shares["proposed"]["count"], shares["random"]["count"], shares["random"]["of"]) == (2, 1, 2)
     assert tuple(shares) == KINDS == ("proposed", "random", *CRITERIA)
+
+
+def test_what_is_packed_is_there_again(tmp_path):
+    before, after = tmp_path / "before", tmp_path / "after"
+    before.mkdir()
+    lines = {RESULTS: {"number": 7, "verdict": "none"}, BESIDE: {"number": 7, "peers": {"BIC": ["drag"]}}, EXPERIMENTS: {"number": 7, "proposed": {"resolved": True}}}
+    for name, line in lines.items():
+        (before / name).write_text(json.dumps(line) + "\n", encoding="utf-8")
+    (before / ABOUT).write_text('{"seed": 1}', encoding="utf-8")
+    (before / SEALS).write_text("0 sha256\n", encoding="utf-8")
+    pack(before, tmp_path / "packed")
+    unpack(after, tmp_path / "packed")
+    assert finished(after) == finished(before)
+    assert peers_in(after) == {7: {"BIC": ["drag"]}}
+    assert resolved(after)["proposed"]["count"] == 1

@@ -30,6 +30,7 @@ from benchmarks.blind_trial.generator.laws import CATALOGUE
 from benchmarks.blind_trial.generator.make import Drawn, Task, drawn, measure
 from benchmarks.blind_trial.generator.noise import noise_for, round_to
 from benchmarks.blind_trial.generator.reducer import HOUR, Setting
+from benchmarks.blind_trial.generator.truth import LIVED
 from benchmarks.blind_trial.results import KINDS, end_line, finished, resolved
 from benchmarks.blind_trial.run import one as diagnosed
 from benchmarks.blind_trial.score import Case
@@ -121,7 +122,8 @@ def at_random(made: Drawn, rng: np.random.Generator) -> Series:
     tags = ""
     if quantity in ("wear_depth", "wear_profile"):
         tags = "[surface=pin]" if quantity == "wear_profile" else f"[surface={rng.choice(['flank', 'inner_race', 'outer_race'])}]"
-    settings = {name: float(rng.uniform(*ends)) for name, ends in LIMITS.items()}
+    # A trial's curves and torques are those of a new reducer.
+    settings = {name: float(rng.uniform(*ends)) for name, ends in LIMITS.items() if name != "hours" or quantity in LIVED}
     series = series_of(quantity + tags, settings, made, rng)
     direction = int(rng.choice([1, -1])) if quantity == "transmission_error" else 1
     series.setting = replace(series.setting, direction=direction)
@@ -180,10 +182,10 @@ def prediction(model: PhysicalModel, experiment: Measurement, rival: RivalLaw) -
 
 
 def one(result: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Every choice for one campaign, and what came of it."""
+    """Every choice for one campaign, and what came of it; each is drawn and measured by chance of its own."""
     task = Task(**{**result["task"], "laws": tuple(result["task"]["laws"]), "rivals": False})
     made = drawn(task)
-    design, rng = made.design, np.random.default_rng([task.seed, 77])
+    design = made.design
     runs = measure(made.rng, design, made.bench, made.truths)
 
     def write(name: str, more: list[Run]) -> Path:
@@ -201,14 +203,15 @@ def one(result: dict[str, Any], folder: Path) -> dict[str, Any]:
         proposals = proposed.result.proposals if proposed.result else []
         if not proposals:
             return found | {"verdict": proposed.verdict}
-        choices = {PROPOSED: series_of(proposals[0].kind, proposals[0].settings, made, rng), RANDOM: at_random(made, rng)}
-        choices |= {name: series_of(e.kind, e.settings, made, rng) for name, e in by_criteria(proposed, campaign).items()}
+        chance = {name: np.random.default_rng([task.seed, 77, k]) for k, name in enumerate(KINDS)}
+        choices = {PROPOSED: series_of(proposals[0].kind, proposals[0].settings, made, chance[PROPOSED]), RANDOM: at_random(made, chance[RANDOM])}
+        choices |= {name: series_of(e.kind, e.settings, made, chance[name]) for name, e in by_criteria(proposed, campaign).items()}
     acceptable = Case(result).acceptable
     known: dict[tuple[str, str, Setting], dict[str, Any]] = {}
     for name, series in choices.items():
         key = (series.quantity, str(sorted(series.tags.items())), series.setting)
         if key not in known:
-            more = measure(rng, replace(design, series=[series], conditions={}, uneven=False), made.bench, made.truths)
+            more = measure(chance[name], replace(design, series=[series], conditions={}, uneven=False), made.bench, made.truths)
             answer = answer_of(write(name, more))
             names = list(dict.fromkeys(e["name"] for e in answer["effects"]))
             known[key] = {"quantity": series.quantity, "setting": vars(series.setting), "verdict": answer["verdict"], "names": names,

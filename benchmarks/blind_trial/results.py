@@ -40,16 +40,18 @@ def by_number(path: Path) -> dict[int, dict[str, Any]]:
     return found
 
 
-# What a final trial has done so far, with its seals, for whoever goes on with it or judges it anew.
+# What a final trial has done so far, with its seals, what peers said and what experiments were worth, for whoever goes on with it or judges it anew.
 PACKED = Path(__file__).parent / "final.json.xz"
+# Of that, what lies in lines by campaign.
+LINES = {"results": RESULTS, "beside": BESIDE, "experiments": EXPERIMENTS}
 
 
 def pack(folder: Path, place: Path = PACKED) -> None:
     """Keeps a folder's results, seals and plan in one file."""
     content = {
         "about": json.loads((folder / ABOUT).read_text(encoding="utf-8")), "seals": (folder / SEALS).read_text(encoding="utf-8").splitlines(),
-        "results": [result for _, result in sorted(finished(folder).items())],
     }  # fmt: skip
+    content |= {kind: [line for _, line in sorted(by_number(folder / name).items())] for kind, name in LINES.items()}
     place.write_bytes(lzma.compress(json.dumps(content, sort_keys=True).encode(), preset=9))
 
 
@@ -59,7 +61,9 @@ def unpack(folder: Path, place: Path = PACKED) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / ABOUT).write_text(json.dumps(content["about"]), encoding="utf-8")
     (folder / SEALS).write_text("".join(f"{line}\n" for line in content["seals"]), encoding="utf-8")
-    (folder / RESULTS).write_text("".join(json.dumps(result) + "\n" for result in content["results"]), encoding="utf-8")
+    for kind, name in LINES.items():
+        if lines := content.get(kind):
+            (folder / name).write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
 
 
 def end_line(path: Path) -> None:
