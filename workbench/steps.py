@@ -39,6 +39,12 @@ def inputs(folder: Folder, given: dict[str, Any]) -> "tuple[ModelFile, Campaign]
     return load_model(folder.model(given)), campaign
 
 
+def begun(folder: Folder, kind: str) -> float | None:
+    """When the job was asked for: it tells its result from that of the one before."""
+    at = folder.recall(f"jobs/{kind}/job").get("begun")
+    return None if at is None else float(at)
+
+
 def report(result: object, place: Path) -> None:
     """The page of the result as one file."""
     from discrepancy.page import write_page
@@ -55,7 +61,7 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
         found, columns = view(comparison)
     with replacing(place / "columns.bin") as partial:
         partial.write_bytes(columns)
-    found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare")}
+    found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare"), "begun": begun(folder, "compare")}
     write_json(place / "result.json", found)
     with task("drawing the page"):
         report(comparison, place)
@@ -79,7 +85,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer, stopped = stop.answer, True
     with task("drawing the page"):
         report(answer, place)
-        write_json(place / "result.json", answer_data(answer) | {"model": str(given["model"]), "command": command(folder, given, "diagnose")})
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose")}
+        write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
 

@@ -301,6 +301,7 @@ export function show(root, context) {
             rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
             [1, 2, 3],
           ),
+          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact."),
         ),
       );
     } catch (fault) {
