@@ -303,6 +303,9 @@ def test_numbers_have_as_many_decimals_as_their_noise():
 
     assert [decimals_of(noise) for noise in (22.0, 1.9, 0.0073, 0.0)] == [0, 1, 4, 4]
     assert text_of(-0.011412, decimals_of(0.0082)) == "−0.0114" and text_of(1440.951, 0) == "1,441"
+    # Neither many digits nor many zeros, however far measurement and noise lie apart.
+    told = [text_of(value, decimals_of(noise)) for value, noise in ((424.77270608, 1.9e-7), (4.18e-6, 1.9e-7), (57_276_516.0, 744_836.0), (2e-7, 744_836.0), (-0.004, 0.1))]
+    assert told == ["424.773", "4.18·10⁻⁶", "5.728·10⁷", "0", "0.00"]
 
 
 def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
