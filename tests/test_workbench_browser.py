@@ -333,6 +333,22 @@ def test_a_sheet_is_offered_where_something_is_proposed(bench):
     assert "Sheet for the rig" not in offers[0] and "Print" not in offers[0] and "Ask again" in offers[0] and "Sheet for the rig" in offers[1]
 
 
+def test_nothing_is_compared_while_something_else_is_computed(bench):
+    page = bench.page
+    page.goto(bench.address)
+    told = page.evaluate("""async () => {
+      const { show } = await import('./static/look.js'), place = document.getElementById('view'), state = { saved: true, jobs: {} };
+      let busy = 'Diagnosing: one thing is computed at a time';
+      place.replaceChildren();
+      const look = show(place, { state, busy: () => busy, model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
+      const button = () => [place.querySelector('#compare').disabled, place.querySelector('#compare').title], during = button();
+      busy = '';
+      look.update(state);
+      return [during, button()];
+    }""")
+    assert told == [[True, "Diagnosing: one thing is computed at a time"], [False, ""]]
+
+
 def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
     page = bench.page
     page.set_viewport_size({"width": 390, "height": 844})

@@ -1,5 +1,6 @@
 """What each kind of job computes: the same functions as the commands, their results as data and as the page of one file."""
 
+import re
 import shlex
 from collections.abc import Callable
 from dataclasses import asdict
@@ -92,7 +93,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
-    from discrepancy.page.amounts import with_titles
+    from discrepancy.page.amounts import effect_title, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
@@ -109,11 +110,12 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
+    others = [re.sub(r"[a-z]+_[a-z_.]+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
-        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
-        "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),
+        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [with_titles(law.text) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,

@@ -17,7 +17,7 @@ export function nextPart(bag) {
               { id: "asked" },
               table(
                 ["☐", "measure", "because", "condition", price, "expected misfit"],
-                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : number(a.cost, 4), number(a.expected, 3)]),
+                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
                 [4, 5],
                 { class: "rows" },
               ),

@@ -134,7 +134,7 @@ export function show(root, context) {
             title: "hold this curve and compare further ones with it",
             onclick: () => {
               kept = last;
-              keptName = summary();
+              keptName = `${summary()}${last?.roughly && Object.keys(values).length ? " (as at first look)" : ""}`;
               follow();
             },
           },
