@@ -209,7 +209,7 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     page.select_option("#measured", "RV20E-121")
     assert page.get_by_label("quantity", exact=True).count() == 2
     page.get_by_text("The 3 numbers in these names (20, 80, 167) are").wait_for()
-    page.get_by_text("2 names that differ by a number make conditions of their own").wait_for()
+    page.get_by_text("2 names that differ by numbers make conditions of their own").wait_for()
     page.get_by_label("numbers in the names").select_option(label="load torque [N·m]")
     page.get_by_text("The 3 numbers in these names").wait_for(state="detached")
     assert page.get_by_label("pattern of the names").first.input_value() == "Drehfehler_{load}_{speed}rpm_{temperature}C_{replicate}"

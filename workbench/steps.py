@@ -110,7 +110,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
-    others = [re.sub(r"[a-z]+_[a-z_.]+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
+    others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,

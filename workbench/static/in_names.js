@@ -26,7 +26,7 @@ export function numbersSaid(patterns, take) {
   const found = differing(patterns),
     free = Object.entries(FIELDS).filter(([field]) => !patterns[0].includes(`${field}}`) && !patterns[0].includes(`{${field}_`));
   if (!found || !free.length)
-    return h("p", { class: "fair small" }, `${patterns.length} names that differ by a number make conditions of their own. What the number says can be put in under Conditions, or its field, such as {load}, in its place under "names say".`);
+    return h("p", { class: "fair small" }, `${patterns.length} names that differ by numbers make conditions of their own. What a number says can be put in under Conditions, or its field, such as {load} or {speed}, in its place under "names say".`);
   return h(
     "p",
     { class: "fair small" },
