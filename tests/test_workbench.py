@@ -480,3 +480,12 @@ def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
     with ThreadPoolExecutor(8) as pool:
         said = list(pool.map(start, jobs.KINDS))
     assert len(begun) == 1 and said.count("") == 1 and all("is being computed" in text for text in said if text)
+
+
+def test_what_begins_anew_shows_nothing_of_before(tmp_path, monkeypatch):
+    """A life of another model showed the curves of the one before until its own first jump."""
+    folder = opened(tmp_path)
+    monkeypatch.setattr(jobs.subprocess, "Popen", lambda *words, **how: type("Process", (), {"wait": lambda self: 0})())
+    folder.remember("jobs/life/live", {"now": {"model": "RV20E-121", "hours": [0.0, 500.0]}})
+    jobs.start(folder, "life", {"model": "BX-40E"}, 1)
+    assert folder.recall("jobs/life/live") == {}
