@@ -483,9 +483,12 @@ def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
 
 
 def test_what_begins_anew_shows_nothing_of_before(tmp_path, monkeypatch):
-    """A life of another model showed the curves of the one before until its own first jump."""
+    """A life of another model showed the curves of the one before until its own first jump; one that goes on has its own."""
     folder = opened(tmp_path)
     monkeypatch.setattr(jobs.subprocess, "Popen", lambda *words, **how: type("Process", (), {"wait": lambda self: 0})())
-    folder.remember("jobs/life/live", {"now": {"model": "RV20E-121", "hours": [0.0, 500.0]}})
-    jobs.start(folder, "life", {"model": "BX-40E"}, 1)
-    assert folder.recall("jobs/life/live") == {}
+    for before, kept in (({"model": "RV20E-121"}, False), ({"model": "BX-40E"}, True)):
+        folder.remember("jobs/life/job", {"kind": "life", "given": before, "begun": 0.0})
+        folder.remember("jobs/life/beat", {"state": jobs.STOPPED})
+        folder.remember("jobs/life/live", {"now": {"hours": [0.0, 500.0]}})
+        jobs.start(folder, "life", {"model": "BX-40E"}, 1)
+        assert bool(folder.recall("jobs/life/live")) == kept

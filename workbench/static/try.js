@@ -190,6 +190,7 @@ export function show(root, context) {
     const numbers = data.numbers.filter((e) => fits(e) || on(e));
     clear(
       list,
+      effects.length + numbers.length ? null : h("li", { class: "quiet" }, "No effect has these words."),
       effects.map(shownEntry),
       numbers.length
         ? h(
