@@ -36,6 +36,14 @@ function thinned(data, layout, width) {
   return kept.length < names.length ? { xaxis: { ...layout.xaxis, tickmode: "array", tickvals: kept.sort((p, q) => p - q).map((i) => names[i]) } } : {};
 }
 
+// The axis of bars that lie, long enough for what is written behind the longest.
+function roomy(data, layout, wide) {
+  const [low, high] = layout.xaxis?.range ?? [];
+  if (low !== 0 || layout.xaxis.type === "log") return {};
+  const ends = data.filter((trace) => trace.type === "bar" && Array.isArray(trace.text)).flatMap((trace) => trace.x.map((x, i) => (x * wide) / Math.max(wide / 2, wide - (String(trace.text[i]).length + 1) * LETTER)));
+  return { xaxis: { ...layout.xaxis, range: [0, Math.max(high, ...ends)] } };
+}
+
 // What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
 function narrowed(figure, data, layout, width) {
   const bar = data.find((trace) => trace.type === "bar" && trace.orientation === "h");
@@ -48,7 +56,7 @@ function narrowed(figure, data, layout, width) {
   const bars = bar ? data.filter((trace) => trace.type === "bar").length : 1;
   let height = Math.max(figure.height, figure.height + names.length * (rows.lines * LINE + MARGIN - (bar ? 28 + 18 * (bars - 1) : 27)));
   const shown = { ...layout, yaxis: { ...layout.yaxis, ...rows.axis } };
-  if (bar) return { data, layout: { ...shown, margin: { ...layout.margin, l: 8 } }, height };
+  if (bar) return { data, layout: { ...shown, ...roomy(data, layout, (1 - SHARE) * width - (layout.margin?.r ?? 80)), margin: { ...layout.margin, l: 8 } }, height };
   // A map: its scale goes, for the colours are told below and the cells have their numbers.
   const cell = (width - Math.max(...rows.texts.flat().map((line) => line.length)) * LETTER - 30) / map.x.length;
   const heads = ticks(map.x, cell);

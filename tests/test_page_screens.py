@@ -97,3 +97,10 @@ def test_nothing_leaves_a_narrow_page(chromium, file):
         "[...document.querySelectorAll('table.stack td')].map((e) => getComputedStyle(e, '::before').content.replaceAll('\"', '') + e.textContent).join('|')"
     )
     assert page.locator("details.fold table").is_hidden()
+
+
+def test_numbers_behind_bars_have_room_on_a_narrow_card(chromium, file):
+    """The axis goes on behind the longest bar for what is written there."""
+    high = opened(chromium, file, 390, "light").evaluate("""() => [['3,880,000'], ['3']].map((text) => narrowed({ height: 100 },
+        [{ type: 'bar', orientation: 'h', y: ['base (ring seat compliance)'], x: [100], text }], { xaxis: { range: [0, 125] }, yaxis: {}, margin: { r: 24 } }, 300).layout.xaxis.range[1])""")
+    assert high[0] > 150 and high[1] == 125

@@ -303,6 +303,9 @@ def test_numbers_have_as_many_decimals_as_their_noise():
 
     assert [decimals_of(noise) for noise in (22.0, 1.9, 0.0073, 0.0)] == [0, 1, 4, 4]
     assert text_of(-0.011412, decimals_of(0.0082)) == "−0.0114" and text_of(1440.951, 0) == "1,441"
+    # Neither many digits nor many zeros, however far measurement and noise lie apart.
+    told = [text_of(value, decimals_of(noise)) for value, noise in ((424.77270608, 1.9e-7), (4.18e-6, 1.9e-7), (57_276_516.0, 744_836.0), (2e-7, 744_836.0), (-0.004, 0.1))]
+    assert told == ["424.773", "4.18·10⁻⁶", "5.728·10⁷", "0", "0.00"]
 
 
 def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
@@ -477,3 +480,15 @@ def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
     with ThreadPoolExecutor(8) as pool:
         said = list(pool.map(start, jobs.KINDS))
     assert len(begun) == 1 and said.count("") == 1 and all("is being computed" in text for text in said if text)
+
+
+def test_what_begins_anew_shows_nothing_of_before(tmp_path, monkeypatch):
+    """A life of another model showed the curves of the one before until its own first jump; one that goes on has its own."""
+    folder = opened(tmp_path)
+    monkeypatch.setattr(jobs.subprocess, "Popen", lambda *words, **how: type("Process", (), {"wait": lambda self: 0})())
+    for before, kept in (({"model": "RV20E-121"}, False), ({"model": "BX-40E"}, True)):
+        folder.remember("jobs/life/job", {"kind": "life", "given": before, "begun": 0.0})
+        folder.remember("jobs/life/beat", {"state": jobs.STOPPED})
+        folder.remember("jobs/life/live", {"now": {"hours": [0.0, 500.0]}})
+        jobs.start(folder, "life", {"model": "BX-40E"}, 1)
+        assert bool(folder.recall("jobs/life/live")) == kept

@@ -194,17 +194,42 @@ def test_families_of_one_quantity_are_corrected_together_and_conditions_in_one_p
     assert page.locator("#cells-conditions").count() == 0
 
 
+def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(bench, tmp_path):
+    """Loads without a unit; loops of other names keep what their words say."""
+    page = bench.page
+    head = "Zeit [s];Winkel [deg];Drehfehler [arcsec]\n"
+    for load in (20, 80, 167):
+        (tmp_path / f"Drehfehler_{load}_15rpm_40C_1.csv").write_text(head + "\n".join(f"{0.02 * k:.2f};{1.8 * k:.1f};{k % 7}" for k in range(201)))
+    for place in (0, 40):
+        loop_file(tmp_path / f"loop_{place}deg_25C_1.csv", 200 + place, 400.0)
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
+    page.get_by_text("5 runs in 5 files, 5 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    assert page.get_by_label("quantity", exact=True).count() == 2
+    page.get_by_text("The 3 numbers in these names (20, 80, 167) are").wait_for()
+    page.get_by_text("2 names that differ by numbers make conditions of their own").wait_for()
+    page.get_by_label("numbers in the names").select_option(label="load torque [N·m]")
+    page.get_by_text("The 3 numbers in these names").wait_for(state="detached")
+    assert page.get_by_label("pattern of the names").first.input_value() == "Drehfehler_{load}_{speed}rpm_{temperature}C_{replicate}"
+    loads = [page.get_by_label("load torque", exact=True).nth(k).input_value() for k in range(5)]
+    assert sorted(filter(None, loads)) == ["167", "20", "80"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)
-    assert said[0] == "" and "is of RV20E-121; the model that is chosen now is model.toml" in said[1] and "have changed since" in said[2] and said[3] == ""
+    assert said[0] == "" and "is of RV20E-121; the model that is chosen now is model.toml" in said[1] and "have changed since" in said[2]
+    assert said[3] == "" and said[4] == "What stands below is of before. It is being computed anew." and "came to no result" in said[5]
 
 
-# Of the chosen model, of another, of files that changed since, and while it is asked anew.
+# Of the chosen model, of another, of files that changed since, and while it is asked anew: once it is there, before, and where nothing comes of it.
 PAST = """async () => {
-    const { past } = await import('./static/past.js'), chosen = (name) => ({ model: () => name }), result = { model: 'RV20E-121' };
-    return [past(result, { old: false, state: 'done' }, chosen('RV20E-121')), past(result, { old: false, state: 'done' }, chosen('model.toml')),
-      past(result, { old: true, state: 'done' }, chosen('RV20E-121')), past(result, { old: true, state: 'running' }, chosen('RV20E-121'))];
+    const { past } = await import('./static/past.js'), result = { model: 'RV20E-121', begun: 1 };
+    const told = (model, job) => past(result, { begun: 1, old: false, state: 'done', ...job }, { model: () => model });
+    return [told('RV20E-121', {}), told('model.toml', {}), told('RV20E-121', { old: true }), told('RV20E-121', { state: 'running' }),
+      told('RV20E-121', { begun: 2, old: true, state: 'running' }), told('RV20E-121', { begun: 2, state: 'stopped' })];
   }"""
 
 
@@ -298,6 +323,32 @@ ADDED = """async ([kept, after]) => {
   }"""
 
 
+def test_a_sheet_is_offered_where_something_is_proposed(bench):
+    page = bench.page
+    page.goto(bench.address)
+    offers = page.evaluate("""async () => {
+      const { nextPart } = await import('./static/better.js'), one = { experiment: 'a loop', cost: 2, least: 3, mean: 4 };
+      return [[], [one]].map((proposals) => nextPart({ next: { verdict: 'nothing to tell apart', asked: [], proposals, stakes: {} }, context: { busy: () => '' } }).textContent);
+    }""")
+    assert "Sheet for the rig" not in offers[0] and "Print" not in offers[0] and "Ask again" in offers[0] and "Sheet for the rig" in offers[1]
+
+
+def test_nothing_is_compared_while_something_else_is_computed(bench):
+    page = bench.page
+    page.goto(bench.address)
+    told = page.evaluate("""async () => {
+      const { show } = await import('./static/look.js'), place = document.getElementById('view'), state = { saved: true, jobs: {} };
+      let busy = 'Diagnosing: one thing is computed at a time';
+      place.replaceChildren();
+      const look = show(place, { state, busy: () => busy, model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
+      const button = () => [place.querySelector('#compare').disabled, place.querySelector('#compare').title], during = button();
+      busy = '';
+      look.update(state);
+      return [during, button()];
+    }""")
+    assert told == [[True, "Diagnosing: one thing is computed at a time"], [False, ""]]
+
+
 def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
     page = bench.page
     page.set_viewport_size({"width": 390, "height": 844})
@@ -314,18 +365,12 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     assert cut[:2] == [0, '"after "'] and cut[2] < 42
     lines = page.evaluate("""async () => {
       const { folded } = await import('./static/paint.js'), c = document.createElement('canvas').getContext('2d');
-      return folded(c, '1500rpm_167N.m_warm', c.measureText('1500rpm_167N.').width);
+      const room = c.measureText('1500rpm_167N.').width, names = ['1500rpm_167N.m_warm', 'with_einlaufenderungeschmiert_2'];
+      return names.map((name) => [folded(c, name, room), Math.max(...folded(c, name, room).map((line) => c.measureText(line).width - room))]);
     }""")
-    assert "".join(lines) == "1500rpm_167N.m_warm" and len(lines) > 1
-
-
-def test_names_beside_each_other_are_told_by_what_differs(bench):
-    page = bench.page
-    page.goto(bench.address)
-    names = "async (names) => (await import('./static/names.js')).distinct(names)"
-    assert page.evaluate(names, ["te_125N.m_16.5rpm", "te_84N.m_16.5rpm"]) == ["…125N.m…", "…84N.m…"]
-    assert page.evaluate(names, ["40degC", "half load", "20degC"]) == ["40degC", "half load", "20degC"]
-    assert page.evaluate(names, ["a_b", "a_b_b"]) == ["a_b", "a_b_b"] and page.evaluate(names, ["only_one"]) == ["only_one"]
+    # A word that is wider than its place is parted, not cut.
+    assert ["".join(parts) for parts, _ in lines] == ["1500rpm_167N.m_warm", "with_einlaufenderungeschmiert_2"]
+    assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
 
 
 def test_a_sample_aside_stretches_no_axis(bench):

@@ -43,7 +43,9 @@ def start(folder: Folder, kind: str, given: dict[str, Any], jobs: int) -> None:
         if busy:
             raise InputFault(f"{busy[0]} is being computed: stop it, or wait for its end")
         place.mkdir(parents=True, exist_ok=True)
-        for name in ("stop", "beat.json"):
+        # What goes on from where it was shows what it had; anything else nothing of before.
+        anew = folder.recall(f"jobs/{kind}/job").get("given") != given
+        for name in ("stop", "beat.json", *(["live.json"] if anew else [])):
             (place / name).unlink(missing_ok=True)
         folder.remember(f"jobs/{kind}/job", {"kind": kind, "given": given, "jobs": jobs, "begun": time.time()})
     with (place / "log.txt").open("wb") as log:

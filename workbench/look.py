@@ -24,6 +24,9 @@ MOST_ORDERS = 200
 FEW = 40
 # Samples of a run that is drawn at all.
 LEAST = 3
+# Digits of a key figure: more fit no telephone.
+MOST_DIGITS = 6
+POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Columns:
@@ -92,12 +95,20 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
 
 
 def decimals_of(noise: float) -> int:
-    """Decimals down to the second digit of the noise: what is smaller says nothing."""
-    return min(9, max(0, 1 - math.floor(math.log10(noise)))) if noise > 0.0 and math.isfinite(noise) else 4
+    """Decimals down to the second digit of the noise, before the point where negative: what is smaller says nothing."""
+    return 1 - math.floor(math.log10(noise)) if noise > 0.0 and math.isfinite(noise) else 4
 
 
 def text_of(value: float, decimals: int) -> str:
-    return f"{value:,.{decimals}f}".replace("-", "−") if math.isfinite(value) else "–"
+    """Of MOST_DIGITS digits at most; with a power of ten as the page writes it where there are too many zeros."""
+    if not math.isfinite(value):
+        return "–"
+    value = round(value, decimals) or 0.0
+    size = math.floor(math.log10(abs(value))) if value else 0
+    if -5 < size < MOST_DIGITS:
+        return f"{value:,.{max(0, min(decimals, MOST_DIGITS - 1 - size))}f}".replace("-", "−")
+    mantissa, _, power = f"{value:.{max(0, min(size + decimals, MOST_DIGITS - 1))}e}".partition("e")
+    return f"{mantissa}·10{str(int(power)).translate(POWERS)}".replace("-", "−")
 
 
 def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str, float], named: dict[str, str]) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """What each kind of job computes: the same functions as the commands, their results as data and as the page of one file."""
 
+import re
 import shlex
 from collections.abc import Callable
 from dataclasses import asdict
@@ -39,6 +40,12 @@ def inputs(folder: Folder, given: dict[str, Any]) -> "tuple[ModelFile, Campaign]
     return load_model(folder.model(given)), campaign
 
 
+def begun(folder: Folder, kind: str) -> float | None:
+    """When the job was asked for: it tells its result from that of the one before."""
+    at = folder.recall(f"jobs/{kind}/job").get("begun")
+    return None if at is None else float(at)
+
+
 def report(result: object, place: Path) -> None:
     """The page of the result as one file."""
     from discrepancy.page import write_page
@@ -55,7 +62,7 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
         found, columns = view(comparison)
     with replacing(place / "columns.bin") as partial:
         partial.write_bytes(columns)
-    found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare")}
+    found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare"), "begun": begun(folder, "compare")}
     write_json(place / "result.json", found)
     with task("drawing the page"):
         report(comparison, place)
@@ -79,13 +86,14 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer, stopped = stop.answer, True
     with task("drawing the page"):
         report(answer, place)
-        write_json(place / "result.json", answer_data(answer) | {"model": str(given["model"]), "command": command(folder, given, "diagnose")})
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose")}
+        write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
-    from discrepancy.page.amounts import with_titles
+    from discrepancy.page.amounts import effect_title, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
@@ -102,11 +110,12 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
+    others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
-        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": left_text(answer),
-        "together": together_text(answer).replace("->", "→"), "stand_ins": list(stand_ins(answer).values()),
+        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [with_titles(law.text) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,

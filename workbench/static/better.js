@@ -17,7 +17,7 @@ export function nextPart(bag) {
               { id: "asked" },
               table(
                 ["☐", "measure", "because", "condition", price, "expected misfit"],
-                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : number(a.cost, 4), number(a.expected, 3)]),
+                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
                 [4, 5],
                 { class: "rows" },
               ),
@@ -44,12 +44,15 @@ export function nextPart(bag) {
                 .join("; ")}`,
             )
           : null,
-        h(
-          "div",
-          { class: "row" },
-          h("a", { class: "button", href: "results/next/report?download", download: "" }, "Sheet for the rig"),
-          h("button", { type: "button", onclick: () => print() }, "Print"),
-        ),
+        // Where nothing is proposed there is nothing to take to the rig.
+        next.asked.length + next.proposals.length
+          ? h(
+              "div",
+              { class: "row" },
+              h("a", { class: "button", href: "results/next/report?download", download: "" }, "Sheet for the rig"),
+              h("button", { type: "button", onclick: () => print() }, "Print"),
+            )
+          : null,
         command(next.command),
       ]
     : null;

@@ -140,7 +140,7 @@ export function number(value, digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.floor(Math.log10(Math.abs(value)));
-  if (size < -4 || size > 6) {
+  if (size < -4 || size > 5) {
     const [mantissa, power] = value.toExponential(digits - 1).split("e");
     return `${Number(mantissa)}·10${[...String(Number(power))].map((c) => SUPER[c]).join("")}`.replace("-", "−");
   }

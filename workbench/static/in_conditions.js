@@ -36,6 +36,7 @@ export function questions(bag) {
               "div",
               { class: "row" },
               h("span", {}, `${needing.join(", ")}: `),
+              needs.some((n) => n.text.endsWith(`needs ${keys}`) && n.remedy.startsWith("--names")) ? "what the numbers in the names are can be chosen below; or, for all alike, " : "",
               keys.split(" or ").map((key, i) => [i ? "or " : "", amount(key, "", (text) => text && answer(needing, key, text), `need-${key}`)]),
             ),
           ),

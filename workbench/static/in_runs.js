@@ -2,6 +2,7 @@
 
 import { choose, h, spark, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
+import { family, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
 import { drop } from "./net.js";
 
@@ -37,7 +38,7 @@ export function runs(bag) {
   const { data } = bag;
   const groups = new Map();
   for (const run of data.proposal.runs) {
-    const key = JSON.stringify([run.quantity.value, Object.entries(run.columns).map(([role, e]) => [role, e.header, e.unit.value, e.scale]), run.names, run.tags]);
+    const key = JSON.stringify([run.quantity.value, Object.entries(run.columns).map(([role, e]) => [role, e.header, e.unit.value, e.scale]), family(run.names), run.tags]);
     groups.set(key, [...(groups.get(key) ?? []), run]);
   }
   return h(
@@ -143,19 +144,20 @@ function group(bag, members) {
         ),
       ),
     );
+  const patterns = [...new Set(members.map((run) => run.names))];
+  const say = (names) =>
+    wish((w) => {
+      // What was given for the other groups stays; files that no pattern fits are guessed as ever, words in their names included.
+      const others = (w.names ?? []).filter((n) => !patterns.includes(n));
+      w.names = names ? [...new Set([names, ...others])] : others;
+    });
   const pattern = h("input", {
     type: "text",
     value: first.names,
     size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
     title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
-    onchange: () =>
-      wish((w) => {
-        // Where one pattern is given each file needs one: those of the other groups stay as they were guessed.
-        const others = data.proposal.runs.map((run) => run.names).filter((n) => n !== first.names);
-        const given = pattern.value.trim();
-        w.names = given ? [...new Set([given, ...others])] : [];
-      }),
+    onchange: () => say(pattern.value.trim()),
   });
   return h(
     "div",
@@ -178,6 +180,7 @@ function group(bag, members) {
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
+    numbersSaid(patterns, say),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
     table(
       COLUMNS,

@@ -46,14 +46,14 @@ export function show(root, context) {
   const part = (place) => columns.subarray(place.from, place.from + place.count);
 
   function bar() {
-    const job = context.state?.jobs.compare;
+    const busy = context.busy();
     return h(
       "div",
       { class: "row" },
       context.modelChooser("model"),
       h(
         "button",
-        { type: "button", class: result ? "" : "main", id: "compare", disabled: job?.state === "running", onclick: () => context.start("compare") },
+        { type: "button", class: result ? "" : "main", id: "compare", disabled: !!busy, title: busy || undefined, onclick: () => context.start("compare") },
         result ? "Compare again" : "Compare",
       ),
       result ? h("a", { class: "button", href: "results/compare/report?download", download: "" }, "Save as one file") : null,
@@ -281,6 +281,7 @@ export function show(root, context) {
   draw();
   load();
   let seen = context.state?.jobs.compare?.begun + String(context.state?.jobs.compare?.state),
+    busy = context.busy(),
     exports = "",
     model = context.model();
   return {
@@ -288,6 +289,11 @@ export function show(root, context) {
       const written = `${state.jobs.export?.begun}${state.jobs.export?.state}`;
       if (written !== exports && exports && result) draw();
       exports = written;
+      // What else is computed stands in the way of comparing.
+      if (busy !== context.busy()) {
+        busy = context.busy();
+        root.querySelector("#compare")?.closest(".row").replaceWith(bar());
+      }
       const job = state.jobs.compare,
         now = job?.begun + String(job?.state) + job?.result + (job?.state === "running" ? job.tasks.length > 1 && job.tasks.at(-1)?.what : "");
       if (now !== seen || model !== context.model()) {

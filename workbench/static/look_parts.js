@@ -45,6 +45,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
     h(
       "div",
       { class: "panel" },
+      rows.length ? null : h("p", { class: "quiet" }, "No figure has all of these words."),
       table(
         ["signal", "figure", "condition", "measured", "noise", result.calibrated.length ? "model, calibrated" : "model", "off, in noise", ""],
         rows.map((f, i) => [

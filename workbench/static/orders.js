@@ -1,7 +1,6 @@
 // Orders of a signal over the output's turn: of one condition as stems, of all as a waterfall; hovering names what makes an order.
 
 import { h, number, table } from "./dom.js";
-import { distinct } from "./names.js";
 import { LEFT, RIGHT, folded } from "./paint.js";
 import { Plot } from "./plot.js";
 
@@ -107,7 +106,7 @@ function waterfall(signal, said, result) {
     "aria-label": `orders of ${signal.title} for each condition`,
   });
   let which = "measured";
-  const names = distinct(signal.spectra.map((s) => s.condition));
+  const names = signal.spectra.map((s) => s.condition);
   const draw = () => {
     const ratio = window.devicePixelRatio || 1,
       width = canvas.clientWidth;

@@ -217,19 +217,21 @@ function drawCursors(plot, c, px, foot) {
   plot.cursorButton.textContent = `cursor ${plot.active.toUpperCase()}`;
 }
 
-export function fitting(c, text, room) {
+function fitting(c, text, room) {
   if (c.measureText(text).width <= room) return text;
   let short = text;
   while (short.length > 4 && c.measureText(`${short}…`).width > room) short = short.slice(0, -1);
   return `${short}…`;
 }
 
-// In lines of this room at most, parted behind blanks and signs; a word that is wider itself is cut.
+// In lines of this room at most, parted behind blanks and signs; within a word only where it is wider itself.
 export function folded(c, text, room) {
-  const lines = [""];
-  for (const word of text.match(/[^\s_,;-]+[\s_,;-]*/g) ?? [text]) {
-    if (lines.at(-1) && c.measureText((lines.at(-1) + word).trim()).width > room) lines.push("");
-    lines[lines.length - 1] += word;
-  }
-  return lines.map((line) => fitting(c, line.trim(), room));
+  const lines = [""],
+    wide = (line) => c.measureText(line.trim()).width > room;
+  for (const word of text.match(/[^\s_,;-]+[\s_,;-]*/g) ?? [text])
+    for (const piece of wide(word) ? word : [word]) {
+      if (lines.at(-1) && wide(lines.at(-1) + piece)) lines.push("");
+      lines[lines.length - 1] += piece;
+    }
+  return lines.map((line) => line.trim());
 }

@@ -5,9 +5,14 @@ import { h } from "./dom.js";
 // Why it is past; empty for one that is of the chosen model and of the files as they are.
 export function past(result, job, context) {
   if (!result) return "";
-  const chosen = context.model();
-  if (chosen && result.model !== chosen) return `What stands below is of ${result.model}; the model that is chosen now is ${chosen}.`;
-  return job?.old && job.state !== "running" ? `What stands below is of ${result.model} and the files as they were; they have changed since.` : "";
+  const chosen = context.model(),
+    running = job?.state === "running",
+    former = job && result.begun !== job.begun,
+    anew = running && former ? " It is being computed anew." : "";
+  if (chosen && result.model !== chosen) return `What stands below is of ${result.model}; the model that is chosen now is ${chosen}.${anew}`;
+  if (anew) return `What stands below is of before.${anew}`;
+  if (former && result.begun && !running) return "What stands below is of before: what was computed since came to no result.";
+  return job?.old && !running ? `What stands below is of ${result.model} and the files as they were; they have changed since.` : "";
 }
 
 // The words stand over what they are about.

@@ -134,7 +134,7 @@ export function show(root, context) {
             title: "hold this curve and compare further ones with it",
             onclick: () => {
               kept = last;
-              keptName = summary();
+              keptName = `${summary()}${last?.roughly && Object.keys(values).length ? " (as at first look)" : ""}`;
               follow();
             },
           },
@@ -190,6 +190,7 @@ export function show(root, context) {
     const numbers = data.numbers.filter((e) => fits(e) || on(e));
     clear(
       list,
+      effects.length + numbers.length ? null : h("li", { class: "quiet" }, "No effect has these words."),
       effects.map(shownEntry),
       numbers.length
         ? h(
@@ -301,6 +302,7 @@ export function show(root, context) {
             rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
             [1, 2, 3],
           ),
+          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact."),
         ),
       );
     } catch (fault) {
