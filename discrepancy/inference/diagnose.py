@@ -243,12 +243,19 @@ class Diagnostician:
     def say_scores(self) -> None:
         """Which effects come nearest before any is fitted in earnest."""
         nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
-        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
+        # Of what was tried at first, each has a score or shows nothing.
+        idle = len(self.candidates) - len(self.refits.scores)
+        without = f", the other {idle} change nothing here that could be seen" if idle else ""
+        say(f"{self.tested}{without}; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
+
+    @property
+    def tested(self) -> str:
+        return f"{len(self.refits.scores)} of {len(self.candidates)} effects tested"
 
     def stopped(self) -> Diagnosis:
         """What is known so far: base fit, localisation, scores, and the best fit."""
         fits = sorted(self.refits.fitted.values(), key=penalised)
-        done = ["base fit"] + ([f"{len(self.refits.scores)} effects screened"] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
+        done = ["base fit"] + ([self.tested] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
         reason = f"stopped while {self.doing}; done: {', '.join(done)}" + (f"; best so far: {fits[0].name}" if fits else "")
         captured = 0.0
         text: dict[str, Any] = {}

@@ -44,12 +44,15 @@ export function nextPart(bag) {
                 .join("; ")}`,
             )
           : null,
-        h(
-          "div",
-          { class: "row" },
-          h("a", { class: "button", href: "results/next/report?download", download: "" }, "Sheet for the rig"),
-          h("button", { type: "button", onclick: () => print() }, "Print"),
-        ),
+        // Nothing to measure, nothing to take to the rig.
+        next.asked.length || next.proposals.length
+          ? h(
+              "div",
+              { class: "row" },
+              h("a", { class: "button", href: "results/next/report?download", download: "" }, "Sheet for the rig"),
+              h("button", { type: "button", onclick: () => print() }, "Print"),
+            )
+          : null,
         command(next.command),
       ]
     : null;
