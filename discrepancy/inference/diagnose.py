@@ -12,6 +12,8 @@ from discrepancy.inference.chance import chance
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.refit.beside_base import base_parameters
+from discrepancy.inference.refit.beside_base import widening as widening_by_base
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
@@ -277,7 +279,12 @@ class Diagnostician:
 
     @property
     def teller(self) -> Teller:
-        return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.settings.coverage, self.started)
+        return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.beside_base,
+                      self.settings.coverage, self.started)  # fmt: skip
+
+    def beside_base(self, result: Refit) -> dict[str, float]:
+        """By how much wider the intervals of ``result`` are with the base model's numbers free within their ranges."""
+        return widening_by_base(self.space, result, base_parameters(self.candidates, result.candidates))
 
     # for those who go on from here ----------------------------------------------------------
     def fit(self, names: Sequence[str]) -> Refit:
