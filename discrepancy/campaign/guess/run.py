@@ -27,6 +27,8 @@ from fmu_src.units import conversion
 ANGLES = ("angle", "input_angle")
 # A clock that starts so many times its range away has its zero elsewhere.
 FAR_START = 10.0
+# A turn is short of its last step.
+JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
 
 
@@ -194,8 +196,8 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     counts = wishes.counts.get(header) or wishes.counts.get(column.name)
     if counts or (column.stated and column.stated[0] == COUNTS):
         if not counts:
-            counts = 2.0 ** np.ceil(np.log2(max(column.shape.high - min(column.shape.low, 0.0), 1.0)))
-            text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed (the power of two above its range)"
+            counts, why = steps_above(max(column.shape.high - min(column.shape.low, 0.0), 1.0))
+            text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed ({why})"
             doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'"))
         keys["scale"] = scale / float(counts)
         unit = Guess("turn", f"steps of an encoder, {counts:.0f} a turn")
@@ -215,6 +217,16 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     if role == "time" and column.shape.low > FAR_START * column.shape.span:
         keys["from_start"] = True
     return Entry(guess, header, unit, keys), doubts
+
+
+def steps_above(reach: float) -> tuple[float, str]:
+    """Steps a turn of an encoder that reached so many, and why: encoders have powers of two, or round numbers that a whole turn just misses."""
+    power = 2.0 ** np.ceil(np.log2(reach))
+    tens = 10.0 ** (np.floor(np.log10(reach)) - 1.0)
+    decimal = tens * np.ceil(reach / tens)
+    if decimal <= JUST_ABOVE * reach < power:
+        return float(decimal), "the round number just above its range"
+    return float(power), "the power of two above its range"
 
 
 def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:
