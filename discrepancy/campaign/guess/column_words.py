@@ -32,8 +32,8 @@ MEANINGS = {
     r"|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
     "torque": r"torq|moment|drehm|(?<![a-z])couple(?![a-z])|coppia|(?<![a-z])bin[áa]rio|^par(?:$|[ _.-])|扭矩|转矩|轉矩|力矩|トルク|负载|負載|負荷(?!側)"
     r"|(?:^|[ _.-])(?:m|md|t|load|last|charge|carico|carga)(?:$|[ _.-])(?!.*time)",
-    "twist": r"twist|torsi[oó]n|verdreh|wind.?up|deflect|hyst|hist[ée]res|isteresi|spiel|backlash|(?<![a-z])jeu(?![a-z])|gioco|juego|(?<![a-z])folga(?![a-z])|tor[çc][ãa]o|^turn(?:ing)?(?:$|[ _.-])"
-    r"|扭转|扭轉|回差|滞回|变形|變形|ねじれ|ヒステリシス",
+    "twist": r"twist|torsi[oó]n|verdreh|wind.?up|deflect|hyst|hist[ée]res|isteresi|spiel|backlash|(?<![a-z])jeu(?![a-z])|gioco|juego"
+    r"|(?<![a-z])folga(?![a-z])|tor[çc][ãa]o|^turn(?:ing)?(?:$|[ _.-])|扭转|扭轉|回差|滞回|变形|變形|ねじれ|ヒステリシス",
     "angle": r"angle|angol|[áâa]ngul|winkel|rotorlage|phi|theta|φ|θ|ϕ|encoder|codeur|geber"
     r"|(?:^|[ _.-])(?:enc|pos|position|rotation)(?:$|[ _.-])|posi[tzcç]|角|回転角",
     "time": r"time|zeit|temps|tempo|tiempo|时间|時間|uhr|clock|(?:^|[ _.-])t(?:$|[ _.-])|timestamp|时刻|時刻",
@@ -49,13 +49,15 @@ AT_INPUT, AT_OUTPUT = re.compile(INPUT, re.IGNORECASE), re.compile(OUTPUT, re.IG
 QUANTITY_WORDS = {
     "transmission_error": r"te|tf|err|transmission.?error|übertragungsfehler|uebertragungsfehler|drehfehler|erreur(?:.(?:de.)?transmission)?"
     r"|errore(?:.(?:di.)?trasmissione)?|error(?:.(?:de.)?transmisi[óo]n)?|erro(?:.(?:de.)?transmiss[ãa]o)?|传动误差|傳動誤差|角度伝達誤差",
-    "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|histerese|ramps?|torqueramp|rampe|rampa"
+    "hysteresis": r"loops?|schleifen?|boucles?|hyst|hysteresis|hysterese|hystereses|hyst[ée]r[ée]sis|isteresi|hist[ée]resis|histerese"
+    r"|ramps?|torqueramp|rampe|rampa"
     r"|stiff(?:ness)?|steifigkeit|raideur|rigidit[éeà]|rigidezza|rigidez|回差|滞回|刚度|剛性|ヒステリシス",
     "wear_profile": r"profiles?|wear.?profile|profilo?|perfil|verschlei(?:ß|ss)profil|轮廓",
     "wear_depth": r"wear|depths?|wear.?depth|verschlei(?:ß|ss)|usur[ea]|desgaste|磨损|摩耗",
-    "no_load_torque": r"no.?load.?torque|leerlauf(?:moment)?|couple.[àa].vide|coppia.a.vuoto|par.en.vac[íi]o|(?:torque|bin[áa]rio).(?:em.vazio|sem.carga)|空载(?:转矩|扭矩)?|無負荷(?:トルク)?",
-    "input_torque": r"torque|friction|reibung|drag|input.?torque|antriebsmoment|moment|couple|frottement|coppia|attrito|rozamiento|fricci[óo]n|bin[áa]rio|atrito"
-    r"|扭矩|摩擦|トルク",
+    "no_load_torque": r"no.?load.?torque|leerlauf(?:moment)?|couple.[àa].vide|coppia.a.vuoto|par.en.vac[íi]o"
+    r"|(?:torque|bin[áa]rio).(?:em.vazio|sem.carga)|空载(?:转矩|扭矩)?|無負荷(?:トルク)?",
+    "input_torque": r"torque|friction|reibung|drag|input.?torque|antriebsmoment|moment|couple|frottement|coppia|attrito|rozamiento"
+    r"|fricci[óo]n|bin[áa]rio|atrito|扭矩|摩擦|トルク",
     "lost_motion": r"lost.?motion|movimento.perdido|空程|ロストモーション", "efficiency": r"efficiency|wirkungsgrad|rendement|rendimento|rendimiento|效率|効率",
     "temperature": r"temperatur[ea]?|temp[ée]rature|temp|温度",
     "vibration": r"vib(?:rations?)?|acc(?:eleration)?|schwingung|vibrazion[ei]|vibraci[óo]n|vibra[çc](?:[ãa]o|[õo]es)|振动|振動",

@@ -26,6 +26,7 @@ from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from discrepancy.campaign.scales import Scales
+from discrepancy.held_names import HELD
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -113,7 +114,7 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
-    return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+    return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label), run.quantity.value not in HELD)
 
 
 def leave_out_idle(conditions: dict[str, dict[str, str]], runs: Sequence[tuple[str, GuessedRun]], wishes: Wishes) -> None:

@@ -21,7 +21,8 @@ IS_HELD = {
 }  # fmt: skip
 UNLOADED = re.compile(
     r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
-    r"|sans charge|[àa] vide|senza carico|a vuoto|sin carga|en vac[íi]o|sem carga|em vazio|no load|unloaded|without (?:a |any |external )?load)\b|空载|空載|无负载|無負荷"
+    r"|sans charge|[àa] vide|senza carico|a vuoto|sin carga|en vac[íi]o|sem carga|em vazio"
+    r"|no load|unloaded|without (?:a |any |external )?load)\b|空载|空載|无负载|無負荷"
 )
 
 

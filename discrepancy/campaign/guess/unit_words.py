@@ -15,10 +15,13 @@ WRITTEN = {
         "arcmin": "arcmin arcmins arc.min arcminute arcminutes arc.minute arc.minutes ' ′ amin minofarc min.of.arc Winkelmin Winkelminuten Bogenmin"
         " Bogenminuten min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco min.de.arco min.arco 角分 弧分 分角 分",
         "arcsec": "arcsec arcsecs arc.sec arcsecond arcseconds arc.second arc.seconds \" '' ″ asec as secofarc sec.of.arc Winkelsek Winkelsekunden Bogensek"
-        " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco seg.de.arco seg.arco 角秒 弧秒 秒角",
-        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度", "rad": "rad radian radians radianti radianes radianos 弧度 ラジアン",
+        " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco"
+        " seg.de.arco seg.arco 角秒 弧秒 秒角",
+        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度",
+        "rad": "rad radian radians radianti radianes radianos 弧度 ラジアン",
         "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours vueltas volta voltas 圈 转 転",
-        COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos contagens contagem impulsos 脉冲 パルス",
+        COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos"
+        " contagens contagem impulsos 脉冲 パルス",
     },
     TORQUE: {
         "N.m": "N.m Nm m.N 牛米 牛.米 牛顿米 牛顿.米 Newtonmeter newton.mètre newton.metro ニュートンメートル", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm 千牛.米",
@@ -28,7 +31,8 @@ WRITTEN = {
     },
     SPEED: {
         "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
-        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min rot/min rotações/min voltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
+        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min"
+        " rot/min rotações/min voltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
         "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s rot/s voltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
         "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s graus/s 度/秒",
     },
