@@ -11,7 +11,7 @@ from typing import Any
 from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, named_conditions
-from discrepancy.campaign.guess.counted import with_repetitions
+from discrepancy.campaign.guess.counted import with_odd_counts_doubted, with_repetitions
 from discrepancy.campaign.guess.file_names import by_pattern, stem
 from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
@@ -85,7 +85,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         raise InputFault(f"no files: {folders} holds none of {', '.join(sorted(ENDINGS))}; name measurement files, or folders that hold some")
     if wishes.reducer:
         load_reducer(wishes.reducer)
-    guessed = with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes)
+    guessed = with_odd_counts_doubted(with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
     require_names(paths, wishes)
     require_columns(guessed, wishes)
     require_units(guessed, wishes)

@@ -1,7 +1,8 @@
 """One file's run: its quantity, columns, units, tags."""
 
+import re
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,7 @@ FAR_START = 10.0
 # A turn is short of its last step.
 JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
+NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
 @dataclass(frozen=True)
@@ -115,6 +117,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     repeated = repetitions(table, columns)
     used = {guess.value for guess in best.roles.values()} | {repeated[0] if repeated else ""}
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
+    if VALUE in entries and VALUE not in stated:
+        doubts += side_by_side(path, entries[VALUE].header, left_out)
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out)
 
 
@@ -167,6 +171,16 @@ def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[D
               f"--quantity '{path.name}=QUANTITY', or leave --column '{role}={name}' out")
         for role, name in stated.items() if role not in best.roles or best.roles[role].value != name
     ]  # fmt: skip
+
+
+def side_by_side(path: Path, taken: str, left_out: Sequence[str]) -> list[Doubt]:
+    """Columns whose heads differ by a number alone, as "TE 50Nm" and "TE 100Nm": several conditions side by side, of which one is taken."""
+    alike = [header for header in left_out if re.sub(NUMBERS, "#", header) == re.sub(NUMBERS, "#", taken) and header != taken]
+    if not alike:
+        return []
+    text = f"of columns whose heads differ by a number alone {taken!r} is taken, not {', '.join(map(repr, alike))}: one condition each, it seems"
+    remedy = "save each as a file with that number in its name, or write a run for each in campaign.toml (same file, another columns.value)"
+    return [Doubt(path.name, text, remedy)]
 
 
 def quantity_guess(found: list[Assignment], wanted: str | None, path: Path) -> Guess[str]:
