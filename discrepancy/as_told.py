@@ -53,6 +53,8 @@ def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
     told = {"value": scale.number(entry["value"]), "interval": [scale.number(low), scale.number(high)], "unit": scale.unit}
     if "standard_deviation" in entry:
         told["standard_deviation"] = abs(scale.factor) * entry["standard_deviation"]
+    if "interval_with_base" in entry:
+        told["interval_with_base"] = [scale.number(v) for v in entry["interval_with_base"]]
     return {**entry, **told, "si": {key: entry[key] for key in told}}
 
 

@@ -36,6 +36,8 @@ from reducers.reducer import Reducer
 
 # A run whose error is this many times its noise is worth a look.
 CONSPICUOUS = 1.5
+# Of a number's usual size; what a fit that ends at 0 leaves is less.
+ROUNDING = 1e-7
 
 
 @dataclass(frozen=True)
@@ -113,8 +115,13 @@ def calibrated_text(model: PhysicalModel, values: Mapping[str, float]) -> str:
 
 def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> list[tuple[str, float, Scale]]:
     """Calibrated numbers (SI) by the names that are told, with the scale to tell them in."""
-    units, tables = {p.name: p.unit for p in model.nuisances}, as_told.tables_of(model)
-    return [(as_told.told_name(name, tables), value, of_parameter(abs(value), units.get(name, "1"))) for name, value in values.items()]
+    known, tables = {p.name: p for p in model.nuisances}, as_told.tables_of(model)
+    found = []
+    for name, value in values.items():
+        unit, least = (known[name].unit, ROUNDING * known[name].scale) if name in known else ("1", 0.0)
+        told = 0.0 if abs(value) < least else value
+        found.append((as_told.told_name(name, tables), told, of_parameter(abs(told), unit)))
+    return found
 
 
 def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:

@@ -23,6 +23,7 @@ from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
 from discrepancy.verdict import Answer
+from discrepancy.written_number import digits_of, rounded
 from fmu_src.faults import InputFault
 from fmu_src.threads import sharing_no_matrices
 
@@ -87,7 +88,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     for candidate in fit.candidates:
         if candidate.part == BASE:
             # A number of the reducer file that was assumed: from now on as it was measured.
-            settings_found |= {p.name: float(fit.fit.values[p.name]) for p in candidate.parameters}
+            settings_found |= {p.name: known_to(fit.fit.values[p.name], numbers[p.name].interval) for p in candidate.parameters}
             continue
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
@@ -115,6 +116,11 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
                      {p.name: p.unit for p in diagnostician.space.base.parameters})
+
+
+def known_to(value: float, interval: tuple[float, float]) -> float:
+    """A number of the reducer with the digits that it was measured to: a setting has no interval that would say them later."""
+    return rounded(float(value), digits_of(float(value), 0.5 * (interval[1] - interval[0])))
 
 
 def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:

@@ -8,7 +8,7 @@
     bearing.clearance = "3 um"
 
     [effects.needle_clearance]
-    added = { value = 2.1e-6, unit = "m", low = 1.9e-6, high = 2.3e-6 }    # or "2.1 um"
+    added = { value = 2.1, unit = "um", low = 1.9, high = 2.3 }    # or "2.1 um"
 
     [[steps]]                       # the ladder, one entry per attempt
 """
@@ -23,6 +23,7 @@ from tomlkit.items import InlineTable
 
 from discrepancy.campaign.amount import split
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
+from discrepancy.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
@@ -33,7 +34,7 @@ from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
 from fmu_src.strict_file import Strict, described, validated
 from fmu_src.units import UnitError, conversion
-from fmu_src.variables import ValueFault
+from fmu_src.variables import ValueFault, Variable
 from orchestrator.settings import parse_setting
 from reducers.reducer import Reducer, load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS
@@ -188,7 +189,7 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
 
 def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any]:
     """A parameter's value and interval in its own unit, within its bounds; ``key`` is what kernels call it."""
-    variable = next(p.variable for p in effect.parameters if p.variable.name == key.partition("[")[0])
+    variable = parameter_variable(effect, key)
     if isinstance(entry, str):
         value, unit = split(entry, variable.unit, place)
         entry = {"value": value, "unit": unit}
@@ -207,6 +208,11 @@ def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any
     except (UnitError, ValueFault) as problem:
         raise InputFault(f"{place} = {quoted(entry)}: {problem}") from None
     return {"value": numbers["value"], "unit": variable.unit} | numbers
+
+
+def parameter_variable(effect: Effect, key: str) -> Variable:
+    """The variable of a parameter, or of an element of it, that kernels call so."""
+    return next(p.variable for p in effect.parameters if p.variable.name == key.partition("[")[0])
 
 
 def parameter_of(effect: Effect, written: str, place: str) -> str:
@@ -241,21 +247,24 @@ def save_model(model: ModelFile, path: Path) -> None:
     if model.effects:
         known = every_effect()
         document["effects"] = {
-            name: {written_name(known[name], k): inline(v) for k, v in parameters.items()} for name, parameters in model.effects.items()
+            name: {written_name(known[name], k): inline(written_entry(parameter_variable(known[name], k), v)) for k, v in parameters.items()}
+            for name, parameters in model.effects.items()
         }
     if model.steps:
         steps = tomlkit.aot()
         for step in model.steps:
-            steps.append(tomlkit.item({k: v for k, v in step.items() if v is not None}))
+            steps.append(tomlkit.item(told_of(step)))
         document["steps"] = steps
     write_text(path, tomlkit.dumps(document))
 
 
 def as_read(reducer: Reducer, name: str, value: float | int) -> tuple[str, float | int | str]:
-    """A setting as ``load_model`` takes it: structured name, and a choice by its name or a number in the variable's unit."""
+    """A setting as ``load_model`` takes it: structured name, and a choice by its name or a number with the field's unit."""
     base, bracket, rest = name.partition("[")
     variable = next(t.by_name[base] for t in (reducer.plant, reducer.wear) if base in t.by_name)
-    return variable.path + bracket + rest, variable.choices[int(value)] if variable.choices else value
+    if variable.choices:
+        return variable.path + bracket + rest, variable.choices[int(value)]
+    return variable.path + bracket + rest, value if variable.is_integer else written_setting(variable, value)
 
 
 def extended_reducer(file: ModelFile) -> Reducer:

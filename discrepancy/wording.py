@@ -4,11 +4,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.campaign.amount import readable
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.other_places import place_of
-from discrepancy.scales import of_parameter, parameter_texts, shown
+from discrepancy.scales import largest, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
 # A share from here on would be rounded to all of it.
@@ -125,6 +126,15 @@ def below_noise(answer: Answer, effect: dict[str, Any]) -> bool:
     """Whether the unused runs were off by less than the noise of their samples before anything was added."""
     signals = judged(answer, effect).get("rms") or {}
     return bool(signals) and all(row["before"] <= row["floor"] for row in signals.values())
+
+
+def with_base_text(entry: Mapping[str, Any]) -> str:
+    """What an interval takes for known, where that is less sure than the interval is narrow; empty elsewhere."""
+    if "interval_with_base" not in entry:
+        return ""
+    scale = of_parameter(largest(entry["value"], *entry["interval"]), entry["unit"])
+    low, high = (readable(scale.number(v), 3) for v in entry["interval_with_base"])
+    return f"with the base model's numbers as its file has them; {low} to {high} with each free within its range"
 
 
 def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:

@@ -120,6 +120,8 @@ class Claim:
     figures: list[Figure]
     # Other numbers than the sources' that it was computed with, and which reducers had what instead.
     altered: tuple[str, ...] = ()
+    # The same for what each figure shows, which may be fewer reducers than the numbers are of; empty where nothing was changed.
+    drawn_with: tuple[tuple[str, ...], ...] = ()
 
     @property
     def stands(self) -> bool:

@@ -5,7 +5,7 @@ command within a minute or two.  ``POSITIONS`` a turn is not: a third of them ma
 deeper, twice as many 0.1 % shallower.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -14,6 +14,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from orchestrator.settings import Setting, parse_setting
+from pages.look import Figure
 from reducers.checking import shown
 from reducers.completion.complete import complete
 from reducers.completion.file import reducer_at
@@ -113,8 +114,17 @@ class Context:
     @property
     def altered(self) -> tuple[str, ...]:
         """The changes, each with what the reducers that were computed so far had instead."""
-        told = (", ".join(f"{name} had {had[k]}" for name, had in self.had.items()) for k in range(len(self.changes)))
+        return self.altered_of(self.had)
+
+    def altered_of(self, names: Collection[str]) -> tuple[str, ...]:
+        """The changes, each with what these of the computed reducers had instead."""
+        told = (", ".join(f"{name} had {self.had[name][k]}" for name in names) for k in range(len(self.changes)))
         return tuple(f"{change} ({words})" if words else change for change, words in zip(self.changes, told))
+
+    def altered_in(self, figure: Figure) -> tuple[str, ...]:
+        """The changes, with what the reducers had that a figure shows: those that its words name, all where these name none."""
+        words = " ".join([figure.title, figure.caption, *(str(trace.get("name", "")) for trace in figure.data)])
+        return self.altered_of([name for name in self.had if name in words] or self.had)
 
     def rv80e(self) -> Reducer:
         """An RV-80E with ratio 153 and three cranks, completed from what is published of one."""

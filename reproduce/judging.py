@@ -45,7 +45,10 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
         begun = time.perf_counter()
         claim = REGISTRY[name](context)
         # The independent solver had the sources' numbers.
-        claims.append(replace(claim, numbers=[replace(number, audited=None) for number in claim.numbers], altered=context.altered) if changes else claim)
+        if changes:
+            claim = replace(claim, numbers=[replace(number, audited=None) for number in claim.numbers], altered=context.altered,
+                            drawn_with=tuple(map(context.altered_in, claim.figures)))  # fmt: skip
+        claims.append(claim)
         progress(f"{i:3d}/{len(ids)}  {name}  {claim.title}: {claim.outcome} "
                  f" ({time.perf_counter() - begun:.1f} s)")
     return claims

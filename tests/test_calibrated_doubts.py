@@ -81,3 +81,15 @@ def file():
     from discrepancy.model_file import load_model
 
     return load_model("RV20E-121")
+
+
+def test_what_ended_at_nothing_is_told_as_nothing():
+    """A share of the model's lag was told as 3.02585e-10."""
+    from types import SimpleNamespace
+
+    from discrepancy.compare import calibrated_text
+    from discrepancy.problem import Parameter
+
+    model = SimpleNamespace(nuisances=(Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3), Parameter("angle", "rad", 0.0, -1.0, 1.0, 1e-5)))
+    assert calibrated_text(model, {"lag_share": 3.02585e-10, "angle": 2e-12}) == "lag_share = 0, angle = 4.1253e-07 arcsec"
+    assert calibrated_text(model, {"lag_share": 0.02, "angle": 1e-13}) == "lag_share = 0.02, angle = 0 arcsec"

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from cli.commands import campaign as campaign_commands
+from cli.show.campaign import told
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
-from discrepancy.campaign.pairs import PAIRS
+from discrepancy.campaign.pairs import HOLDS_FOR, PAIRS
+from discrepancy.campaign.pairs import Verdict as PairVerdict
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.template import write_template
 from fmu_src.faults import InputFault
@@ -80,6 +82,13 @@ def test_good_design_of_the_transmission_error(tmp_path):
 def value(quantity: str, text: str, where="a", **tags) -> str:
     words = "\n".join(f'tags.{k} = "{v}"' for k, v in tags.items())
     return f'quantity = "{quantity}"\ncondition = "{where}"\nvalue = "{text}"\nnoise = "{text}"\n{words}'
+
+
+def test_what_is_not_separable_is_said_to_be_so_while_it_is_small():
+    """The loops of two loads that a diagnosis told apart stood as "not separable"."""
+    assert [told(PairVerdict(PAIRS[0], status)) for status in ("separable", "not separable", "not visible")] == [
+        "separable", "not separable while small", "not visible",
+    ]  # fmt: skip
 
 
 def test_wear_over_hours_speeds_and_loads(tmp_path):
@@ -177,12 +186,14 @@ def test_commands(tmp_path, capsys):
     assert command("check", folder) == 1
     shown = capsys.readouterr().out
     assert "holds no complete row" in shown and "needle clearance / raceway wear" in shown
+    # A diagnosis may separate what the conditions alone do not.
+    assert "for effects just above the noise" in " ".join(shown.split())
     for k, path in enumerate((tmp_path / "new").glob("*.csv")):
         path.write_text("torque [N.m],value [arcmin]\n" + "".join(f"{t},{t / 50 + (t + k) % 3 / 100}\n" for t in range(-167, 168)))
     assert command("check", folder, "--json") == 0
     report = json.loads(capsys.readouterr().out)
     assert report["problems"] == [] and len(report["pairs"]) == len(PAIRS)
-    assert report["pairs"][3]["status"] == "separable"
+    assert report["pairs"][3]["status"] == "separable" and report["pairs_hold_for"] == HOLDS_FOR
     with pytest.raises(InputFault, match="exists already; .* nothing is overwritten"):
         command("template", folder)
     with pytest.raises(InputFault, match="--quantities noise: not a quantity"):

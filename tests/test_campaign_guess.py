@@ -16,6 +16,7 @@ from discrepancy.campaign.angle_doubts import turns_text
 from discrepancy.campaign.guess.file_names import by_pattern, proposed
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.run import steps_above
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
@@ -78,6 +79,14 @@ def test_both_encoders_and_steps(tmp_path):
     assert record.values == pytest.approx(ERROR, abs=1e-9)
     assumed = propose([tmp_path], Wishes("RV20E-121"))
     assert any("counts steps" in d.text and "--counts" in d.remedy for d in assumed.doubts)
+
+
+@pytest.mark.parametrize(("reach", "steps"), [
+    (3_598_512.0, 3_600_000), (35_990.0, 36_000), (1_048_500.0, 1 << 20), (65_535.0, 1 << 16), (3_130_000.0, 1 << 22), (65_500.0, 1 << 16), (1.0, 1),
+])  # fmt: skip
+def test_steps_of_a_turn_are_a_power_of_two_or_the_round_number_that_a_turn_just_misses(reach, steps):
+    """Of 3,600,000 steps 4,194,304 were assumed, and a turn was 0.86 of one."""
+    assert steps_above(reach)[0] == steps
 
 
 def test_an_encoder_that_jumps_is_joined(tmp_path):

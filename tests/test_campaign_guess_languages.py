@@ -31,6 +31,9 @@ def test_every_unit_can_be_converted_and_no_word_stands_for_two():
     ("Régime moteur tr·min⁻¹", "input_speed", "rpm"), ("Rendement [%]", "efficiency", "%"), ("Usure flanc µm", "wear", "um"),
     ("Coppia in uscita [Nm]", "torque", "N.m"), ("Velocità ingresso [giri/min]", "input_speed", "rpm"), ("Tempo [s]", "time", "s"), ("Errore [secondi d'arco]", "error", "arcsec"),
     ("Par de salida (N·m)", "torque", "N.m"), ("Ángulo de entrada [grados]", "input_angle", "deg"), ("velocidad de salida r.p.m.", "output_speed", "rpm"), ("Tiempo", "time", None),
+    ("Ângulo de saída [graus]", "angle", "deg"), ("Erro de transmissão (seg. arco)", "error", "arcsec"), ("Rotação de entrada (rot/min)", "input_speed", "rpm"),
+    ("Binário de saída (N.m)", "torque", "N.m"), ("Folga [min. de arco]", "twist", "arcmin"), ("Posição do eixo (contagens)", "angle", "counts"), ("Tempo (s)", "time", "s"),
+    ("Ângulo de rotação [rad]", "angle", "rad"), ("Torque de entrada N.m", "input_torque", "N.m"), ("Temperatura do óleo (°C)", "temperature", "degC"),
     ("Drehzahl U/min", "speed", "rpm"), ("n in r/min", "speed", "rpm"), ("T_N.m", "torque", "N.m"), ("Drehzahl Abtrieb [U·min⁻¹]", "output_speed", "rpm"),
     ("输出转速：转/分", "output_speed", "rpm"), ("输入转矩（牛·米）", "input_torque", "N.m"), ("传动误差（角秒）", "error", "arcsec"),
     ("入力トルク [Ｎ・ｍ]", "input_torque", "N.m"), ("出力回転数[回転/分]", "output_speed", "rpm"), ("回転角[度]", "angle", "deg"), ("剛性 [N・m / arc-min]", "stiffness", "N.m/arcmin"),
@@ -42,6 +45,7 @@ def test_heads(header, meaning, unit):
 @pytest.mark.parametrize("line, stated", [
     ("Vitesse de sortie : 10 tr/min", {"output_speed": (10.0, "rpm")}), ("Vitesse de sortie\u00a0: 10\u00a0tr/min", {"output_speed": (10.0, "rpm")}),
     ("Charge = 100 N.m, vitesse d'entrée = 1210 tr/min", {"load": (100.0, "N.m"), "input_speed": (1210.0, "rpm")}), ("Durée de l'essai : 12 h", {}),
+    ("Rotação de saída: 16,5 rpm; carga: 110 N.m", {"output_speed": (16.5, "rpm"), "load": (110.0, "N.m")}),
     ("Velocità uscita: 15 giri/min", {"output_speed": (15.0, "rpm")}), ("Par de salida: 100 N·m; temperatura: 30 °C", {"load": (100.0, "N.m"), "temperature": (30.0, "degC")}),
     ("输出转速：15 转/分", {"output_speed": (15.0, "rpm")}), ("负载：167 N・m", {"load": (167.0, "N.m")}), ("出力回転数：15 回転/分", {"output_speed": (15.0, "rpm")}),
 ])  # fmt: skip
@@ -51,13 +55,13 @@ def test_lines_above_the_table(line, stated):
 
 @pytest.mark.parametrize("text, side", [
     ("arbre d'entrée bloqué", "input"), ("la sortie est immobilisée", "output"), ("Ingresso bloccato", "input"), ("uscita fissa", "output"), ("entrada bloqueada", "input"),
-    ("salida fija", "output"), ("入力軸固定", "input"), ("出力側をロック", "output"), ("entrée libre", None), ("salida", None),
+    ("salida fija", "output"), ("入力軸固定", "input"), ("出力側をロック", "output"), ("entrada travada", "input"), ("saída fixa", "output"), ("eixo de saída bloqueado", "output"), ("entrée libre", None), ("salida", None),
 ])  # fmt: skip
 def test_which_side_is_held(text, side):
     assert locked_side(text) == side
 
 
-@pytest.mark.parametrize("text", ["couple_a_vide", "senza carico", "sin carga", "en vacío", "空載"])
+@pytest.mark.parametrize("text", ["couple_a_vide", "senza carico", "sin carga", "en vacío", "binário sem carga", "torque em vazio", "空載"])
 def test_nothing_loads_it(text):
     assert unloaded(text)
     assert quantities_named("couple_a_vide")[0] == "no_load_torque" and quantities_named("raideur_1") == ["hysteresis"]

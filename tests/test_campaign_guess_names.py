@@ -87,6 +87,29 @@ def test_files_that_fit_no_pattern_are_guessed_and_said(tmp_path):
     assert [doubt.place for doubt in said] == ["Hysterese_20C_Lauf1.csv"] and "--names 'Hysterese_{temperature}C_Lauf{replicate}'" in said[0].remedy
 
 
+def test_repetitions_that_do_not_count_from_one_are_doubted(tmp_path):
+    """Speeds of P100-N10 and P100-N20 were taken for repetitions without a word."""
+    for name in ("P100-N10", "P100-N20"):
+        pd.DataFrame({"angle [deg]": np.degrees(ANGLE), "te [arcsec]": ERROR / ARCSEC}).to_csv(tmp_path / f"{name}.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    (doubt,) = (d for d in proposal.doubts if "repetitions" in d.text)
+    assert doubt.text.startswith("10, 20 in P100-N{replicate}") and "--names 'P100-N{speed}'" in doubt.remedy
+    # Numbers from 1 on are what they seem.
+    for name, counted in (("P100-N10", "P100-N1"), ("P100-N20", "P100-N2")):
+        (tmp_path / f"{name}.csv").rename(tmp_path / f"{counted}.csv")
+    assert not any("repetitions" in d.text for d in propose([tmp_path], Wishes("RV20E-121")).doubts)
+
+
+def test_conditions_side_by_side_in_one_file_are_told(tmp_path):
+    """The first of three loads was taken, under the last load of the file's name."""
+    columns = {f"TE {load}Nm (arcsec)": ERROR / ARCSEC * load / 100 for load in (50, 100, 167)}
+    pd.DataFrame({"Winkel (Grad)": np.degrees(ANGLE), **columns}).to_csv(tmp_path / "te_50_100_167Nm.csv", index=False)
+    (doubt,) = (d for d in propose([tmp_path], Wishes("RV20E-121")).doubts if "differ by a number alone" in d.text)
+    assert "'TE 50Nm (arcsec)' is taken, not 'TE 100Nm (arcsec)', 'TE 167Nm (arcsec)'" in doubt.text and "columns.value" in doubt.remedy
+    given = propose([tmp_path], Wishes("RV20E-121", columns={"value": "TE 100Nm (arcsec)"}))
+    assert not any("differ by a number alone" in d.text for d in given.doubts)
+
+
 def test_the_first_pattern_that_fits_counts(tmp_path):
     folder = error_files(tmp_path / "a", "te_50_1", "te_x_1")
     proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}", "te_{condition}_{any}")))

@@ -152,6 +152,17 @@ def italian_loops(folder, **heads):
     return folder
 
 
+def test_what_was_measured_of_a_turning_reducer_is_in_no_condition_with_a_locked_input(tmp_path):
+    """A no-load torque over the speed, of whose condition nothing is said, stood in that of the loops."""
+    for k in (1, 2):
+        pd.DataFrame({"Md (Nm)": TORQUE, "Verdrehung (arcmin)": TWIST / ARCMIN + k}).to_csv(tmp_path / f"Schleife_Antrieb_gesperrt_bei_0Grad_{k}.csv", index=False)
+    pd.DataFrame({"Drehzahl Antrieb [1/min]": [500.0, 1000.0, 2000.0], "Leerlaufmoment [Nm]": [0.05, 0.06, 0.07]}).to_csv(tmp_path / "Leerlauf.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    placed = {run.guessed.quantity.value: run.condition for run in proposal.runs}
+    assert placed == {"no_load_torque": "single", "hysteresis": "Antrieb_gesperrt_bei_0Grad"}
+    assert proposal.conditions == {"single": {}, "Antrieb_gesperrt_bei_0Grad": {"locked_at": "0 deg"}}
+
+
 def test_a_position_in_the_head_is_the_condition_s_and_nothing_is_asked(tmp_path, capsys):
     folder = italian_loops(tmp_path, **{"40gradi_prova1": "Ingresso bloccato a 40°", "300gradi": "Ingresso bloccato a 300°"})
     proposal = propose([folder], Wishes("RV20E-121", angle_of="output"))

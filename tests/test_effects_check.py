@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from cli.main import main
+from discrepancy.catalogue.catalogue import entries
 from discrepancy.catalogue.documentation import PAGE, own_part
+from discrepancy.catalogue.signal_words import unknown, words
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
 from studies.effect_code import not_translated
@@ -175,6 +177,15 @@ def test_the_example_of_the_documentation_passes(tmp_path):
     assert own_part() in page
     example = page.partition("```python\n")[2].partition("```")[0]
     assert "EFFECT" in example and told(tmp_path, example, name="soft_ring") == []
+
+
+def test_every_word_of_signals_stands_on_the_page_and_no_other_is_taken():
+    """The words were on no page, and a wrong one meant that no diagnosis ever looked for the effect."""
+    text = own_part()
+    assert all(f"| `{word}` |" in text for word in words())
+    assert {s for e in entries() for s in e.effect.signals} <= words().keys()
+    assert unknown(("hysteresis", "debris")) == []
+    assert "did you mean hysteresis" in unknown(("histeresis",))[0]
 
 
 @pytest.mark.parametrize(("old", "new", "line", "message"), [

@@ -3,6 +3,7 @@
 import json
 import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from discrepancy.inference.diagnose import Diagnostician, diagnose
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.refit.refit import leave_condition_out, literal_leave_out
 from discrepancy.problem import Parameter, Record
+from fmu_src.progress import told_to
 
 
 def test_null_is_none():
@@ -107,6 +109,20 @@ def test_two_effects_are_found():
     result = diagnose(Toy(records))
     assert {e.name for e in result.effects} >= {"disc_pitch"} and len(result.effects) == 2
     assert result.verdict in ("several effects", "named but incomplete")
+
+
+def test_how_many_effects_were_tested_is_told_of_how_many():
+    """The answer had 60 screened, which stood beside a progress of 85: the others show nothing in this campaign."""
+    model, _ = campaign(14, "effect", 20, "disc_pitch")
+    said = []
+    with told_to(SimpleNamespace(begin=lambda task: None, end=lambda task: None, say=said.append)):
+        doctor = Diagnostician(model)
+        doctor.prepare()
+        doctor.screened()
+        doctor.say_scores()
+    every, tested = len(model.candidates), len(doctor.refits.scores)
+    assert f"{tested} of {every} effects tested" in said[-1]
+    assert (f"the other {every - tested} change nothing here" in said[-1]) == (tested < every)
 
 
 def test_an_unknown_law_is_recovered_without_a_name():

@@ -395,7 +395,9 @@ def test_a_reducer_says_at_which_speed_it_runs_beside_that_of_its_rating(tmp_pat
     from workbench.reducers import shown
 
     found = shown(opened(tmp_path), "RV20E-121")["reducer"]
-    assert "at 15 rpm" in found["description"] and found["speed"] == "runs at 2,000 rpm at the input, 16.5 rpm at the output"
+    assert "at 15 rpm" in found["description"] and found["speed"] == (
+        "runs at 2,000 rpm at the input, 16.5 rpm at the output (document, table 2; the catalogue rates at 15 rpm of the output)"
+    )
 
 
 def test_numbers_given_are_counted_as_the_command_line_does(tmp_path):

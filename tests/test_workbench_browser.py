@@ -308,6 +308,19 @@ def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
     assert {"Try crank eccentricity alone", "Try raceway wear (inner) alone", "Back to the answer"} <= set(refused["buttons"])
 
 
+def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
+    bench.page.goto(bench.address)
+    empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))
+    assert "Sheet for the rig" not in empty and "nothing is left to separate" in empty and "Sheet for the rig" in full
+
+
+PROPOSED = """async (proposals) => {
+    const { nextPart } = await import('./static/better.js');
+    const next = { verdict: 'nothing is left to separate', asked: [], proposals, stakes: {}, cost_unit: 'runs', command: '' };
+    return nextPart({ next, context: { busy: () => '' } }).textContent;
+  }"""
+
+
 # What stands below an answer once its two effects were added.
 ADDED = """async ([kept, after]) => {
     const { addPart, ladder } = await import('./static/better.js');

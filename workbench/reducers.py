@@ -59,9 +59,10 @@ def described(reducer: Reducer) -> dict[str, Any]:
 
 
 def speed_of(reducer: Reducer) -> str:
-    """At which speed it runs: catalogues rate at another one than many run at."""
+    """At which speed it runs, and whose that is: catalogues rate at another one than many run at."""
     figures, rpm = check(reducer).figures, reducer.starts["input_speed"] * 30.0 / math.pi
-    return f"runs at {rpm:,.5g} rpm at the input, {rpm / figures['ratio']:.3g} rpm at the output"
+    source = reducer.sources.get("input_speed", "")
+    return f"runs at {rpm:,.5g} rpm at the input, {rpm / figures['ratio']:.3g} rpm at the output" + (f" ({source})" if source else "")
 
 
 def numbers(reducer: Reducer) -> list[dict[str, Any]]:

@@ -128,12 +128,14 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     from discrepancy.page.amounts import pretty
     from discrepancy.page.whys import of_estimate
     from discrepancy.scales import parameter_texts
+    from discrepancy.wording import with_base_text
 
     found = []
     for name, entry in given.items():
         value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
         told = told_name(name, tables_of(answer.model))
         found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
+                      "with_base": with_base_text(entry),
                       "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 

@@ -122,7 +122,16 @@ def tried(file: Path) -> "list[Finding]":
         if refused := not_translated(file.absolute()):
             return refused
     with task(f"trying {file.name} with its amplitudes off"):
-        return changes_when_off(file.absolute())
+        return changes_when_off(file.absolute()) or unknown_words(file)
+
+
+def unknown_words(file: Path) -> "list[Finding]":
+    """Quantities that no campaign has, in which an effect would never be looked for."""
+    from discrepancy.catalogue.signal_words import unknown
+    from fmu_src.effect_check import Finding, imported
+
+    module = imported(file.absolute(), file.absolute().parent.name)[0]
+    return [Finding(file, 0, text) for text in (unknown(module.EFFECT.signals) if module else ())]
 
 
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":

@@ -54,7 +54,9 @@ def reproduce(options: argparse.Namespace) -> int:
         if note:
             print(note)
         say_file(page, "page  ")
-    figures = [noted_figure(figure, note_of(claim.altered)) for claim in claims for figure in claim.figures]
+    figures = [
+        noted_figure(figure, note_of(claim.drawn_with[k] if claim.drawn_with else ())) for claim in claims for k, figure in enumerate(claim.figures)
+    ]  # fmt: skip
     write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures, holdings(claims))
     return 0 if options.set or all(claim.stands for claim in claims) else 1
 

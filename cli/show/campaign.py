@@ -5,6 +5,7 @@ from rich.table import Table
 from cli.screen import WIDTH, console, dense, styled
 from discrepancy.campaign.check import Check
 from discrepancy.campaign.findings import PROBLEM
+from discrepancy.campaign.pairs import HOLDS_FOR, Verdict
 from discrepancy.separability import Separability
 
 # Nothing here is proven by a measurement: no green.
@@ -23,12 +24,12 @@ def show(check: Check) -> None:
     out.print(table)
     for finding in check.findings:
         out.print(styled((finding.level, "red" if finding.level == PROBLEM else "yellow"), f" {finding.text}; {finding.remedy}"))
-    pairs = Table(title="pairs of effects that look alike", title_justify="left")
+    pairs = Table(title=f"pairs of effects that look alike, {HOLDS_FOR}", title_justify="left")
     for name in ("", "effects", "this campaign", "what is missing"):
         pairs.add_column(name)
     for verdict in check.pairs:
         pairs.add_row(
-            str(verdict.pair.number), " / ".join(verdict.pair.effects), styled((verdict.status, STATUS_STYLE[verdict.status])),
+            str(verdict.pair.number), " / ".join(verdict.pair.effects), styled((told(verdict), STATUS_STYLE[verdict.status])),
             "; ".join(verdict.missing),
         )  # fmt: skip
     out.print(pairs)
@@ -37,10 +38,15 @@ def show(check: Check) -> None:
     out.print(f"{outcome}; " + ("no diagnosis is possible yet" if problems else "a diagnosis is possible"))
 
 
+def told(verdict: Verdict) -> str:
+    """The status as it holds: nothing is said of effects far above the noise."""
+    return "not separable while small" if verdict.status == "not separable" else verdict.status
+
+
 def show_separability(found: Separability) -> None:
     """What the best possible test could not tell apart, one row for each effect that might be hidden."""
     out = console(WIDTH)
-    title = f"what no test could tell apart here, hidden with {found.strength:g} times the noise (d' below {found.apart:g} between the two)"
+    title = f"what no test could tell apart here, hidden with {found.strength:g} times the noise (d' below {found.apart:g} between the two); larger ones it may"
     table = Table(title=title, title_justify="left")
     for name in ("if this is what is missing", "it could be taken for (d', and how often the best test errs)"):
         table.add_column(name)
@@ -50,7 +56,7 @@ def show_separability(found: Separability) -> None:
     if found.alike:
         out.print(table)
     else:
-        out.print(f"the best test could tell every effect from every other, hidden with {found.strength:g} times the noise")
+        out.print(f"the best test could tell every effect from every other, hidden with {found.strength:g} times the noise; smaller ones it may not")
     if found.sometimes:
         out.print("with the worst of their parameters also: " + ", ".join(f"{p.hidden} / {p.rival}" for p in found.sometimes))
     if found.invisible:

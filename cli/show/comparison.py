@@ -30,6 +30,7 @@ from discrepancy.wording import (
     together_text,
     turned_down,
     variant_text,
+    with_base_text,
 )
 
 LONGEST = 12
@@ -128,6 +129,8 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+            if more := with_base_text(number):
+                out.print(f"    {more}")
         if held := held_text(effect["name"], answer.model):
             out.print(f"  {held}")
         error = "" if fitted_together(answer) else error_text(answer, effect)

@@ -8,7 +8,7 @@ from discrepancy.campaign.design import Design
 from discrepancy.campaign.doubts import DOUBTS
 from discrepancy.campaign.findings import PROBLEM, SEARCHES, WARNING, Finding
 from discrepancy.campaign.model import Campaign
-from discrepancy.campaign.pairs import PAIRS, Verdict, judge
+from discrepancy.campaign.pairs import HOLDS_FOR, PAIRS, Verdict, judge
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,7 @@ class Check:
             "quantities": list(self.summary),
             "problems": [asdict(f) for f in self.findings if f.level == PROBLEM],
             "warnings": [asdict(f) for f in self.findings if f.level == WARNING],
+            "pairs_hold_for": HOLDS_FOR,
             "pairs": [
                 {"number": v.pair.number, "effects": list(v.pair.effects), "status": v.status,
                  "experiment": v.pair.experiment, "missing": list(v.missing)}

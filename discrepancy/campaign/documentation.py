@@ -8,7 +8,7 @@ writes them anew below the mark in the page.
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from discrepancy.campaign.pairs import PAIRS
+from discrepancy.campaign.pairs import HOLDS_FOR, PAIRS
 from discrepancy.campaign.quantities import AXES, FACTORS, INTERVENTIONS, QUANTITIES, TAGS, keys_for
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "campaigns.md"
@@ -56,7 +56,8 @@ def tables() -> str:
         table(("word", "what was done before the condition"), interventions),
         "## Effects that look alike\n",
         "`rvwear campaign check` says of each pair whether the campaign has an experiment that separates it, and what is missing."
-        " Whether the noise lets it succeed is for `rvwear diagnose` to say.\n",
+        f" The pairs are {HOLDS_FOR}: \"not separable\" says that the experiment below is missing, \"separable\" that it is there; whether"
+        " the noise lets it succeed is for `rvwear diagnose` to say, and for `rvwear campaign check --separable` of effects of a stated size.\n",
         table(("", "effects", "what separates them", "what the check asks for"), pairs),
     ))  # fmt: skip
 

@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from discrepancy.campaign.design import FRICTION, PLAY, RACES, WEAR, Design, turns
 from discrepancy.campaign.quantities import INTERVENTIONS
 
+# What "not separable" means: the conditions decide, not the numbers that were measured.
+HOLDS_FOR = "judged by the campaign's conditions alone, for effects just above the noise; larger ones a diagnosis may tell apart by their form"
+
 
 @dataclass(frozen=True)
 class Need:
@@ -31,7 +34,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What this campaign can say of a pair: "separable", "not separable" or "not visible"."""
+    """What this campaign can say of a pair: "separable", "not separable" (see ``HOLDS_FOR``) or "not visible"."""
 
     pair: Pair
     status: str

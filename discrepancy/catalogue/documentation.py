@@ -9,6 +9,7 @@ from pathlib import Path
 from discrepancy.campaign.documentation import table
 from discrepancy.catalogue.catalogue import Entry, entries
 from discrepancy.catalogue.examples import AUDITED
+from discrepancy.catalogue.signal_words import words
 from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_bench, number, signature
 from fmu_src.variables import Variable
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
@@ -28,7 +29,7 @@ HEAD = """# Effects
 Made by `python -m discrepancy.catalogue.documentation`. What a real reducer and its sensors may do beyond the ideal
 model: one file each, compiled into the units, off by default (then figures are the same to the last bit).
 *Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121-rigid (rigid supports, no losses; quasi-static, radial
-needle clearance 2.5 um, rated 167 N m at 2000 rpm): figure without and with the effect, the largest changes first
+needle clearance 2.5 um, rated 167 N m, 2000 rpm of the input): figure without and with the effect, the largest changes first
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
 turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
 """
@@ -99,6 +100,11 @@ rpm for rad/s, um for m), always with the unit beside the number, and JSON has t
 Kernels call kernels (of the file, or imported from `rv_plant`, `wear_fmu` and `fmu_src`), the functions of `math` (`import math` at the head
 of the file) and abs, min, max, int, float, bool and len; numpy and other modules do not reach machine code and FMUs.
 
+`signals=` names the measured quantities in which the effect shows, by these words; a diagnosis looks for it in campaigns that measure one of them,
+and in all campaigns where none is named:
+
+SIGNALS
+
 The hooks, kernels of these names, are called
 at these stages, each of them for all effects before the next begins:
 
@@ -152,7 +158,13 @@ def own_part() -> str:
         for name, (arguments, _) in hooks.items():
             by = {operator: [f"`{f}`" for f, o in allowed[name].items() if o == operator] for operator in ("+=", "*=")}
             rows.append((part, f"`{name}({arguments})`", STAGES[name], ", ".join(by["+="]) or "-", ", ".join(by["*="]) or "-"))
-    return OWN.replace("STAGES\n", table(("unit", "hook", "called", "adds to", "multiplies"), rows)).replace("FIELDS\n", field_table())
+    stages = table(("unit", "hook", "called", "adds to", "multiplies"), rows)
+    return OWN.replace("STAGES\n", stages).replace("FIELDS\n", field_table()).replace("SIGNALS\n", signal_table())
+
+
+def signal_table() -> str:
+    rows = [(f"`{word}`", ", ".join(f"`{q}`" for q in quantities), meaning) for word, (meaning, quantities) in words().items()]
+    return table(("word", "of a campaign's quantities", "what is measured"), rows)
 
 
 def field_table() -> str:

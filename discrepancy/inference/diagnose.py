@@ -12,6 +12,8 @@ from discrepancy.inference.chance import chance
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.refit.beside_base import base_parameters
+from discrepancy.inference.refit.beside_base import widening as widening_by_base
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
@@ -243,12 +245,19 @@ class Diagnostician:
     def say_scores(self) -> None:
         """Which effects come nearest before any is fitted in earnest."""
         nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
-        say(f"{len(self.screening.scores)} effects screened; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
+        # Of what was tried at first, each has a score or shows nothing.
+        idle = len(self.candidates) - len(self.refits.scores)
+        without = f", the other {idle} change nothing here that could be seen" if idle else ""
+        say(f"{self.tested}{without}; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
+
+    @property
+    def tested(self) -> str:
+        return f"{len(self.refits.scores)} of {len(self.candidates)} effects tested"
 
     def stopped(self) -> Diagnosis:
         """What is known so far: base fit, localisation, scores, and the best fit."""
         fits = sorted(self.refits.fitted.values(), key=penalised)
-        done = ["base fit"] + ([f"{len(self.refits.scores)} effects screened"] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
+        done = ["base fit"] + ([self.tested] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
         reason = f"stopped while {self.doing}; done: {', '.join(done)}" + (f"; best so far: {fits[0].name}" if fits else "")
         captured = 0.0
         text: dict[str, Any] = {}
@@ -270,7 +279,12 @@ class Diagnostician:
 
     @property
     def teller(self) -> Teller:
-        return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.settings.coverage, self.started)
+        return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.beside_base,
+                      self.settings.coverage, self.started)  # fmt: skip
+
+    def beside_base(self, result: Refit) -> dict[str, float]:
+        """By how much wider the intervals of ``result`` are with the base model's numbers free within their ranges."""
+        return widening_by_base(self.space, result, base_parameters(self.candidates, result.candidates))
 
     # for those who go on from here ----------------------------------------------------------
     def fit(self, names: Sequence[str]) -> Refit:

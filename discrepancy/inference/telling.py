@@ -12,11 +12,12 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.beside_base import WIDER, widened
 from discrepancy.inference.refit.confusable import canonical_correlation
-from discrepancy.inference.refit.refit import Refit, drop_cost, estimates, leave_condition_out
+from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
 from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits
-from discrepancy.problem import BASE, Candidate
+from discrepancy.problem import BASE, Candidate, Parameter
 
 # What shows less of an effect than this share of what was measured says nothing of its size.
 SHOWN = 0.05
@@ -40,13 +41,15 @@ def beyond(space: Workspace, member: Refit, candidate: Candidate) -> bool:
 
 @dataclass(frozen=True)
 class Teller:
-    """What there is to tell from: ``inflation`` widens the intervals of a fit, ``started`` is when the diagnosis began [s]."""
+    """What there is to tell from: ``inflation`` widens the intervals of a fit, ``beside_base`` says by how much each of its parameters' would be
+    wider with the base model's numbers free, ``started`` is when the diagnosis began [s]."""
 
     space: Workspace
     localisation: Localisation
     scores: Mapping[str, Score]
     fitted: Mapping[frozenset[str], Refit]
     inflation: Callable[[Refit], float]
+    beside_base: Callable[[Refit], Mapping[str, float]]
     coverage: float
     started: float
 
@@ -62,6 +65,8 @@ class Teller:
         for member in members:
             before, after = self._errors(judge, member, captured, held_out)
             numbers = {e.name: e for e in estimates(self.space, member, self.coverage, self.inflation(member))}
+            # Who interrupts waits for nothing more.
+            factors = {} if verdict == STOPPED else self.beside_base(member)
             for c in (c for c in member.candidates if c.part != BASE):
                 gain = self._gain_of(member, c) if several else member.gain
                 bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
@@ -72,7 +77,8 @@ class Teller:
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
-                effects.append(Effect(c.name, c.title, c.part, {p.name: numbers[p.name].to_dict() | {"bound": outside} for p in c.parameters},
+                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside} | with_base(numbers[p.name], p, factors) for p in c.parameters}
+                effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
                 if after > before:
@@ -134,6 +140,12 @@ class Teller:
         after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
         held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}
         return float(before), float(after)
+
+
+def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:
+    """The interval with the base model's numbers free within their ranges, where that is another one."""
+    factor = factors.get(p.name, 1.0)
+    return {"interval_with_base": list(widened(estimate.interval, estimate.value, factor, (p.lower, p.upper)))} if factor > WIDER else {}
 
 
 def why_not(rival: Refit, first: Refit, worse: float) -> str:

@@ -11,7 +11,7 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text
+from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text, with_base_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -38,6 +38,7 @@ def effects(answer: Answer) -> Section:
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
+            bound = "; ".join(filter(None, (bound, with_base_text(entry))))
             told = told_name(name, tables_of(answer.model))
             rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
             first = False

@@ -16,7 +16,7 @@ from discrepancy.key_figures import CLEARLY, DRAWS, KeyFigure
 from discrepancy.page import amounts
 from discrepancy.page.amounts import effect_title
 from discrepancy.verdict import Answer
-from discrepancy.wording import turned_down
+from discrepancy.wording import turned_down, with_base_text
 from pages.content import Why
 from pages.words import counted, number
 
@@ -72,10 +72,11 @@ def of_estimate(space: Workspace, entry: dict[str, Any]) -> Why:
     freedom = f" with {entry['degrees_of_freedom']:.0f} degrees of freedom" if 1.0 <= entry.get("degrees_of_freedom", 0.0) < 1e6 else ""
     bounded = " It is a bound: it changes more than was measured." if entry.get("bound") else ""
     bound = " It ended at a bound of its range." if entry.get("at_bound") else bounded
+    taken = with_base_text(entry) or "with the base model's numbers as its file has them"
     return Why(
         "least squares of measured − predicted in units of the noise, nuisances fitted along",
         f"{counted(len(runs), 'fitted run')} of {signals}{held}",
-        f"95 % by Student's law{freedom} from the curvature of chi-square, widened where the fit leaves more than noise.{bound}",
+        f"95 % by Student's law{freedom} from the curvature of chi-square, widened where the fit leaves more than noise; {taken}.{bound}",
     )
 
 

@@ -132,7 +132,7 @@ export function show(root, context) {
           {},
           `${p.name} = `,
           h("b", {}, `${p.value} ${p.unit}`),
-          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""} `),
+          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}${p.with_base ? `, ${p.with_base}` : ""} `),
           why(p.why, p.name),
         ),
       ),

@@ -34,6 +34,24 @@ def with_repetitions(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Guessed
     return found
 
 
+def with_odd_counts_doubted(runs: Sequence[GuessedRun]) -> list[GuessedRun]:
+    """Numbers at the ends of names that were taken for repetitions and do not count from 1 may be a speed or a load, which is said: N10, N20."""
+    groups: dict[tuple[str, str], list[int]] = defaultdict(list)
+    for k, run in enumerate(runs):
+        if run.name.replicate is not None and not run.name.given and run.repeated is None:
+            groups[run.quantity.value, run.name.pattern].append(k)
+    found = list(runs)
+    for (_, pattern), members in groups.items():
+        counts = sorted({runs[k].name.replicate or 0 for k in members})
+        if len(counts) < 2 or counts[0] <= 1:
+            continue
+        text = f"{', '.join(map(str, counts))} in {pattern} are taken for repetitions, which are mostly counted from 1"
+        remedy = f"--names '{pattern.replace('{replicate}', '{speed}')}' (or {{load}}, {{temperature}} ...) if they are numbers of the condition"
+        first = members[0]
+        found[first] = replace(runs[first], doubts=(*runs[first].doubts, Doubt(runs[first].path.name, text, remedy)))
+    return found
+
+
 def count_of(run: GuessedRun) -> int:
     match = COUNTER.match(run.name.label)
     assert match is not None

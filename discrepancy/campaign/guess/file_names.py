@@ -24,14 +24,15 @@ SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in 
 NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"
 WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-]\S*)$")
 COUNTED = re.compile(
-    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
+    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|ensaio|teste|medição"
+    r"|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
     re.IGNORECASE,
 )
 NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
-    "essai", "mesure", "prova", "misura", "ensayo", "prueba",
+    "essai", "mesure", "prova", "misura", "ensayo", "prueba", "ensaio", "teste", "medição",
     "data", "export", "rep", "speed", "depth", "motion", "lost", "torsional", "torsionale", "torsionnelle", "trasmissione", "transmisión", "transmision",
     "ingresso", "ciclo", "cycle", "di", "de",
 }  # fmt: skip

@@ -8,7 +8,7 @@ from discrepancy.campaign.guess.unit_words import NARROW, unit_of
 
 # Words of which one at least leads to the angle: "gesperrt, 40°" may be a temperature.
 LEADING = (
-    r"at|a|à|auf|bei|in|en|su|al|all|alla|au|nella|pos|position|posizione|posici[óo]n|stellung|winkel|angle|angolo|[áa]ngulo|einem|der|dem|un|une|l|la|the|an"
+    r"at|a|à|auf|bei|in|en|su|al|all|alla|au|nella|pos|position|posizione|posici[óo]n|posi[çc][ãa]o|stellung|winkel|angle|angolo|[áâa]ngulo|em|einem|der|dem|un|une|l|la|the|an"
     r"|von|of|di|de"
 )
 AT = rf"(?:(?:{LEADING})\.? ){{1,4}}"

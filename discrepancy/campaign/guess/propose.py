@@ -11,7 +11,7 @@ from typing import Any
 from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, named_conditions
-from discrepancy.campaign.guess.counted import with_repetitions
+from discrepancy.campaign.guess.counted import with_odd_counts_doubted, with_repetitions
 from discrepancy.campaign.guess.file_names import by_pattern, stem
 from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
@@ -26,6 +26,7 @@ from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from discrepancy.campaign.scales import Scales
+from discrepancy.held_names import HELD
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -84,7 +85,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         raise InputFault(f"no files: {folders} holds none of {', '.join(sorted(ENDINGS))}; name measurement files, or folders that hold some")
     if wishes.reducer:
         load_reducer(wishes.reducer)
-    guessed = with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes)
+    guessed = with_odd_counts_doubted(with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
     require_names(paths, wishes)
     require_columns(guessed, wishes)
     require_units(guessed, wishes)
@@ -113,7 +114,7 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
-    return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label))
+    return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label), run.quantity.value not in HELD)
 
 
 def leave_out_idle(conditions: dict[str, dict[str, str]], runs: Sequence[tuple[str, GuessedRun]], wishes: Wishes) -> None:

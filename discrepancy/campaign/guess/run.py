@@ -1,7 +1,8 @@
 """One file's run: its quantity, columns, units, tags."""
 
+import re
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,10 @@ from fmu_src.units import conversion
 ANGLES = ("angle", "input_angle")
 # A clock that starts so many times its range away has its zero elsewhere.
 FAR_START = 10.0
+# A turn is short of its last step.
+JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
+NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
 @dataclass(frozen=True)
@@ -113,6 +117,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     repeated = repetitions(table, columns)
     used = {guess.value for guess in best.roles.values()} | {repeated[0] if repeated else ""}
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
+    if VALUE in entries and VALUE not in stated:
+        doubts += side_by_side(path, entries[VALUE].header, left_out)
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out)
 
 
@@ -167,6 +173,16 @@ def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[D
     ]  # fmt: skip
 
 
+def side_by_side(path: Path, taken: str, left_out: Sequence[str]) -> list[Doubt]:
+    """Columns whose heads differ by a number alone, as "TE 50Nm" and "TE 100Nm": several conditions side by side, of which one is taken."""
+    alike = [header for header in left_out if re.sub(NUMBERS, "#", header) == re.sub(NUMBERS, "#", taken) and header != taken]
+    if not alike:
+        return []
+    text = f"of columns whose heads differ by a number alone {taken!r} is taken, not {', '.join(map(repr, alike))}: one condition each, it seems"
+    remedy = "save each as a file with that number in its name, or write a run for each in campaign.toml (same file, another columns.value)"
+    return [Doubt(path.name, text, remedy)]
+
+
 def quantity_guess(found: list[Assignment], wanted: str | None, path: Path) -> Guess[str]:
     best = found[0]
     if wanted:
@@ -194,8 +210,8 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     counts = wishes.counts.get(header) or wishes.counts.get(column.name)
     if counts or (column.stated and column.stated[0] == COUNTS):
         if not counts:
-            counts = 2.0 ** np.ceil(np.log2(max(column.shape.high - min(column.shape.low, 0.0), 1.0)))
-            text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed (the power of two above its range)"
+            counts, why = steps_above(max(column.shape.high - min(column.shape.low, 0.0), 1.0))
+            text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed ({why})"
             doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'"))
         keys["scale"] = scale / float(counts)
         unit = Guess("turn", f"steps of an encoder, {counts:.0f} a turn")
@@ -215,6 +231,16 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
     if role == "time" and column.shape.low > FAR_START * column.shape.span:
         keys["from_start"] = True
     return Entry(guess, header, unit, keys), doubts
+
+
+def steps_above(reach: float) -> tuple[float, str]:
+    """Steps a turn of an encoder that reached so many, and why: encoders have powers of two, or round numbers that a whole turn just misses."""
+    power = 2.0 ** np.ceil(np.log2(reach))
+    tens = 10.0 ** (np.floor(np.log10(reach)) - 1.0)
+    decimal = tens * np.ceil(reach / tens)
+    if decimal <= JUST_ABOVE * reach < power:
+        return float(decimal), "the round number just above its range"
+    return float(power), "the power of two above its range"
 
 
 def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:

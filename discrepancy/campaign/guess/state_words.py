@@ -8,7 +8,7 @@ from discrepancy.campaign.guess.column_words import SIDES
 SHAFTS = SIDES | {"input": SIDES["input"] + "|antrieb"}
 HELD = (
     r"locked|fixed|blocked|clamped|held|gesperrt\w*|blockiert\w*|fest|festgehalten\w*|festgesetzt\w*|arretiert\w*|geklemmt\w*|bloqu[ée]\w*|verrouill[ée]\w*"
-    r"|immobilis[ée]\w*|bloccat[oa]|ferm[oa]|fiss[oa]|fissat[oa]|fij[oa]|fijad[oa]"
+    r"|immobilis[ée]\w*|bloccat[oa]|ferm[oa]|fiss[oa]|fissat[oa]|fij[oa]|fijad[oa]|travad[oa]|fix[oa]|fixad[oa]"
 )
 # Between a side and what was done to it.
 BETWEEN = r"(?:shaft|side|end|seite|welle|ist|is|was|war|wurde|mechanisch|est|è|está)"
@@ -21,7 +21,8 @@ IS_HELD = {
 }  # fmt: skip
 UNLOADED = re.compile(
     r"\b(?:ohne (?:äußere |externe )?(?:last|belastung)|lastfrei|lastlos|unbelastet|leerlauf\w*"
-    r"|sans charge|[àa] vide|senza carico|a vuoto|sin carga|en vac[íi]o|no load|unloaded|without (?:a |any |external )?load)\b|空载|空載|无负载|無負荷"
+    r"|sans charge|[àa] vide|senza carico|a vuoto|sin carga|en vac[íi]o|sem carga|em vazio"
+    r"|no load|unloaded|without (?:a |any |external )?load)\b|空载|空載|无负载|無負荷"
 )
 
 

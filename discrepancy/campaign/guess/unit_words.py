@@ -7,18 +7,21 @@ ACCELERATION, STIFFNESS = "acceleration", "stiffness"
 # Steps of an encoder: an angle, once it is known how many make a turn.
 COUNTS = "counts"
 
-# Kind -> unit of a campaign -> ways of writing it in English, German, French, Italian, Spanish, Chinese, Japanese; a blank within stands as a dot,
+# Kind -> unit of a campaign -> ways of writing it in English, German, French, Italian, Spanish, Portuguese, Chinese, Japanese; a blank within stands as a dot,
 # and these signs are one: . * · - ・
 WRITTEN = {
     ANGLE: {
-        "deg": "° º deg degs degree degrees Grad degré degrés grado gradi grados 度",
+        "deg": "° º deg degs degree degrees Grad degré degrés grado gradi grados grau graus 度",
         "arcmin": "arcmin arcmins arc.min arcminute arcminutes arc.minute arc.minutes ' ′ amin minofarc min.of.arc Winkelmin Winkelminuten Bogenmin"
-        " Bogenminuten min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco 角分 弧分 分角 分",
+        " Bogenminuten min.d'arc minute.d'arc minutes.d'arc minuti.d'arco primi minutos.de.arco min.de.arco min.arco 角分 弧分 分角 分",
         "arcsec": "arcsec arcsecs arc.sec arcsecond arcseconds arc.second arc.seconds \" '' ″ asec as secofarc sec.of.arc Winkelsek Winkelsekunden Bogensek"
-        " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco 角秒 弧秒 秒角",
-        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度", "rad": "rad radian radians radianti radianes 弧度 ラジアン",
-        "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours vueltas 圈 转 転",
-        COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos 脉冲 パルス",
+        " Bogensekunden sec.d'arc seconde.d'arc secondes.d'arc secondi.d'arco segundos.de.arco"
+        " seg.de.arco seg.arco 角秒 弧秒 秒角",
+        "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度",
+        "rad": "rad radian radians radianti radianes radianos 弧度 ラジアン",
+        "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours vueltas volta voltas 圈 转 転",
+        COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos"
+        " contagens contagem impulsos 脉冲 パルス",
     },
     TORQUE: {
         "N.m": "N.m Nm m.N 牛米 牛.米 牛顿米 牛顿.米 Newtonmeter newton.mètre newton.metro ニュートンメートル", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm 千牛.米",
@@ -28,12 +31,13 @@ WRITTEN = {
     },
     SPEED: {
         "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
-        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
-        "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
-        "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s 度/秒",
+        " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min"
+        " rot/min rotações/min voltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
+        "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s rot/s voltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
+        "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s graus/s 度/秒",
     },
     LENGTH: {
-        "um": "um µm micron microns Mikrometer micromètre micromètres micrometri micras micrómetros 微米 ミクロン",
+        "um": "um µm micron microns Mikrometer micromètre micromètres micrometri micras micrómetros micrômetros mícrons 微米 ミクロン",
         "mm": "mm Millimeter millimètre millimètres millimetri milímetros 毫米 ミリ", "nm": "nm 纳米", "m": "m",
     },
     TIME: {
@@ -43,7 +47,7 @@ WRITTEN = {
     },
     TEMPERATURE: {"degC": "°C ℃ degC C Celsius 摄氏度 攝氏度 摂氏", "K": "K Kelvin", "degF": "°F ℉ degF"},
     SHARE: {"%": "% ％ percent Prozent pour.cent pourcent pourcents per.cento por.ciento パーセント", "ppm": "ppm", "1": "1 - –"},
-    MASS: {"mg": "mg 毫克", "g": "g Gramm grammes grammi gramos 克 グラム", "ug": "ug µg", "kg": "kg 公斤 千克"},
+    MASS: {"mg": "mg 毫克", "g": "g Gramm grammes grammi gramos gramas 克 グラム", "ug": "ug µg", "kg": "kg 公斤 千克"},
     ACCELERATION: {"m/s^2": "m/s^2 m/s2 m/ss 米/秒^2", "mm/s^2": "mm/s^2 mm/s2", "g_0": "gn"},
     STIFFNESS: {
         "N.m/arcmin": "N.m/arcmin Nm/arcmin N.m/arc.min Nm/arc.min Nm/' N.m/' Nm/角分 N.m/角分 牛米/角分 N.m/分", "N.m/rad": "N.m/rad Nm/rad",
@@ -59,6 +63,8 @@ def plain(text: str) -> str:
     text = re.sub(r"\s*/\s*", "/", text.translate(NARROW))
     for signs, sign in (("μ", "µ"), ("*·⋅•・･-−⁻ ", "."), ("²", "^2"), ("¹", "1"), ("’‘`´", "'"), ("“”", '"')):
         text = re.sub(f"[{re.escape(signs)}]", sign, text) if sign != "." else re.sub(rf"\s*[{re.escape(signs.strip())}]\s*|(?<=\S)\s+(?=\S)", ".", text)
+    # "min. d'arc": a dot that shortens a word, and the blank behind it.
+    text = re.sub(r"\.{2,}", ".", text)
     return text.strip(" .") or text.strip()
 
 
