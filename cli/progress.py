@@ -69,7 +69,9 @@ class Lines:
             self.changed.notify()
 
     def say(self, text: str) -> None:
-        print(text, file=sys.stderr, flush=True)
+        # Python writes a line and its end apart: another may come in between.
+        with self.changed:
+            print(text, file=sys.stderr, flush=True)
 
     def tell(self) -> None:
         """Runs beside the work and ends with the last task."""
