@@ -59,7 +59,8 @@ def lag_doubts(value: float, deviation: float) -> list[str]:
     if low <= value <= high:
         return []
     if value < CLEAR_LAG[0] - SURELY * deviation:
-        return [f"(the model's own is 1): the output hardly lags, as if the angle was the input's over the ratio after all; state {OF_INPUT} if it was"]
+        return [f"(the model's own is 1): the output hardly lags, as if the angle was the input's over the ratio after all (state {OF_INPUT} if it was), or the"
+                " encoder was set to 0 under the load of each run; what is found is the same either way"]
     if value > CLEAR_LAG[1] + SURELY * deviation:
         return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
                 " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip

@@ -59,6 +59,7 @@ class Record:
     ``of_output``: its ``angle`` is that of the output as an encoder there shows it, which lags under load behind the input over the ratio.
     ``far_off`` are the rows of samples that stand alone, far off: nothing counts them.
     ``of_positions``: measured at positions of the input over a turn of the cranks, of which it is the mean.
+    ``closed``: a loop that was gone round before its first sample.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Record:
     zero_noise: float = 0.0
     of_output: bool = False
     of_positions: bool = False
+    closed: bool = False
     far_off: tuple[int, ...] = ()
 
     @property
@@ -180,6 +182,10 @@ class Settling(Protocol):
 
     def settle(self, values: Mapping[str, float]) -> bool:
         """Find the corrections for the effects that are on in ``values``; False if there are none."""
+        ...
+
+    def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
+        """Whether ``values`` ask for others of these corrections than were found last for their effects."""
         ...
 
 

@@ -13,6 +13,7 @@ from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, T
 from discrepancy.campaign.readers import Options, read_columns
 from discrepancy.campaign.scales import Scales, make_scales
 from discrepancy.campaign.series import Series, complete, series_of
+from discrepancy.closed_loop import is_closed
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.problem import MEAN, WITH_ZERO, Parameter, Record
 from discrepancy.repetitions import copies
@@ -221,11 +222,13 @@ def record_of(run: Run, condition: Condition, series: Series, scales: Scales, pl
     factors = {name: number for name, number in factors.items() if name in meant and name not in series and not (name == LOCKED_AT and of_positions)}
     if run.direction is not None:
         factors["direction"] = float(DIRECTIONS[run.direction])
+    closed = quantity.name == "hysteresis" and "torque" in series and is_closed(series["torque"], series[VALUE])
     return Record(
         run.id, run.quantity, quantity.unit, run.condition, run.replicate, series[VALUE],
         {name: column for name, column in series.items() if name != VALUE}, factors,
         str(run.mounting or condition.mounting), condition.held_out if run.held_out is None else run.held_out,
         noise_of(run, quantity, place), tags_of(run, condition, quantity, scales, place), of_positions=of_positions and quantity.name in HELD,
+        closed=closed,
     )  # fmt: skip
 
 

@@ -54,7 +54,7 @@ def identity(record: Record) -> tuple[Hashable, ...]:
     """What a prediction depends on in a record: equal for runs that repeat each other."""
     axes = tuple((name, np.asarray(axis).tobytes()) for name, axis in sorted(record.axes.items()))
     stated = tuple(sorted(record.factors.items())), tuple(sorted(record.tags.items()))
-    return record.quantity, record.mounting, axes, *stated, len(record.values), record.zero_known, record.of_output
+    return record.quantity, record.mounting, axes, *stated, len(record.values), record.zero_known, record.of_output, record.closed
 
 
 def angles_of(bench: Bench, record: Record, zero: float) -> Floats:

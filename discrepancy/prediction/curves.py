@@ -186,7 +186,7 @@ class OverTorque:
 
     def way(self, values: Values, torques: Floats) -> tuple[Floats, npt.NDArray[np.intp] | slice]:
         """``torque_way.way`` as finely as the bench asks for."""
-        return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step)
+        return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step, self.record.closed)
 
 
 def moved(angles: Floats, series: Floats, by: float) -> Floats:
@@ -327,7 +327,7 @@ def loop_change(bench: Bench, record: Record, values: Values, base: Values) -> F
         return None
 
     def between(torques: Floats) -> Floats:
-        path, lead = entered(torques, bench.rated_load)
+        path, lead = entered(torques, bench.rated_load, record.closed)
         high, low = (bench.held_beside(condition, v, path, base)[lead:] for v in (values, base))
         return high - low
 
@@ -361,9 +361,9 @@ def loop_error(bench: Bench, record: Record) -> Floats:
 
     def found() -> Floats:
         fine = nodes_of(curve, {})
-        path, lead = entered(curve.places({}) if fine is None else fine.torques, bench.rated_load)
+        path, lead = entered(curve.places({}) if fine is None else fine.torques, bench.rated_load, record.closed)
         halves = bench.held_halves(curve.condition, path)[lead:]
         return halves if fine is None else fine.samples(halves, curve.places({}))
 
     # Every prediction with some of it asks again.
-    return bench.kept(("loop error", curve.condition, curve.places({}).tobytes()), found)
+    return bench.kept(("loop error", curve.condition, record.closed, curve.places({}).tobytes()), found)

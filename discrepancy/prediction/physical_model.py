@@ -8,6 +8,7 @@ import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign, Nuisance
+from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import chain, model_error
@@ -21,6 +22,7 @@ from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import WHOLE_SWEEP
+from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
@@ -102,6 +104,7 @@ class PhysicalModel:
             self.cages.place(self.standing())
         # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
         self.bench.zeros.update(self.zeros)
+        self.locked_places = LockedPlaces(self.records, self.zeros, self.bench.ratio)
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.
@@ -156,8 +159,15 @@ class PhysicalModel:
             self.zeros[name] = float(shifts[best])
 
     def settle(self, values: Mapping[str, float]) -> bool:
-        """See ``problem.Settling``: the roller cages are placed anew."""
-        return self.cages.place(self.standing() | dict(values)) if self.cages.ripples else False
+        """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
+        every = self.standing() | dict(values)
+        moved = self.locked_places.place(self.cages.effects(every), every)
+        return (self.cages.place(every) if self.cages.ripples else False) or moved
+
+    def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
+        """See ``problem.Settling``: inputs were locked elsewhere."""
+        every = self.standing() | dict(values)
+        return self.locked_places.are_elsewhere(self.cages.effects(every), every)
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -227,8 +237,9 @@ class PhysicalModel:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         record = curve_of(measured)
+        placed = self.locked_places.placed(record, self.cages.effects(asked.values)) if record.quantity in HELD else record
         try:
-            predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
+            predicted = self.observed(placed, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
                 torque = impossible_torque(measured, self.campaign)

@@ -17,12 +17,12 @@ WAY = np.array([1.0, 0.75, 0.5, 0.25, 0.1, 0.05, 0.02])
 
 def departures(bench: Bench, record: Record) -> Floats:
     """Of the new base model's loop at each position (positions, n) [rad] from the mean of all, each about its own mean: its zero is free."""
-    return departures_along(bench, np.asarray(record.axes["torque"], float))
+    return departures_along(bench, np.asarray(record.axes["torque"], float), record.closed)
 
 
-def departures_along(bench: Bench, torques: Floats) -> Floats:
+def departures_along(bench: Bench, torques: Floats, closed: bool = False) -> Floats:
     """The same under torques [N m] at rated speed and load."""
-    path, places = way(bench, {}, torques)
+    path, places = way(bench, {}, torques, closed=closed)
     turning = bench.held_turnings(Condition(bench.rated_speed, bench.rated_load), {}, path, HELD_ANGLES, SHORT_CYCLE)[:, places]
     off = turning - turning.mean(axis=0)
     found: Floats = off - off.mean(axis=1, keepdims=True)

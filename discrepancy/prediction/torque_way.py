@@ -6,17 +6,21 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.closed_loop import first_sense
 from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from fmu_src.arrays import Floats
 from studies.hysteresis import LOST_MOTION_SHARE
 
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
+# Torques on a way in.
+LEAD = 9
 
 
-def way(bench: Bench, values: Mapping[str, float], torques: Floats, longest: float = TORQUE_STEP) -> tuple[Floats, npt.NDArray[np.intp] | slice]:
+def way(bench: Bench, values: Mapping[str, float], torques: Floats, longest: float = TORQUE_STEP,
+        closed: bool = False) -> tuple[Floats, npt.NDArray[np.intp] | slice]:  # fmt: skip
     """The torques [N m] that are gone through, and where ``torques`` are among them: with what remembers in steps of ``longest`` of the rated one."""
-    path, lead = entered(torques, bench.rated_load)
+    path, lead = entered(torques, bench.rated_load, closed)
     if not bench.remembers(values):
         return path, slice(lead, None)
     step, least = longest * bench.rated_load, NEAR_NOTHING * bench.rated_load
@@ -24,11 +28,22 @@ def way(bench: Bench, values: Mapping[str, float], torques: Floats, longest: flo
     return fine, places[lead:]
 
 
-def entered(torques: Floats, rated: float) -> tuple[Floats, int]:
-    """The way into a loop and through it, and the length of the way in: from little torque, for with none the output floats."""
-    first = torques[0] if torques[0] != 0.0 else LOST_MOTION_SHARE * rated
-    lead = np.linspace(0.1 * first, torques[0], 9)[:-1]
+def entered(torques: Floats, rated: float, closed: bool = False) -> tuple[Floats, int]:
+    """The way into a loop and through it, and the length of the way in: from little torque, for with none the output floats; into one that is
+    ``closed`` from where it turned back last."""
+    start = torques[0]
+    if closed:
+        turned = torques.min() if first_sense(torques) > 0.0 else torques.max()
+        lead = np.concatenate([inwards(turned, turned), np.linspace(turned, start, LEAD)[:-1]])
+    else:
+        lead = inwards(start if start != 0.0 else LOST_MOTION_SHARE * rated, start)
     return np.concatenate([lead, torques]), len(lead)
+
+
+def inwards(first: float, last: float) -> Floats:
+    """Torques from a tenth of ``first`` to before ``last``."""
+    found: Floats = np.linspace(0.1 * first, last, LEAD)[:-1]
+    return found
 
 
 def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:

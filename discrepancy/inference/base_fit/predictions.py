@@ -108,6 +108,10 @@ class Predictions:
             if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
                 self.beside_store.pop(pair, None)
 
+    def unsettled(self, values: Mapping[str, float]) -> bool:
+        """Whether what was found in ``settle`` is that of other values."""
+        return isinstance(self.model, Settling) and self.model.stands_elsewhere(self.active(values))
+
     def effects(self, active: Mapping[str, float]) -> frozenset[str]:
         return frozenset(name for name in active if name in self.amplitudes)
 

@@ -13,6 +13,8 @@ from discrepancy.problem import Candidate
 
 # Of chi-square: by so much a fit from another start is another optimum.
 BETTER = 1.0
+# What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
+AGAIN = 3
 
 
 def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
@@ -79,8 +81,14 @@ class Refits:
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         self.settle(key, result)
+        roughly = self.settled[key][1]
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
-        self.gained[key] = max(self.settled[key][1] - better.fit.chi2, 0.0)
+        for _ in range(AGAIN):
+            if not self.space.predictions.unsettled(better.fit.values):
+                break
+            self.settle(key, better)
+            better = finished(self.space, result.candidates, *in_earnest(self.space, better.fit, result.candidates))
+        self.gained[key] = max(roughly - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
 

@@ -1,0 +1,64 @@
+"""Where inputs were locked, counted as the angles of their mounting: from where the transmission error's pattern is found to begin.
+
+An effect that is larger than the base model's own pattern hides where that lies, by up to half a turn of the input: the places are found anew when
+the effect is fitted for good, as the cages are.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from discrepancy.held_names import LOCKED_AT
+from discrepancy.prediction.conditions import angle_zero
+from discrepancy.problem import Record
+
+# Nearer places show the same [rad of the input].
+NEAR = math.radians(1.0)
+
+Effects = frozenset[str]
+
+
+class LockedPlaces:
+    """Zeros by mounting and by set of effects; ``zeros`` are those of the bench itself [rad of the output]."""
+
+    def __init__(self, records: Sequence[Record], zeros: Mapping[str, float], ratio: float):
+        self.zeros, self.ratio = dict(zeros), abs(ratio)
+        locked = {angle_zero(r) for r in records if LOCKED_AT in r.factors or LOCKED_AT in r.axes}
+        self.names = sorted(locked & self.zeros.keys())
+        self.found: dict[Effects, dict[str, float]] = {}
+        self.moved: dict[tuple[int, float], Record] = {}
+
+    def place(self, effects: Effects, values: Mapping[str, float]) -> bool:
+        """Takes the zeros of ``values`` for these effects; False if that changes nothing."""
+        if not self.are_elsewhere(effects, values):
+            return False
+        self.found[effects] = {name: values[name] for name in self.names}
+        return True
+
+    def are_elsewhere(self, effects: Effects, values: Mapping[str, float]) -> bool:
+        """Whether ``values`` have other zeros than those that are taken with these effects."""
+        taken = self.taken(effects)
+        return any(abs(values.get(name, taken[name]) - taken[name]) * self.ratio > NEAR for name in self.names)
+
+    def taken(self, effects: Effects) -> dict[str, float]:
+        """The zeros found with these effects, else with the most of them."""
+        known = [other for other in self.found if other <= effects]
+        return self.found[max(known, key=len)] if known else self.zeros
+
+    def base(self) -> dict[str, float]:
+        """The zeros from which places count with no effect."""
+        return {name: self.taken(frozenset())[name] for name in self.names}
+
+    def placed(self, record: Record, effects: Effects) -> Record:
+        """The record as if it was locked where that is with these effects, counted from the bench's own zero."""
+        name = angle_zero(record)
+        if name not in self.names:
+            return record
+        shift = (self.taken(effects)[name] - self.zeros[name]) * self.ratio
+        if not shift:
+            return record
+        if (id(record), shift) not in self.moved:
+            factors = {key: value + shift if key == LOCKED_AT else value for key, value in record.factors.items()}
+            axes = {key: axis + shift if key == LOCKED_AT else axis for key, axis in record.axes.items()}
+            self.moved[id(record), shift] = replace(record, factors=factors, axes=axes)
+        return self.moved[id(record), shift]

@@ -1,0 +1,123 @@
+"""A loop that was gone round before its first sample begins on its branch, not half-way between both."""
+
+import math
+
+import numpy as np
+import pytest
+
+from discrepancy.campaign.load import load_campaign
+from discrepancy.closed_loop import is_closed
+from discrepancy.model_file import load_model
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.curves import OverTorque, loop_change, signal
+from discrepancy.problem import Record
+from orchestrator.settings import Setting
+from studies.hysteresis import one_angle, torque_way
+from studies.solve import ARCMIN
+
+# An oval ring pinches its discs, so that friction holds their loop open by minutes of arc.
+OVAL = {"pin_ring_ovality": 6e-6, "pin_ring_ovality_angle": 0.7}
+# The bench goes by steps of its own, the study from sample to sample [rad].
+STEPS = 5e-6
+
+
+def cycle(steps=40, largest=167.0):
+    return torque_way(largest, steps)
+
+
+def branches(torque, width=0.2):
+    """A loop that lags by ``width`` of the largest torque, its branches met by and by after each turn, gone round before."""
+    memory, turning = -width, []
+    for t in [*torque, *torque]:
+        memory = min(max(memory, t / 167.0 - width), t / 167.0 + width)
+        turning.append(memory)
+    return np.array(turning[len(torque) :])
+
+
+def test_a_whole_cycle_from_no_torque_on():
+    torque = cycle()
+    assert is_closed(torque, branches(torque))
+    assert is_closed(-torque, -branches(torque))
+    assert is_closed(cycle(5), branches(cycle(5)))
+
+
+def test_what_ends_a_little_before_its_start():
+    torque = cycle()[:-1]
+    assert is_closed(torque, branches(cycle())[:-1])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_does_not_matter(seed):
+    rng, torque = np.random.default_rng(seed), cycle()
+    noise = 0.01 * rng.standard_normal(len(torque))
+    assert is_closed(torque + noise, branches(torque) + noise)
+    assert not is_closed(torque + noise, at_rest(torque) + noise)
+
+
+def at_rest(torque, width=0.2):
+    """The same from rest: the first quarter comes from the middle."""
+    memory, turning = 0.0, []
+    for t in torque:
+        memory = min(max(memory, t / 167.0 - width), t / 167.0 + width)
+        turning.append(memory)
+    return np.array(turning)
+
+
+def test_what_is_none():
+    torque = cycle()
+    turned = np.argmin(torque)
+    from_the_end = np.concatenate([torque[turned:], torque[1 : turned + 1]])
+    # From rest; from its largest torque, where both begin alike; one way only; without play; no torque at all.
+    assert not is_closed(torque, at_rest(torque))
+    assert not is_closed(from_the_end, branches(from_the_end))
+    assert not is_closed(torque[:40], branches(torque)[:40])
+    assert not is_closed(torque, torque / 167.0)
+    assert not is_closed(np.zeros(20), np.zeros(20))
+
+
+@pytest.fixture(scope="module")
+def real():
+    """(model file, torque [N m], turning [rad] of the second and of the first cycle with the input at 90 degrees)."""
+    file = load_model("RV20E-121")
+    torque = cycle()
+    share = 90.0 / 360.0 * file.reducer.topology.lobes / Bench(file.reducer, {}).ratio
+    twice = one_angle(file.reducer, [Setting(*pair) for pair in OVAL.items()], np.concatenate([torque, torque[1:]]), share) / ARCMIN
+    return file, torque, twice[-len(torque) :], twice[: len(torque)]
+
+
+def record_of(torque, turning, closed):
+    return Record("r", "hysteresis", "rad", "c", 1, turning, {"torque": torque}, {"locked_at": math.pi / 2.0}, tags={"locked": "input"}, closed=closed)
+
+
+def test_the_second_cycle_of_a_reducer_with_friction(real):
+    file, torque, second, first = real
+    assert is_closed(torque, second)
+    assert not is_closed(torque, first)
+    bench = Bench(file.reducer, {})
+
+    def error(closed, turning):
+        found = signal(OverTorque(bench, record_of(torque, turning, closed)), OVAL)
+        off = (found - found.mean() - turning + turning.mean())[np.abs(torque) > 3.0]
+        return float(np.sqrt(np.mean(off**2)))
+
+    assert error(True, second) < STEPS
+    assert error(False, first) < STEPS
+    # As if from rest it is off by its first quarter, and all by their means.
+    assert error(False, second) > 20.0 * STEPS
+
+
+def test_changes_go_the_same_way(real):
+    """What values change next to others, coarsely: the same at both ends of the loop."""
+    file, torque, second, _ = real
+    change = loop_change(Bench(file.reducer, {}), record_of(torque, second, True), OVAL, {})
+    assert abs(change[0] - change[-1]) < 0.02 * np.ptp(change)
+
+
+def test_a_campaign_tells_by_its_samples(tmp_path):
+    torque = cycle(10)
+    runs = []
+    for name, turning in (("before", branches(torque)), ("rest", at_rest(torque))):
+        runs.append(f'[[runs]]\nid = "{name}"\nquantity = "hysteresis"\ncondition = "a"\nreplicate = {len(runs) + 1}\ntags.locked = "input"\n'
+                    f'table.torque = {{ values = {torque.tolist()}, unit = "N.m" }}\ntable.value = {{ values = {turning.tolist()}, unit = "arcmin" }}\n')  # fmt: skip
+    (tmp_path / "campaign.toml").write_text('[campaign]\nname = "loops"\nreducer = "RV20E-121"\n[conditions.a]\nlocked_at = "90 deg"\n' + "".join(runs))
+    assert {r.name: r.closed for r in load_campaign(tmp_path).records} == {"before": True, "rest": False}
