@@ -151,6 +151,9 @@ def test_what_a_model_corrects_for_itself_is_found_anew_once_the_nuisances_are_k
             self.believed = values.get("zero", 0.0)
             return True
 
+        def stands_elsewhere(self, values):
+            return values.get("zero", 0.0) != self.believed
+
     space = Workspace(Ripple())
     base = space.fit_base()
     assert base.values["zero"] == pytest.approx(0.05, abs=1e-3)
