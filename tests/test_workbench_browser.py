@@ -443,7 +443,7 @@ def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
     page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
     page.route("**/results/life/report*", asked)
     page.evaluate("""async () => {
-      const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true } } };
+      const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true, given: { model: 'RV20E-121' } } } };
       const place = document.getElementById('view');
       place.replaceChildren();
       show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
@@ -454,6 +454,28 @@ def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
         page.wait_for_timeout(50)
     held[0].fulfill(body="<p>report</p>", content_type="text/html")
     word.wait_for(state="hidden")
+    assert page.locator(".past").count() == 0
+
+
+def test_a_life_of_another_model_says_so(bench):
+    page = bench.page
+    page.goto(bench.address)
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    said = page.evaluate("""async () => {
+      const { show } = await import('./static/life.js'), job = { state: 'done', result: true, old: true, given: { model: 'RV20E-121' } };
+      const place = document.getElementById('view'), context = { state: { jobs: { life: job } }, busy: () => '', modelChooser: () => '' }, said = [];
+      for (const [made, chosen] of [['RV20E-121', 'model.toml'], ['RV20E-121', 'RV20E-121'], ['model.toml', 'model.toml']]) {
+        job.given = { model: made };
+        place.replaceChildren();
+        show(place, { ...context, model: () => chosen });
+        for (let k = 0; k < 100 && !place.querySelector('h1'); k++) await new Promise((done) => setTimeout(done, 50));
+        said.push([place.querySelector('.past-note')?.textContent ?? '', !!place.querySelector('.past h1')]);
+      }
+      return said;
+    }""")
+    # Measurements that changed say nothing of a life of a reducer of the library; the file of a model may be another since.
+    assert said[0] == ["What stands below is of RV20E-121; the model that is chosen now is model.toml.", True] and said[1] == ["", False]
+    assert "they have changed since" in said[2][0]
 
 
 @pytest.mark.campaign

@@ -186,6 +186,9 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
         "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
         "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
     })  # fmt: skip
+    if extension.step["kept"]:
+        # All views go on with the better model; a life begun right after was one of the former.
+        folder.remember("view", folder.recall("view") | {"model": MODEL})
     return False
 
 
