@@ -119,7 +119,11 @@ class NextRun:
 @sharing_no_matrices
 def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
     """Diagnose, or take the diagnosis from before, and propose what to measure next."""
-    return proposal_for(diagnosed(file, campaign, settings, jobs), campaign)
+    answer = diagnosed(file, campaign, settings, jobs)
+    try:
+        return proposal_for(answer, campaign)
+    except KeyboardInterrupt as stop:
+        raise KeyboardInterrupt("while experiments were weighed: the diagnosis is kept, and the same command goes on from there") from stop
 
 
 def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:

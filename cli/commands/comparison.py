@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from discrepancy.campaign.model import Campaign
     from discrepancy.compare import Comparison
     from discrepancy.model_file import ModelFile
-    from discrepancy.verdict import Answer
+    from discrepancy.verdict import Answer, AnswerSoFar
 
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
@@ -185,14 +185,34 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 
 def run_extend(options: argparse.Namespace) -> int:
-    """Exit code 3 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs; 130 and 143 as of ``diagnose``."""
     file, campaign = inputs(options)
-    if options.draft:
-        return run_draft(options, file, campaign)
-    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
-    # Read here and written at the end: nobody else's step is to be lost in between.
-    with held(target):
-        return add_effect(options, file, campaign, target)
+    from discrepancy.verdict import AnswerSoFar
+
+    try:
+        if options.draft:
+            return run_draft(options, file, campaign)
+        target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+        # Read here and written at the end: nobody else's step is to be lost in between.
+        with held(target):
+            return add_effect(options, file, campaign, target)
+    except AnswerSoFar as stop:
+        return tell_so_far(options, stop)
+
+
+def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar") -> int:
+    """What was known when the diagnosis that a command begins with was interrupted, as of ``diagnose``; its exit code."""
+    from cli.screen import json_text
+    from cli.show.comparison import show_answer
+
+    write_html(options, stop.answer)
+    if options.json:
+        json_text(stop.answer.as_json())
+    else:
+        show_answer(stop.answer)
+    say_page(options)
+    print(f"rvwear {options.command}: interrupted; the same command goes on from there", file=sys.stderr)
+    return exit_code(stop)
 
 
 def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
@@ -211,8 +231,12 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             raise InputFault(refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
+        answer = remembered(file, campaign, jobs=all_cores())
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=remembered(file, campaign, jobs=all_cores()))
+            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=answer)
+        except KeyboardInterrupt as stop:
+            how = "the diagnosis is kept, and the same command goes on from there" if answer else "the same command begins anew"
+            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {how}") from stop
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
@@ -257,10 +281,14 @@ def run_next(options: argparse.Namespace) -> int:
     from cli.show.comparison import show_next
     from discrepancy.inference.verdict import SET
     from discrepancy.next_run import next_run
+    from discrepancy.verdict import AnswerSoFar
 
     given = inputs(options)
     with task("looking for an experiment"):
-        run = next_run(*given, jobs=all_cores())
+        try:
+            run = next_run(*given, jobs=all_cores())
+        except AnswerSoFar as stop:
+            return tell_so_far(options, stop)
     write_html(options, run)
     if options.json:
         json_text(run.as_json())
