@@ -95,7 +95,7 @@ start, a third and three times of it; quarters of a turn for an angle that may g
 measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` has
 a line for each parameter: its unit, the one that answers give it in, and whether it is fitted, within which bounds. A file's unit is SI,
 because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m),
-rpm for rad/s, um for m), always with the unit beside the number, and JSON has the SI value as `si`, too.
+rpm for rad/s, um for m; for rad, by the size, deg, arcmin or arcsec), always with the unit beside the number, and JSON has the SI value as `si`, too.
 
 Kernels call kernels (of the file, or imported from `rv_plant`, `wear_fmu` and `fmu_src`), the functions of `math` (`import math` at the head
 of the file) and abs, min, max, int, float, bool and len; numpy and other modules do not reach machine code and FMUs.
