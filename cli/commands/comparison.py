@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, named_in, refusal
+from cli.commands.going_on import extend_line, line_after, named_in, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
@@ -218,6 +218,7 @@ def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar") -> int:
 def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_extension
+    from discrepancy.already_there import AlreadyThere
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
@@ -240,6 +241,8 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
+        except AlreadyThere as fault:
+            raise InputFault(f"{fault}; {refit_text(options, file, fault.names)}") from None
     save_model(extension.file, target)
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:
