@@ -31,7 +31,7 @@ model: one file each, compiled into the units, off by default (then figures are 
 *Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121-rigid (rigid supports, no losses; quasi-static, radial
 needle clearance 2.5 um, rated 167 N m, 2000 rpm of the input): figure without and with the effect, the largest changes first
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
-turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
+turns. `TE` is the transmission error, `mean TE (behind)` its mean, taken negative. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
 """
 # When the units call the hooks.
 STAGES = {
@@ -134,7 +134,8 @@ def before(r):
 What changes with the angle has a rate beside it, which bodies in motion (`numerics.fidelity = "dynamic"`) need: an effect that adds to a
 gap, a play or a crank's turning sets both, or its teeth close without a speed, and the damping of their contact is wrong;
 `fall_back(r, lag, rate)` of `rv_plant.gear_stage` sets all four for an output that falls back. Equilibria read `crank_turn_rate`
-alone, for the drive torque.
+alone, for the drive torque. What turns the cranks shows in `output.transmission_error`, which counts from the input, and not in `output.lag`,
+which counts from where the cranks stand.
 
 Within a stage effects add (`+=`, `-=`) or multiply (`*=`, `/=`) and read nothing that others change there, so that neither the
 order of the effects nor their names matter. An effect sets (`=`) its own states alone (`states=` of `EFFECT`), at any stage but `hold` and
