@@ -169,12 +169,12 @@ export const fails = (result, context) =>
         "section",
         {},
         h("h2", {}, "Where the model fails"),
-        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together."),
+        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together. The share is of the chi-square of all signals together, in which every sample counts: how far off each signal is stands above, in times of its noise."),
         h(
           "div",
           { class: "panel" },
           table(
-            ["signal", "what", "depends on", "share of the misfit", ""],
+            ["signal", "what", "depends on", "share of all misfit", ""],
             result.places
               .slice(0, 20)
               .map((p) => [
