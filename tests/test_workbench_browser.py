@@ -594,7 +594,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     # Next experiment, the better model, its units.
     bench.view("diagnose")
     page.locator("#next:enabled").click()
-    page.get_by_text("thermal_expansion stands alone").wait_for(timeout=120_000)
+    page.get_by_text("thermal expansion stands alone").wait_for(timeout=120_000)
     page.locator("#extend:enabled").click()
     page.locator("#added", has_text="helped").wait_for(timeout=120_000)
     before, after = map(float, re.findall(r"from ([\d.]+) to ([\d.]+)", page.locator("#added").inner_text())[0])
