@@ -1,6 +1,7 @@
 """How long tasks took before, so that what is left can be told of those whose steps nobody can count, or differ in cost.
 
-Of counted steps it is the time of one.  Kept by command line and by what is done: the same command again takes about as long, another one of its kind as long as the last did.
+Of counted steps it is the time of one.  Kept by command line and by what is done: the same command again takes about as long,
+another one of its kind as long as the last did.
 """
 
 import hashlib

@@ -43,7 +43,8 @@ MOST_OPEN, MOST_TEXTS = 4, 6
 # What a misfit that is the same everywhere is asked for, and what the answer decides.
 MOUNTED_ANEW = (
     "off at all conditions alike, so that no other condition says more; mount sensor and unit anew and repeat: a misfit that changes with the mounting"
-    " comes from the bench (sensor, its seat, alignment), one that stays from the reducer or from the numbers of the base model"
+    " comes from the bench (sensor, its seat, alignment), one that stays from the reducer,"
+    " from a scale that no mounting changes, or from the numbers of the base model"
 )
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {

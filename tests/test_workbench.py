@@ -299,6 +299,13 @@ def test_signals_in_what_a_page_says_have_one_form():
     assert with_titles(said) == "misfit: hysteresis (locked input), along torque; wear depth (hours 9, surface inner race) in errors.pin[2]=7um"
 
 
+def test_numbers_in_what_a_page_says_have_a_minus_and_names_their_hyphen():
+    """-22.95 um under Diagnose stood beside −22.95 in tables."""
+    from discrepancy.page.amounts import with_minus
+
+    assert with_minus("y = a + b x, a = -0.01 (-.02 to 1e-05), RV20E-121 at half-load") == "y = a + b x, a = −0.01 (−.02 to 1e−05), RV20E-121 at half-load"
+
+
 def test_numbers_have_as_many_decimals_as_their_noise():
     from workbench.look import decimals_of, text_of
 

@@ -224,6 +224,17 @@ def test_a_result_of_another_model_says_so(bench, tmp_path):
     assert said[3] == "" and said[4] == "What stands below is of before. It is being computed anew." and "came to no result" in said[5]
 
 
+def test_a_word_that_stands_as_a_whole_is_searched_as_a_whole(bench):
+    page = bench.page
+    page.goto(bench.address)
+    found = page.evaluate("""async () => {
+      const { matcher } = await import('./static/search.js');
+      const titles = ['hysteresis_40deg', 'hysteresis 40degC', 'hysteresis at 10degC', 'Übertragungsfehler (order 4)', 'Übertragungsfehler (order 40)'];
+      return ['40deg', '40', '40d', 'hyst 10deg', 'order 4', '(order', '', 'fehler 40'].map((text) => titles.flatMap((t, k) => (matcher(text, titles)(t) ? [k] : [])));
+    }""")
+    assert found == [[0], [0, 1, 4], [0, 1], [2], [3], [3, 4], [0, 1, 2, 3, 4], [4]]
+
+
 # Of the chosen model, of another, of files that changed since, and while it is asked anew: once it is there, before, and where nothing comes of it.
 PAST = """async () => {
     const { past } = await import('./static/past.js'), result = { model: 'RV20E-121', begun: 1 };

@@ -232,11 +232,11 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             raise InputFault(refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
-        answer = remembered(file, campaign, jobs=all_cores())
+        known = remembered(file, campaign, jobs=all_cores())
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=answer)
+            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=known)
         except KeyboardInterrupt as stop:
-            how = "the diagnosis is kept, and the same command goes on from there" if answer else "the same command begins anew"
+            how = "the diagnosis is kept, and the same command goes on from there" if known else "the same command begins anew"
             raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {how}") from stop
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []

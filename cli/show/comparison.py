@@ -37,7 +37,10 @@ LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
 WHOLE = 100.0
 # A loop of 446 times its noise has 1 %, beside transmission errors of many samples.
-OF_ALL = "of all misfit: of the chi-square of all signals together, in which every sample counts; how far off each signal is, error/noise of `rvwear compare` says"
+OF_ALL = (
+    "of all misfit: of the chi-square of all signals together, in which every sample counts;"
+    " how far off each signal is, error/noise of `rvwear compare` says"
+)
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:

@@ -31,7 +31,8 @@ model: one file each, compiled into the units, off by default (then figures are 
 *Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121-rigid (rigid supports, no losses; quasi-static, radial
 needle clearance 2.5 um, rated 167 N m, 2000 rpm of the input): figure without and with the effect, the largest changes first
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
-turns. `TE` is the transmission error, `mean TE (behind)` its mean, taken negative. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
+turns. `TE` is the transmission error, `mean TE (behind)` its mean, taken negative. `rvwear effects NAME` shows all figures,
+`rvwear effects --html FILE` pictures.
 """
 # When the units call the hooks.
 STAGES = {
