@@ -10,11 +10,12 @@ from fmu_src.faults import InputFault
 
 
 class AlreadyThere(InputFault):
-    """``names``: what ``extend`` adds to the base model to have all of it again, fitted together."""
+    """``lacking``: forms of it that the model does not have; ``names``: what ``extend`` adds to the base model to have all of it again, fitted together."""
 
-    def __init__(self, name: str, file: ModelFile, numbers: dict[str, dict[str, Any]]):
+    def __init__(self, name: str, file: ModelFile, numbers: dict[str, dict[str, Any]], lacking: list[str]):
         told = ", ".join(f"{path} = {of_parameter(largest(n['value']), n['unit']).text(n['value'], 4)}" for path, n in numbers.items())
-        super().__init__(f"effect {name!r}: {file.path or file.name} has it already ({told}), and nothing is added twice")
+        other = f" (other forms have names of their own: {', '.join(lacking)})" if lacking else ""
+        super().__init__(f"effect {name!r}: {file.path or file.name} has it already ({told}), and nothing is added twice{other}")
         self.names = names_of(file)
 
 

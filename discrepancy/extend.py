@@ -126,10 +126,13 @@ def known_to(value: float, interval: tuple[float, float]) -> float:
 
 def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> list[Candidate]:
     """Candidates of a name: one variant, or all those of an effect."""
-    variants = [c for c in candidates if c.name == name] or [c for c in candidates if c.name.partition(".")[0] == name]
+    if exact := [c for c in candidates if c.name == name]:
+        return exact
+    variants = [c for c in candidates if c.name.partition(".")[0] == name]
+    if numbers := numbers_of(name, file):
+        # Of an effect that is there another form is not meant by the name alone.
+        raise AlreadyThere(name, file, numbers, [c.name for c in variants])
     if not variants:
-        if numbers := numbers_of(name, file):
-            raise AlreadyThere(name, file, numbers)
         known = sorted({c.name for c in candidates})
         plain = [*known, *{c.partition(".")[0] for c in known}]
         nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(name.partition(".")[0], plain, 1)

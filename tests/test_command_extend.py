@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from cli.commands import comparison as commands
 from cli.main import main, parser
 from discrepancy import extend as extension
+from discrepancy.already_there import AlreadyThere
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, UNKNOWN
@@ -89,6 +91,16 @@ def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates, file))
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
     assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
+
+
+def test_by_the_name_of_an_effect_that_is_there_no_other_form_of_it_is_added():
+    """thermal_expansion, given again, added thermal_expansion.heating."""
+    file = replace(load_model("RV20E-121"), effects={"thermal_expansion": {"thermal_expansion": {"value": 2e-5, "unit": "1/K"}}})
+    heating = Candidate("thermal_expansion.heating", "", ())
+    with pytest.raises(AlreadyThere, match=r"twice \(other forms have names of their own: thermal_expansion.heating\)"):
+        variants_of("thermal_expansion", [heating], file)
+    assert variants_of("thermal_expansion.heating", [heating], file) == [heating]
+    assert variants_of("thermal_expansion", [heating], load_model("RV20E-121")) == [heating]
 
 
 @pytest.mark.parametrize(("settings", "base"), [("", "RV20E-121"), ('[settings]\nbearing.clearance = "3 um"\n', "base.toml")])

@@ -81,7 +81,7 @@ def refit_text(options: argparse.Namespace, file: "ModelFile", names: "Sequence[
     reducer = file.reducer.name if file.reducer.is_of_library else str(file.reducer.path)
     base, what = ("base.toml", f"base.toml, a copy of {options.model} without its effects and steps,") if own_settings(file) else (reducer, "the base model")
     given = argparse.Namespace(**vars(options) | {"model": base, "output": options.output or "refitted.toml"})
-    return f"this line adds all that it has to {what} and fits it together anew:\n  {extend_line(given, names)}"
+    return f"this line begins at {what} and fits all that the file has, together, anew:\n  {extend_line(given, names)}"
 
 
 def first_to_add(answer: "Answer") -> "dict[str, Any] | None":
