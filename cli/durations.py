@@ -1,6 +1,7 @@
-"""How long tasks took before, so that what is left can be told of those whose steps nobody can count.
+"""How long tasks took before, so that what is left can be told of those whose steps nobody can count, or differ in cost.
 
-Kept by command line and by what is done: the same command again takes about as long, another one of its kind as long as the last did.
+Of counted steps it is the time of one.  Kept by command line and by what is done: the same command again takes about as long,
+another one of its kind as long as the last did.
 """
 
 import hashlib
@@ -38,17 +39,20 @@ class Durations:
         return {str(k): float(v) for k, v in found.items() if isinstance(v, (int, float))} if isinstance(found, dict) else {}
 
     def keys(self, task: Task) -> tuple[str, str]:
-        return f"{self.command} {task.what}", f"{self.kind} {task.what}"
+        name = f"one of {task.name}" if task.total else task.name
+        return f"{self.command} {name}", f"{self.kind} {name}"
 
     def begin(self, task: Task) -> None:
-        """Tells the task how long it took before, unless it counts its steps or knows it itself."""
-        if task.total is None and task.about is None:
-            task.before = next((self.known[key] for key in self.keys(task) if key in self.known), None)
+        """Tells the task how long it took before, unless it knows it itself."""
+        if task.about is None:
+            before = next((self.known[key] for key in self.keys(task) if key in self.known), None)
+            task.before = before if before is None or not task.total else before * task.total
 
     def end(self, task: Task) -> None:
-        """Keeps how long it took, if that was long."""
-        if task.total is None and task.about is None and task.passed > LONG:
-            kept = {key: seconds for key, seconds in self.known.items() if key not in self.keys(task)}
-            kept |= dict.fromkeys(self.keys(task), round(task.passed, 1))
+        """Keeps how long it took, if that was long; the first of many steps say little of the others."""
+        if task.about is None and task.passed > LONG and task.done >= (task.total or 0):
+            seconds = task.passed / (task.total or 1)
+            kept = {key: known for key, known in self.known.items() if key not in self.keys(task)}
+            kept |= dict.fromkeys(self.keys(task), float(f"{seconds:.3g}"))
             self.__dict__["known"] = dict(list(kept.items())[-MOST:])
             checked_file.write(self.place, MARK, json.dumps(self.known).encode())

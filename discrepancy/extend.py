@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy import as_told
+from discrepancy.already_there import AlreadyThere, numbers_of
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.diagnose import Diagnostician
@@ -69,7 +70,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     """
     model = answer.model if answer else PhysicalModel(file, campaign, jobs=jobs)
     # A name that nobody knows is refused before minutes are spent.
-    asked = [variants_of(name, model.candidates) for name in names]
+    asked = [variants_of(name, model.candidates, file) for name in names]
     if answer:
         diagnostician = answer.doctor
     else:
@@ -123,9 +124,14 @@ def known_to(value: float, interval: tuple[float, float]) -> float:
     return rounded(float(value), digits_of(float(value), 0.5 * (interval[1] - interval[0])))
 
 
-def variants_of(name: str, candidates: Sequence[Candidate]) -> list[Candidate]:
+def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> list[Candidate]:
     """Candidates of a name: one variant, or all those of an effect."""
-    variants = [c for c in candidates if c.name == name] or [c for c in candidates if c.name.partition(".")[0] == name]
+    if exact := [c for c in candidates if c.name == name]:
+        return exact
+    variants = [c for c in candidates if c.name.partition(".")[0] == name]
+    if numbers := numbers_of(name, file):
+        # Of an effect that is there another form is not meant by the name alone.
+        raise AlreadyThere(name, file, numbers, [c.name for c in variants])
     if not variants:
         known = sorted({c.name for c in candidates})
         plain = [*known, *{c.partition(".")[0] for c in known}]

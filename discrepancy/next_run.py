@@ -40,6 +40,12 @@ MOST_RIVALS = 4
 # What a rig can set, so that a misfit over it can be asked for; lines of such questions, and values named in one.
 FACTORS_SET = ("speed", "load", "temperature", "hours")
 MOST_OPEN, MOST_TEXTS = 4, 6
+# What a misfit that is the same everywhere is asked for, and what the answer decides.
+MOUNTED_ANEW = (
+    "off at all conditions alike, so that no other condition says more; mount sensor and unit anew and repeat: a misfit that changes with the mounting"
+    " comes from the bench (sensor, its seat, alignment), one that stays from the reducer,"
+    " from a scale that no mounting changes, or from the numbers of the base model"
+)
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {
     "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
@@ -119,7 +125,11 @@ class NextRun:
 @sharing_no_matrices
 def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> NextRun:
     """Diagnose, or take the diagnosis from before, and propose what to measure next."""
-    return proposal_for(diagnosed(file, campaign, settings, jobs), campaign)
+    answer = diagnosed(file, campaign, settings, jobs)
+    try:
+        return proposal_for(answer, campaign)
+    except KeyboardInterrupt as stop:
+        raise KeyboardInterrupt("while experiments were weighed: the diagnosis is kept, and the same command goes on from there") from stop
 
 
 def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
@@ -132,7 +142,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         names.setdefault(plainly(member), member)
     unexplained = answer.verdict in (INCOMPLETE, UNKNOWN)
     left = open_questions(answer, campaign) if unexplained else []
-    known = " and ".join(names) if fits.members else ""
+    known = " and ".join(names).replace("_", " ") if fits.members else ""
     start = f"{f'beside {known} ' if known else ''}something is left {answer.left_over}" if unexplained else ""
     if answer.verdict == BASE_OFF and len(names) < 2:
         off = ", ".join(as_told.told_name(e.name, as_told.tables_of(answer.model)) for e in answer.diagnosis.base_off)
@@ -180,12 +190,12 @@ def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
         runs = sum(stream_of(r) == signal and not r.held_out for r in answer.model.records)
         expected = REPEATS * size / runs if size and runs else None
         if name == "everywhere":
-            why = "off at all conditions alike; mount sensor and unit anew and repeat, to tell the bench from the reducer"
-            asked.append(Asked(signal, why, "any condition of it, in another mounting", cost, expected))
+            asked.append(Asked(signal, MOUNTED_ANEW, "any condition of it, in another mounting", cost, expected))
         elif name in FACTORS_SET:
             asked.append(replace(at_gap(signal, name, answer.model, campaign), cost=cost, expected=expected))
     return asked[:MOST_OPEN] or [
-        Asked("what is left shows no place and no dependence", "repeat the runs that are off, and measure at conditions between those that there are")
+        Asked("what is left shows no place and no dependence", "repeat the runs that are off, and measure at conditions between those that there are:"
+              " what comes again is the reducer's or the bench's, what does not is noise beyond what repetitions told")
     ]
 
 

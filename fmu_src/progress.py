@@ -12,11 +12,16 @@ from typing import Protocol
 
 # Until then nobody wonders how long it has been going on [s].
 SOON = 3.0
+# Steps differ in cost: the pace of less than this share of them, in less than so many seconds, tells nothing of the others.
+FEW, LONG = 0.1, 60.0
 
 
 @dataclass(eq=False)
 class Task:
-    """``total`` steps if they can be counted; ``about`` seconds if it is known how long it takes; ``before`` if it is known from the last time."""
+    """``total`` steps if they can be counted; ``about`` seconds if it is known how long it takes; ``before`` if it is known from the last time.
+
+    ``what`` may go on to name the step that is being taken; ``name`` stays.
+    """
 
     what: str
     total: int | None = None
@@ -25,6 +30,9 @@ class Task:
     # Seconds that it took the last time, if somebody remembers.
     before: float | None = None
     begun: float = field(default_factory=time.monotonic)
+
+    def __post_init__(self) -> None:
+        self.name = self.what
 
     def advance(self, steps: int = 1) -> None:
         self.done += steps
@@ -36,9 +44,13 @@ class Task:
 
     @property
     def left(self) -> float | None:
-        """Seconds that it will still take, at the pace so far; None if nobody knows."""
+        """Seconds that it will still take, at the pace so far and, the fewer steps are done, as the last time; None if nobody knows."""
         if self.total and self.done:
-            return self.passed * (self.total - self.done) / self.done
+            done = self.done / self.total
+            at_pace = self.passed * (1.0 - done) / done
+            if self.before is not None:
+                return done * at_pace + (1.0 - done) * max(0.0, self.before - self.passed)
+            return at_pace if done >= FEW or self.passed > LONG else None
         if self.about is not None:
             return max(0.0, self.about - self.passed)
         # What takes longer than the last time tells nothing of when it ends.

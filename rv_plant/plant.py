@@ -59,8 +59,8 @@ def variables(sizes: Sizes) -> list[Variable]:
         output("drive_torque", "N.m", "torque that holds or drives the input", path="input.drive_torque"),
         output("reaction_torque", "N.m", "torque with which the housing holds the pin ring", path="housing.reaction_torque"),
         output("transmission_error", "rad", "output angle minus input angle over ratio", nominal=1e-4, path="output.transmission_error"),
-        output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone)",
-               nominal=1e-4, path="output.lag"),
+        output("lag", "rad", "carrier behind its ideal angle for the present crank angle (second stage alone: what turns the cranks along"
+               " is in output.transmission_error)", nominal=1e-4, path="output.lag"),
         local("substeps", "1", "equilibria in the last communication step", integer=True, path="numerics.substeps"),
         state("z_before", "1", "z one equilibrium earlier", **sizes.over(coordinate=coordinate_count(sizes))),
         state("advance_before", "rad", "turning of the ideal output between z_before and z"),

@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from cli.commands import comparison as commands
 from cli.main import main, parser
 from discrepancy import extend as extension
+from discrepancy.already_there import AlreadyThere
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, UNKNOWN
@@ -80,15 +82,54 @@ def test_where_nothing_can_be_added_no_line_says_so():
 def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
     candidates = [Candidate("needle_clearance", "", ()), Candidate("pin_position_errors.scatter", "", ())]
     with pytest.raises(UnknownEffect, match="did you mean needle_clearance"):
-        variants_of("needle_clearence", candidates)
+        variants_of("needle_clearence", candidates, load_model("RV20E-121"))
     with pytest.raises(InputFault) as fault:
-        variants_of("phlogiston", candidates)
+        variants_of("phlogiston", candidates, load_model("RV20E-121"))
     assert "did you mean" not in str(fault.value)
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
-    monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates))
+    monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates, file))
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
     assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
+
+
+def test_by_the_name_of_an_effect_that_is_there_no_other_form_of_it_is_added():
+    """thermal_expansion, given again, added thermal_expansion.heating."""
+    file = replace(load_model("RV20E-121"), effects={"thermal_expansion": {"thermal_expansion": {"value": 2e-5, "unit": "1/K"}}})
+    heating = Candidate("thermal_expansion.heating", "", ())
+    with pytest.raises(AlreadyThere, match=r"twice \(other forms have names of their own: thermal_expansion.heating\)"):
+        variants_of("thermal_expansion", [heating], file)
+    assert variants_of("thermal_expansion.heating", [heating], file) == [heating]
+    assert variants_of("thermal_expansion", [heating], load_model("RV20E-121")) == [heating]
+
+
+@pytest.mark.parametrize(("settings", "base"), [("", "RV20E-121"), ('[settings]\nbearing.clearance = "3 um"\n', "base.toml")])
+def test_effect_that_is_in_the_model_is_said_with_what_fits_it_anew(monkeypatch, capsys, tmp_path, settings, base):
+    """Another effect, of a name that looks alike, was proposed."""
+    path = tmp_path / "better.toml"
+    path.write_text(f"""[model]
+name = "better"
+reducer = "RV20E-121"
+{settings}[effects.hole_position_errors]
+carrier_seat_radial = "-6.98 um"
+[effects.needle_clearance]
+added = "2 um"
+[[steps]]
+effects = ["hole_position_errors.carrier"]
+[[steps]]
+effects = ["thermal_expansion"]
+kept = false
+""")
+    candidates = [Candidate("hole_position_errors.disc", "", ()), Candidate("pin_position_errors.runout", "", ())]
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model(path), None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[0], candidates, file))
+    assert main(["extend", str(path), "c", "--effect", "hole_position_errors.carrier"]) == 2
+    said, line = capsys.readouterr().err.splitlines()
+    assert f"{path} has it already (effects.hole_position_errors.carrier_seat_radial = -6.98 um), and nothing is added twice" in said
+    assert "did you mean" not in said and (f"a copy of {path} without" in said) == (base == "base.toml")
+    again = parser().parse_args(shlex.split(line)[1:])
+    assert (again.model, again.output, again.effect) == (base, "refitted.toml", ["hole_position_errors.carrier", "needle_clearance"])
 
 
 def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys, tmp_path):

@@ -241,7 +241,7 @@ def extended(campaign, folder, capsys):
 
 def test_one_command_from_unknown_to_a_model_that_is_better(tmp_path, capsys, monkeypatch):
     """Without the catalogue, which costs most of the time and does not know the law."""
-    from discrepancy import verdict
+    from discrepancy import remembered, verdict
     from discrepancy.prediction.physical_model import PhysicalModel
 
     answers = []
@@ -249,11 +249,10 @@ def test_one_command_from_unknown_to_a_model_that_is_better(tmp_path, capsys, mo
     def diagnose(file, campaign, jobs):
         model = PhysicalModel(file, campaign)
         model.candidates = ()
-        answers.append(known(file, campaign, model=model))
+        answers.append(verdict.diagnose(file, campaign, model=model))
         return answers[0]
 
-    known = verdict.diagnose
-    monkeypatch.setattr(verdict, "diagnose", diagnose)
+    monkeypatch.setattr(remembered, "diagnosed", diagnose)
     campaign = campaign_of(tmp_path, "drag with speed^2.5", 21, 40.0, "small")
     said = extended(campaign, tmp_path / "mine", capsys)
     step, draft = said["step"], said["draft"]

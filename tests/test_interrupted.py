@@ -182,3 +182,51 @@ def test_interrupted_at_the_key_figures_the_fitted_base_is_told(monkeypatch):
     monkeypatch.setattr(verdict, "answer_of", lambda model, doctor, found, figures: found)
     with pytest.raises(verdict.AnswerSoFar, match="stopped while reading the key figures"):
         verdict.diagnose(None, None, model=SimpleNamespace(), doctor=doctor)
+
+
+@pytest.mark.parametrize("more", [["extend"], ["extend", "--draft", "DIR"], ["next"]])
+def test_commands_that_begin_with_a_diagnosis_tell_what_was_known(monkeypatch, capsys, tmp_path, more):
+    """`extend --draft` ran for 16 minutes, and said "interrupted"."""
+    from cli.commands import comparison
+    from cli.main import main
+    from discrepancy import next_run, remembered, verdict
+
+    def stopped(*given, **how):
+        raise verdict.AnswerSoFar(SimpleNamespace(reason="stopped while screening", as_json=lambda: {"verdict": STOPPED}))
+
+    monkeypatch.setattr(comparison, "inputs", lambda options: (load_model("RV20E-121"), None))
+    for module in (remembered, next_run):
+        monkeypatch.setattr(module, "diagnosed", stopped)
+    command, *rest = [str(tmp_path) if word == "DIR" else word for word in more]
+    monkeypatch.chdir(tmp_path)
+    assert main([command, "RV20E-121", "campaign", "--json", *rest]) == 130
+    said = capsys.readouterr()
+    assert json.loads(said.out) == {"verdict": STOPPED} and said.err.strip() == f"rvwear {command}: interrupted; the same command goes on from there"
+
+
+def test_interrupted_after_the_diagnosis_what_is_kept_is_said(monkeypatch, capsys, tmp_path):
+    from cli.commands import comparison, drafting
+    from cli.main import main
+    from discrepancy import extend, next_run, remembered
+    from discrepancy.draft import choose
+
+    def stop(*given, **how):
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(comparison, "inputs", lambda options: (load_model("RV20E-121"), None))
+    for module in (remembered, next_run):
+        monkeypatch.setattr(module, "diagnosed", lambda *given, **how: None)
+    monkeypatch.setattr(next_run, "proposal_for", stop)
+    assert main(["next", "RV20E-121", "campaign"]) == 130
+    monkeypatch.setattr(extend, "extend", stop)
+    for known in (None, "an answer"):
+        monkeypatch.setattr(remembered, "remembered", lambda *given, known=known, **how: known)
+        assert main(["extend", "RV20E-121", "campaign", "--effect", "drag"]) == 130
+    monkeypatch.setattr(choose, "drafts_of", lambda *given: ([SimpleNamespace(file=tmp_path / "drag.py", text="")], []))
+    monkeypatch.setattr(choose, "write", lambda draft: draft.file.write_text(draft.text))
+    monkeypatch.setattr(drafting, "tried", stop)
+    assert main(["extend", "RV20E-121", "campaign", "--draft", str(tmp_path)]) == 130
+    weighed, anew, fitted, drafted = capsys.readouterr().err.splitlines()
+    assert "while experiments were weighed: the diagnosis is kept, and the same command goes on" in weighed and "begins anew" in anew
+    assert "RV20E-121.toml is as it was; the diagnosis is kept" in fitted and "drag.py is written, the diagnosis is kept" in drafted

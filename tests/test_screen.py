@@ -36,6 +36,15 @@ def test_texts_are_no_markup(capsys):
     assert all(text in shown for text in ("[disc=2]", "[crank=1]", "[disc=3]", "2 um", "cost [runs]"))
 
 
+def test_of_several_signals_it_is_said_of_what_a_share_is(capsys):
+    """A loop of 446 times its noise stood beside "1 %"."""
+    loop, error = (Group(signal, "mean", "everywhere", size, 1, 10.0, 1e-6, 1e-6, share) for signal, size, share in (("hysteresis", 9.0, 0.01), ("error", 900.0, 0.99)))
+    for groups, said in (([loop], False), ([loop, error], True)):
+        shows.show_localisation(Localisation(groups, {}, 0.01))
+        shown = " ".join(capsys.readouterr().out.split())
+        assert "of all misfit" in shown and ("chi-square of all signals together" in shown) == said
+
+
 def test_texts_beside_a_bar_are_no_markup():
     bars = Bars()
     task = Task("adding a[disc=1]", 3)

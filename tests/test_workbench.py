@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -298,6 +299,13 @@ def test_signals_in_what_a_page_says_have_one_form():
     assert with_titles(said) == "misfit: hysteresis (locked input), along torque; wear depth (hours 9, surface inner race) in errors.pin[2]=7um"
 
 
+def test_numbers_in_what_a_page_says_have_a_minus_and_names_their_hyphen():
+    """-22.95 um under Diagnose stood beside −22.95 in tables."""
+    from discrepancy.page.amounts import with_minus
+
+    assert with_minus("y = a + b x, a = -0.01 (-.02 to 1e-05), RV20E-121 at half-load") == "y = a + b x, a = −0.01 (−.02 to 1e−05), RV20E-121 at half-load"
+
+
 def test_numbers_have_as_many_decimals_as_their_noise():
     from workbench.look import decimals_of, text_of
 
@@ -494,3 +502,23 @@ def test_what_begins_anew_shows_nothing_of_before(tmp_path, monkeypatch):
         folder.remember("jobs/life/live", {"now": {"hours": [0.0, 500.0]}})
         jobs.start(folder, "life", {"model": "BX-40E"}, 1)
         assert bool(folder.recall("jobs/life/live")) == kept
+
+
+@pytest.mark.parametrize(("kept", "chosen"), [(True, "model.toml"), (False, "RV20E-121")])
+def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, monkeypatch, kept, chosen):
+    """The first life after "Add it" was one of the base model."""
+    from discrepancy import extend
+    from discrepancy.model_file import load_model
+    from workbench import steps
+
+    folder, file = opened(tmp_path), load_model("RV20E-121")
+    step = {"campaign": "c", "effects": ["drag"], "verdict": extend.HELPED, "reason": "so", "kept": kept, "signals": [], "nuisances": {},
+            "training_before": 2.0, "training_after": 1.0, "held_out_before": 2.0, "held_out_after": 1.0}  # fmt: skip
+    monkeypatch.setattr(steps, "inputs", lambda folder, given: (file, None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr(extend, "extend", lambda *given, **more: extend.Extension(replace(file, steps=(step,)), step, extend.HELPED))
+    folder.remember("view", {"model": "RV20E-121", "theme": "dark"})
+    place = jobs.place_of(folder, "extend")
+    place.mkdir(parents=True)
+    assert steps.extend_step(folder, {"model": "RV20E-121", "effects": ["drag"]}, 1, place) is False
+    assert folder.recall("view") == {"model": chosen, "theme": "dark"}

@@ -62,3 +62,13 @@ def test_the_file_has_the_units_and_digits_of_the_field(tmp_path):
 def test_digits_follow_the_uncertainty():
     assert rounded(1.0 / 3.0, digits_of(1.0 / 3.0, 0.1)) == 0.3333 and rounded(1.0 / 3.0, digits_of(1.0 / 3.0, 1e-4)) == 0.3333333
     assert digits_of(2.0, float("inf")) == digits_of(2.0, 0.0) == 12
+
+
+def test_angles_are_in_degrees_minutes_or_seconds_by_their_size(tmp_path):
+    path, degree = tmp_path / "m.toml", np.pi / 180.0
+    sizes = {"disc_tooth_errors": {"disc_runout_angle": 30.0 * degree, "disc_ovality_angle": degree}, "edge_loading": {"misalignment": 0.01 * degree}}
+    effects = {effect: {name: {"value": value, "unit": "rad"} for name, value in own.items()} for effect, own in sizes.items()}
+    save_model(ModelFile("m", load_reducer("RV20E-121"), {}, effects), path)
+    written = [entry for table in tomllib.loads(path.read_text())["effects"].values() for entry in table.values()]
+    assert sorted((e["value"], e["unit"]) for e in written) == [(30.0, "deg"), (36.0, "arcsec"), (60.0, "arcmin")]
+    assert load_model(path).values() == pytest.approx(sizes["disc_tooth_errors"] | sizes["edge_loading"])

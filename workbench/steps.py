@@ -93,7 +93,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
-    from discrepancy.page.amounts import effect_title, with_titles
+    from discrepancy.page.amounts import effect_title, with_minus, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
@@ -114,10 +114,10 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
-        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
-        "laws": [with_titles(law.text) for law in answer.laws],
+        "laws": [with_minus(with_titles(law.text)) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
         "doubts": doubts,
     }  # fmt: skip
@@ -125,7 +125,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
 
 def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     from discrepancy.as_told import tables_of, told_name
-    from discrepancy.page.amounts import pretty
+    from discrepancy.page.amounts import pretty, with_minus
     from discrepancy.page.whys import of_estimate
     from discrepancy.scales import parameter_texts
     from discrepancy.wording import with_base_text
@@ -134,8 +134,8 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     for name, entry in given.items():
         value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
         told = told_name(name, tables_of(answer.model))
-        found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
-                      "with_base": with_base_text(entry),
+        found.append({"name": told, "value": with_minus(value), "interval": with_minus(interval), "unit": pretty(unit), "bound": bool(entry.get("bound")),
+                      "with_base": with_minus(with_base_text(entry)),
                       "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 
@@ -186,6 +186,9 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
         "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
         "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
     })  # fmt: skip
+    if extension.step["kept"]:
+        # All views go on with the better model; a life begun right after was one of the former.
+        folder.remember("view", folder.recall("view") | {"model": MODEL})
     return False
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, named_in, refusal
+from cli.commands.going_on import extend_line, line_after, named_in, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from discrepancy.campaign.model import Campaign
     from discrepancy.compare import Comparison
     from discrepancy.model_file import ModelFile
-    from discrepancy.verdict import Answer
+    from discrepancy.verdict import Answer, AnswerSoFar
 
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
@@ -185,19 +185,40 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 
 def run_extend(options: argparse.Namespace) -> int:
-    """Exit code 3 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs; 130 and 143 as of ``diagnose``."""
     file, campaign = inputs(options)
-    if options.draft:
-        return run_draft(options, file, campaign)
-    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
-    # Read here and written at the end: nobody else's step is to be lost in between.
-    with held(target):
-        return add_effect(options, file, campaign, target)
+    from discrepancy.verdict import AnswerSoFar
+
+    try:
+        if options.draft:
+            return run_draft(options, file, campaign)
+        target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+        # Read here and written at the end: nobody else's step is to be lost in between.
+        with held(target):
+            return add_effect(options, file, campaign, target)
+    except AnswerSoFar as stop:
+        return tell_so_far(options, stop)
+
+
+def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar") -> int:
+    """What was known when the diagnosis that a command begins with was interrupted, as of ``diagnose``; its exit code."""
+    from cli.screen import json_text
+    from cli.show.comparison import show_answer
+
+    write_html(options, stop.answer)
+    if options.json:
+        json_text(stop.answer.as_json())
+    else:
+        show_answer(stop.answer)
+    say_page(options)
+    print(f"rvwear {options.command}: interrupted; the same command goes on from there", file=sys.stderr)
+    return exit_code(stop)
 
 
 def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_extension
+    from discrepancy.already_there import AlreadyThere
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
@@ -211,11 +232,17 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             raise InputFault(refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
+        known = remembered(file, campaign, jobs=all_cores())
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=remembered(file, campaign, jobs=all_cores()))
+            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=known)
+        except KeyboardInterrupt as stop:
+            how = "the diagnosis is kept, and the same command goes on from there" if known else "the same command begins anew"
+            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {how}") from stop
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
+        except AlreadyThere as fault:
+            raise InputFault(f"{fault}; {refit_text(options, file, fault.names)}") from None
     save_model(extension.file, target)
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:
@@ -257,10 +284,14 @@ def run_next(options: argparse.Namespace) -> int:
     from cli.show.comparison import show_next
     from discrepancy.inference.verdict import SET
     from discrepancy.next_run import next_run
+    from discrepancy.verdict import AnswerSoFar
 
     given = inputs(options)
     with task("looking for an experiment"):
-        run = next_run(*given, jobs=all_cores())
+        try:
+            run = next_run(*given, jobs=all_cores())
+        except AnswerSoFar as stop:
+            return tell_so_far(options, stop)
     write_html(options, run)
     if options.json:
         json_text(run.as_json())

@@ -33,22 +33,32 @@ WORTH = 0.98
 
 def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign") -> int:
     """Exit code 3 where the effect did not help on unused runs."""
-    from cli.screen import json_text
-    from cli.show.draft import show_draft, show_use
     from discrepancy.draft.choose import drafts_of, require_folder, write
-    from discrepancy.verdict import diagnose
+    from discrepancy.remembered import diagnosed
 
     folder = Path(options.draft)
     if options.effect:
         raise InputFault("--draft writes an effect of its own; give either --draft or --effect")
     require_folder(folder)
     with task("diagnosing"):
-        answer = diagnose(file, campaign, jobs=all_cores())
+        answer = diagnosed(file, campaign, jobs=all_cores())
     drafts, reasons = drafts_of(answer, folder, options.name)
     if not drafts:
         raise InputFault(no_draft(options, answer, reasons))
     for draft in drafts:
         write(draft)
+    try:
+        return tried(options, file, answer, drafts, reasons)
+    except KeyboardInterrupt as stop:
+        files = " and ".join(str(draft.file) for draft in drafts if draft.file.exists())
+        raise KeyboardInterrupt(f"while the draft was fitted: {files} is written, the diagnosis is kept, and the same command goes on from there") from stop
+
+
+def tried(options: argparse.Namespace, file: "ModelFile", answer: "Answer", drafts: "list[Draft]", reasons: list[str]) -> int:
+    """The better of the drafts, fitted and judged in a process of its own; the others' files go."""
+    from cli.screen import json_text
+    from cli.show.draft import show_draft, show_use
+
     draft = better(options, drafts) if len(drafts) > 1 else drafts[0]
     for other in drafts:
         if other is not draft:
@@ -61,7 +71,7 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
         # The fault was said on the way.
         return done.returncode
     target = options.output or (str(file.path) if file.path else f"{file.name}.toml")
-    use = f"{USER_EFFECTS}={shlex.quote(str(folder.resolve()))}"
+    use = f"{USER_EFFECTS}={shlex.quote(str(Path(options.draft).resolve()))}"
     if options.json:
         json_text(json.loads(done.stdout) | {"draft": draft.as_json() | {"use": use, "without_place": reasons}})
     else:

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
 
+    from discrepancy.model_file import ModelFile
     from discrepancy.verdict import Answer
 
 
@@ -71,6 +72,16 @@ def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: boo
             words += [f"--{key}", given]
     words += [f"--{key}" for key in ("json",) if getattr(options, key)]
     return shlex.join(words + ["--anyway"] * (anyway or options.anyway))
+
+
+def refit_text(options: argparse.Namespace, file: "ModelFile", names: "Sequence[str]") -> str:
+    """How all effects of a model file are fitted anew, together: beside what is in it already nothing of it is fitted."""
+    from discrepancy.already_there import own_settings
+
+    reducer = file.reducer.name if file.reducer.is_of_library else str(file.reducer.path)
+    base, what = ("base.toml", f"base.toml, a copy of {options.model} without its effects and steps,") if own_settings(file) else (reducer, "the base model")
+    given = argparse.Namespace(**vars(options) | {"model": base, "output": options.output or "refitted.toml"})
+    return f"this line begins at {what} and fits all that the file has, together, anew:\n  {extend_line(given, names)}"
 
 
 def first_to_add(answer: "Answer") -> "dict[str, Any] | None":

@@ -36,6 +36,11 @@ from discrepancy.wording import (
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
 WHOLE = 100.0
+# A loop of 446 times its noise has 1 %, beside transmission errors of many samples.
+OF_ALL = (
+    "of all misfit: of the chi-square of all signals together, in which every sample counts;"
+    " how far off each signal is, error/noise of `rvwear compare` says"
+)
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
@@ -103,13 +108,15 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
         out.print("no place, order or dependence carries a significant misfit")
         return
     table = dense("where the model fails (significant over all tests together)")
-    for name in ("signal", "what", "depends on", "share", "p"):
-        table.add_column(name, justify="right" if name in ("share", "p") else "left")
+    for name in ("signal", "what", "depends on", "of all misfit", "p"):
+        table.add_column(name, justify="right" if name in ("of all misfit", "p") else "left")
     for g in findings[:LONGEST]:
         table.add_row(g.signal, g.feature, g.dependence, f"{100 * g.share:.0f} %", f"{g.p:.1g}")
     out.print(table)
     if len(findings) > LONGEST:
         out.print(f"and {len(findings) - LONGEST} more: --json lists all")
+    if len({g.signal for g in localisation.groups}) > 1:
+        out.print(OF_ALL)
 
 
 def show_answer(answer: Answer) -> None:

@@ -31,7 +31,8 @@ model: one file each, compiled into the units, off by default (then figures are 
 *Expected* is the signature that physics demands, *computed* what the virtual bench shows for RV20E-121-rigid (rigid supports, no losses; quasi-static, radial
 needle clearance 2.5 um, rated 167 N m, 2000 rpm of the input): figure without and with the effect, the largest changes first
 in the order of the bench. Orders are those of one turn of the output, wear after 1,000 h at rated speed or as many
-turns. `rvwear effects NAME` shows all figures, `rvwear effects --html FILE` pictures.
+turns. `TE` is the transmission error, `mean TE (behind)` its mean, taken negative. `rvwear effects NAME` shows all figures,
+`rvwear effects --html FILE` pictures.
 """
 # When the units call the hooks.
 STAGES = {
@@ -95,7 +96,7 @@ start, a third and three times of it; quarters of a turn for an angle that may g
 measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` has
 a line for each parameter: its unit, the one that answers give it in, and whether it is fitted, within which bounds. A file's unit is SI,
 because kernels get the number as it stands; answers, pages and the model files of `extend` write the field's (arcmin/(N.m) for rad/(N.m),
-rpm for rad/s, um for m), always with the unit beside the number, and JSON has the SI value as `si`, too.
+rpm for rad/s, um for m; for rad, by the size, deg, arcmin or arcsec), always with the unit beside the number, and JSON has the SI value as `si`, too.
 
 Kernels call kernels (of the file, or imported from `rv_plant`, `wear_fmu` and `fmu_src`), the functions of `math` (`import math` at the head
 of the file) and abs, min, max, int, float, bool and len; numpy and other modules do not reach machine code and FMUs.
@@ -134,7 +135,8 @@ def before(r):
 What changes with the angle has a rate beside it, which bodies in motion (`numerics.fidelity = "dynamic"`) need: an effect that adds to a
 gap, a play or a crank's turning sets both, or its teeth close without a speed, and the damping of their contact is wrong;
 `fall_back(r, lag, rate)` of `rv_plant.gear_stage` sets all four for an output that falls back. Equilibria read `crank_turn_rate`
-alone, for the drive torque.
+alone, for the drive torque. What turns the cranks shows in `output.transmission_error`, which counts from the input, and not in `output.lag`,
+which counts from where the cranks stand.
 
 Within a stage effects add (`+=`, `-=`) or multiply (`*=`, `/=`) and read nothing that others change there, so that neither the
 order of the effects nor their names matter. An effect sets (`=`) its own states alone (`states=` of `EFFECT`), at any stage but `hold` and

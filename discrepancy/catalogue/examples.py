@@ -156,12 +156,12 @@ AUDITED = (
     ("pin_position_errors", 0, "TE order 2", "load 25 %", 2.7), ("pin_position_errors", 1, "TE order 78", "rated", 10.0),
     ("pin_position_errors", 3, "TE order 78", "rated", 0.46), ("pin_position_errors", 4, "TE order 78", "rated", 1.07),
     ("needle_clearance", 0, "TE peak to peak", "rated", 0.55), ("needle_clearance", 1, "TE peak to peak", "rated", 12.7),
-    ("needle_clearance", 2, "TE peak to peak", "rated", 24.0), ("needle_clearance", 0, "mean lag", "rated", 26.5),
-    ("needle_clearance", 1, "mean lag", "rated", 75.5), ("needle_clearance", 2, "mean lag", "rated", 120.0),
-    ("raceway_wear", 0, "mean lag", "rated", 51.9 + 41.0), ("raceway_wear", 1, "mean lag", "rated", 51.9 + 51.0),
+    ("needle_clearance", 2, "TE peak to peak", "rated", 24.0), ("needle_clearance", 0, "mean TE (behind)", "rated", 26.5),
+    ("needle_clearance", 1, "mean TE (behind)", "rated", 75.5), ("needle_clearance", 2, "mean TE (behind)", "rated", 120.0),
+    ("raceway_wear", 0, "mean TE (behind)", "rated", 51.9 + 41.0), ("raceway_wear", 1, "mean TE (behind)", "rated", 51.9 + 51.0),
     ("raceway_wear", 0, "TE order 80", "rated", 4.69), ("raceway_wear", 1, "TE order 80", "rated", 0.87),
     ("crank_lobe_errors", 0, "TE order 40", "rated", 4.98), ("hole_position_errors", 0, "TE order 40", "rated", 6.05),
-    ("hole_position_errors", 1, "mean lag", "rated", 51.9 - 15.0), ("unbalance", 0, "housing force order 39", "rated", 1.6),
+    ("hole_position_errors", 1, "mean TE (behind)", "rated", 51.9 - 15.0), ("unbalance", 0, "housing force order 39", "rated", 1.6),
 )  # fmt: skip
 
 # The picture that shows an effect best, see ``plots``.

@@ -1,7 +1,7 @@
 """The signature of an effect: what the virtual bench shows with it, beside what it shows without.
 
 Orders are those of one turn of the output.  Amplitudes of the transmission error are
-given in arcsec, lost motion and lag in arcsec, depths in um.
+given in arcsec, lost motion and the mean by which the output stays behind in arcsec, depths in um.
 """
 
 import math
@@ -194,7 +194,7 @@ def spectrum_rows(bench: Bench, base: Mapping[str, float], values: Mapping[str, 
         series = [turn(bench, at[c], v) * ARCSEC for v in (base, values)]
         without, present = map(amplitudes, series)
         rows += [Row(f"TE order {o}", "arcsec", c, without[o], present[o]) for o in ORDERS]
-        rows.append(Row("mean lag", "arcsec", c, -series[0].mean(), -series[1].mean()))
+        rows.append(Row("mean TE (behind)", "arcsec", c, -series[0].mean(), -series[1].mean()))
         rows.append(Row("TE peak to peak", "arcsec", c, np.ptp(series[0]), np.ptp(series[1])))
     for c in ("rated", "load 25 %", "speed 200 %"):
         force = [amplitudes(turn(bench, at[c], v, "housing_force_x"))[39] for v in (base, values)]

@@ -73,6 +73,11 @@ def with_titles(text: str) -> str:
     return re.sub(r"[a-z_]+\[[a-z_]+=[^\]]*\]", lambda match: signal_title(match[0]), text)
 
 
+def with_minus(text: str) -> str:
+    """A text whose numbers have a minus, as those of tables do; hyphens of names stay."""
+    return re.sub(r"(?<!\w)-(?=\.?\d)|(?<=\de)-(?=\d)", "−", text)
+
+
 def signal_axis(signal: str, unit: str) -> str:
     """Without tags, which the figure's title has."""
     name = scale(unit, signal)[1]

@@ -8,6 +8,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
+from discrepancy.page.amounts import with_minus
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -77,7 +78,8 @@ def base_off(answer: Answer) -> Section:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
         told = told_name(e.name, tables_of(answer.model))
-        rows.append([told, value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within), unit, e.title])
+        numbers = (value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within))
+        rows.append([told, *map(with_minus, numbers), unit, e.title])
     table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
     lead = (
         "Numbers of the reducer file that are not known for sure, as this campaign has them, and what the base model computes by more off than"

@@ -123,7 +123,7 @@ def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
     ]
     only = f"with {places[0]['dependence'].replace('_', ' ')}" if alike else "that is significant"
     where = "at all conditions alike" if all(p["dependence"] == "everywhere" for p in places) else only
-    return Table(f"Misfit {where}", ["signal", "what", "share", "p over all tests", f"significant at {level:g}"], rows, (2,),
+    return Table(f"Misfit {where}", ["signal", "what", "share of all misfit", "p over all tests", f"significant at {level:g}"], rows, (2,),
                  whys=[of_place(dict(p), level) for p in shown])
 
 
@@ -157,7 +157,8 @@ def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) ->
     caption = (
         "Left column: alike at all conditions, right of it: changing with a factor. Colour: p over all tests "
         f"together; grey is tested and not significant at {level:g} ({found} of {len(places)} are). Numbers:"
-        " share of the whole significant misfit; features overlap, so shares need not add to 100 %."
+        " share of the significant chi-square of all signals together, in which every sample counts (how far off a signal is, its error over noise says);"
+        " features overlap, so shares need not add to 100 %."
     )
     caption += f" {dropped} rows without findings are left out." if dropped else ""
     return Figure(prefix, "Map of the misfit", caption, [trace], layout(rows), 12, 110 + 27 * max(len(rows), 3))
@@ -175,7 +176,7 @@ def percent(share: float) -> str:
 def described(place: Mapping[str, Any] | None, level: float) -> str:
     if place is None:
         return "not tested"
-    verdict = f"{percent(place['share'])} of the misfit" if place["p"] <= level else "not significant"
+    verdict = f"{percent(place['share'])} of all misfit" if place["p"] <= level else "not significant"
     return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {place['statistic']:.1f} against {place['width']} expected"
 
 

@@ -32,7 +32,7 @@ def page(run: NextRun) -> Page:
         note = "Misfit in chi-square, of two runs that are off as those of this signal are on average."
         sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", head, rows, (3, 4), note)]))
     rivals = listed([effect_title(r) for r in run.rivals])
-    verdict = readable(run.verdict) if run.result else effect_title(run.verdict)
+    verdict = readable(run.verdict)
     finding = verdict[:1].upper() + verdict[1:] + "."
     where = f"To separate {rivals}" if len(run.rivals) > 1 else "Diagnosis: " + run.answer.verdict
     return Page(

@@ -5,7 +5,7 @@ import { cards, sections } from "./page.js";
 import { offered, refusal } from "./refused.js";
 
 export function nextPart(bag) {
-  const { next, context } = bag;
+  const { answer, next, context } = bag;
   const busy = context.busy();
   const price = next?.cost_unit ? `price [${next.cost_unit}]` : "price";
   const sheet = next
@@ -64,7 +64,7 @@ export function nextPart(bag) {
       "div",
       { class: "panel" },
       sheet,
-      h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next") }, next ? "Ask again" : "Propose the next experiment"),
+      h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
     ),
   );
 }

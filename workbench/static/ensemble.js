@@ -2,6 +2,7 @@
 
 import { choose, clear, command, h, note, number, table, words } from "./dom.js";
 import { get, post } from "./net.js";
+import { dimmed, pastLife } from "./past.js";
 import { Plot } from "./plot.js";
 
 const KINDS = { normal: ["mean", "standard deviation"], uniform: ["from", "to"], lognormal: ["median", "factor"] };
@@ -20,7 +21,9 @@ export function ensemble(root, context, hours) {
   const form = h("div"),
     faults = h("div"),
     result = h("div"),
-    chart = h("div", { class: "panel", hidden: true });
+    chart = h("div", { class: "panel", hidden: true }),
+    shown = h("div");
+  let why = null;
   const all = h(
     "details",
     {
@@ -34,8 +37,7 @@ export function ensemble(root, context, hours) {
     h("summary", {}, h("b", {}, "Many lives: parts, load and coefficients that scatter")),
     form,
     faults,
-    chart,
-    result,
+    shown,
   );
   root.append(all);
 
@@ -166,6 +168,11 @@ export function ensemble(root, context, hours) {
     );
     clear(faults, job?.fault && job.state !== "running" ? note(job.fault, "bad") : null);
     chart.hidden = !found?.panes?.length;
+    const former = chart.hidden ? "" : pastLife(job, context);
+    if (why !== former) {
+      why = former;
+      clear(shown, dimmed(why, chart, result));
+    }
     if (chart.hidden) {
       clear(result);
       return;
@@ -241,7 +248,7 @@ export function ensemble(root, context, hours) {
   return {
     update(state) {
       const job = state.jobs.ensemble,
-        now = `${job?.state}${job?.begun}${job?.tasks?.map((t) => t.done).join()}${state.view?.model}${Object.values(state.jobs).some((j) => j.state === "running")}`;
+        now = `${job?.state}${job?.begun}${job?.old}${job?.tasks?.map((t) => t.done).join()}${state.view?.model}${Object.values(state.jobs).some((j) => j.state === "running")}`;
       if (now === seen) return;
       seen = now;
       if (job?.state === "running" && !open) {

@@ -3,6 +3,7 @@
 import { clear, command, h, note, number } from "./dom.js";
 import { ensemble } from "./ensemble.js";
 import { get } from "./net.js";
+import { dimmed, pastLife } from "./past.js";
 import { Plot } from "./plot.js";
 
 // One for each line of all panes, which share a legend.
@@ -24,8 +25,10 @@ export function show(root, context) {
     words = h("div"),
     chart = h("div", { class: "panel", hidden: true }),
     below = h("div"),
+    shown = h("div"),
     many = h("section");
-  root.append(top, words, chart, below, many);
+  let why = null;
+  root.append(top, shown, many);
   const lives = ensemble(many, context, () => hours);
 
   async function load() {
@@ -94,7 +97,13 @@ export function show(root, context) {
 
   function draw() {
     bar();
-    const now = result ?? live?.now;
+    const now = result ?? live?.now,
+      former = now ? pastLife(context.state?.jobs.life, context) : "";
+    // A chart that is put elsewhere loses the hand that drags in it: only where it must.
+    if (why !== former) {
+      why = former;
+      clear(shown, dimmed(why, words, chart, below));
+    }
     if (!now) {
       clear(words, h("p", { class: "quiet" }, "Thousands of hours in jumps of one meshing cycle each; how many jumps it takes is decided by halving them."));
       chart.hidden = true;
@@ -170,7 +179,7 @@ export function show(root, context) {
   return {
     update(state) {
       const job = state.jobs.life,
-        now = `${job?.state}${job?.begun}${job?.result}${state.view?.model}${job?.tasks?.map((t) => t.done).join()}${Object.values(state.jobs).some((j) => j.state === "running")}`;
+        now = `${job?.state}${job?.begun}${job?.result}${job?.old}${state.view?.model}${job?.tasks?.map((t) => t.done).join()}${Object.values(state.jobs).some((j) => j.state === "running")}`;
       if (now !== seen) {
         seen = now;
         load();

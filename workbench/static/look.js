@@ -2,12 +2,13 @@
 
 import { clear, command, h, note, number } from "./dom.js";
 import { doubtsBefore } from "./doubts.js";
-import { fails, keyFigures, notes, singles, spec } from "./look_parts.js";
+import { fails, figureTitle, keyFigures, notes, singles, spec } from "./look_parts.js";
 import { exported, exportMenu } from "./export.js";
 import { get, numbers } from "./net.js";
 import { orders } from "./orders.js";
 import { dimmed, past } from "./past.js";
 import { Link, Plot } from "./plot.js";
+import { matcher } from "./search.js";
 
 const MOST_DRAWN = 4;
 
@@ -112,7 +113,7 @@ export function show(root, context) {
       result,
       all,
       text,
-      matches,
+      matches: matching(),
       search: (value) => {
         text = value;
         redrawLists();
@@ -122,11 +123,8 @@ export function show(root, context) {
         redrawLists();
       },
     });
-  const matches = (title) =>
-    text
-      .toLowerCase()
-      .split(/\s+/)
-      .every((word) => title.toLowerCase().includes(word));
+  const searched = (s) => `${s.title} ${[...s.runs, ...s.singles].map((r) => r.condition).join(" ")}`;
+  const matching = () => matcher(text, [...result.figures.map(figureTitle), ...result.signals.map(searched)]);
 
   function redrawLists() {
     const before = document.activeElement?.type === "search";
@@ -140,12 +138,13 @@ export function show(root, context) {
     }
   }
 
-  const signalChips = () =>
-    h(
+  const signalChips = () => {
+    const matches = matching();
+    return h(
       "div",
       { class: "chips", id: "signals", role: "group", "aria-label": "signals" },
       result.signals
-        .filter((s) => !text || matches(`${s.title} ${[...s.runs, ...s.singles].map((r) => r.condition).join(" ")}`) || s.signal === chosen)
+        .filter((s) => !text || matches(searched(s)) || s.signal === chosen)
         .map((s) => {
           const worst = Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));
           return h(
@@ -165,6 +164,7 @@ export function show(root, context) {
           );
         }),
     );
+  };
 
   function curves() {
     const worst = (s) => Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));

@@ -13,9 +13,11 @@ const rank = (f) => {
   return i < 0 ? ORDER.length : i + (f.name.length > ORDER[i].length ? 0.5 : 0);
 };
 
+export const figureTitle = (f) => `${f.title} ${f.name} ${f.condition}`;
+
 // What an engineer asks first: stiffness, lost motion, width, error by order; as they are measured and as the model has them.
 export function keyFigures({ result, all, text, matches, search, showAll }) {
-  const found = result.figures.filter((f) => matches(`${f.title} ${f.name} ${f.condition}`));
+  const found = result.figures.filter((f) => matches(figureTitle(f)));
   const worst = new Map();
   for (const f of [...found].sort((p, q) => Math.abs(q.off) - Math.abs(p.off))) if (!worst.has(f.signal + f.name)) worst.set(f.signal + f.name, f);
   const rows = (all || text ? [...found] : [...worst.values()].slice(0, FEW_FIGURES)).sort(
@@ -169,12 +171,12 @@ export const fails = (result, context) =>
         "section",
         {},
         h("h2", {}, "Where the model fails"),
-        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together."),
+        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together. The share is of the chi-square of all signals together, in which every sample counts: how far off each signal is stands above, in times of its noise."),
         h(
           "div",
           { class: "panel" },
           table(
-            ["signal", "what", "depends on", "share of the misfit", ""],
+            ["signal", "what", "depends on", "share of all misfit", ""],
             result.places
               .slice(0, 20)
               .map((p) => [

@@ -15,6 +15,12 @@ export function past(result, job, context) {
   return job?.old && !running ? `What stands below is of ${result.model} and the files as they were; they have changed since.` : "";
 }
 
+// Of a life or of many: of their model alone, for they know no measurements, and one that begins drops what another showed.
+export function pastLife(job, context) {
+  const model = job?.given?.model;
+  return model ? past({ model, begun: job.begun }, { ...job, old: job.old && model.endsWith(".toml") }, context) : "";
+}
+
 // The words stand over what they are about.
 export const dimmed = (why, ...parts) =>
   why ? [h("div", { class: "row past-note", role: "status" }, h("b", { class: "fair" }, why)), h("div", { class: "past" }, ...parts)] : parts;
