@@ -9,7 +9,8 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
 from cli.main import main
-from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.file_names import proposed
+from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.check import check_campaign
-from discrepancy.campaign.guess.file_names import by_pattern
+from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.run import guessed_run
 from discrepancy.campaign.guess.table import table_of

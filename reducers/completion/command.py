@@ -6,7 +6,7 @@ from reducers.completion.given import Given
 
 def words_of(given: Given) -> list[str]:
     """``rvwear reducer new`` with all options but names of reducer and file; what is usual is left out, but for speed and rollers."""
-    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", "--pins", str(given.pins), "--rated", f"{given.rated:.12g}"]
+    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", "--pins", str(given.pins), "--rated", f"{given.rated:.6g}"]
     words += ["--speed", f"{given.speed:.12g}", *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", f"{given.diameter:.12g}"] if given.diameter is not None else []
     words += ["--lost-motion", f"{given.lost_motion:.12g}"] if given.lost_motion != Given.lost_motion else []

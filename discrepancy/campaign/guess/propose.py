@@ -12,21 +12,23 @@ from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, named_conditions
 from discrepancy.campaign.guess.counted import with_odd_counts_doubted, with_repetitions
-from discrepancy.campaign.guess.file_names import by_pattern, stem
+from discrepancy.campaign.guess.file_names import stem
+from discrepancy.campaign.guess.given_names import require_fit
+from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
-from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.whose_angle import whose_angle
 from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from discrepancy.campaign.scales import Scales
-from discrepancy.held_names import HELD
+from discrepancy.held_names import HELD, LOCKED_AT
+from discrepancy.problem import MEAN
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -86,7 +88,8 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     if wishes.reducer:
         load_reducer(wishes.reducer)
     guessed = with_odd_counts_doubted(with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
-    require_names(paths, wishes)
+    require_fit(paths, wishes.names)
+    require_numbers(wishes)
     require_columns(guessed, wishes)
     require_units(guessed, wishes)
     require_roles(guessed, wishes)
@@ -129,13 +132,6 @@ def leave_out_idle(conditions: dict[str, dict[str, str]], runs: Sequence[tuple[s
                 stated.pop(key, None)
 
 
-def require_names(paths: Sequence[Path], wishes: Wishes) -> None:
-    """InputFault for a pattern of names that fits none of the files."""
-    for pattern in wishes.names:
-        if not any(by_pattern(path, pattern) for path in paths):
-            raise InputFault(f"--names {pattern!r} fits none of the {len(paths)} files ({paths[0].name}, ...); correct it, or leave it out")
-
-
 def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     """InputFault for a unit or a scale of a column that no file has."""
     known = sorted({header for run in runs for header in run.headers})
@@ -160,6 +156,14 @@ def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
             except InputFault as fault:
                 factor = "; a factor is no part of a unit, it is given by --scale" if re.search(r"[*/]\s*[\d.]+|^[\d.]+\s*[*/]", given) else ""
                 raise InputFault(f"{fault}{factor}") from None
+
+
+def require_numbers(wishes: Wishes) -> None:
+    """InputFault for a number of a condition that is none, or has a unit of another kind: said here, where it was typed."""
+    for given, text in wishes.conditions.items():
+        name = given.rpartition(":")[2]
+        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN):
+            Scales(None, 1.0, 1.0).number(FACTOR_KEYS[name], text, f"--condition {given}")
 
 
 def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
