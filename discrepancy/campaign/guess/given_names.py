@@ -14,8 +14,8 @@ WORDS = ("replicate", "direction", "mounting", "condition", "any")
 # A field, and the unit that it may say: {load:in-lbf}.
 FIELD = re.compile(r"\{(\w+)(?::([^{}]*))?\}")
 LETTER = r"[^\W\d_]"
-# Letters right behind a number that are no unit; an x stands between two numbers.
-LETTERS = re.compile(rf"(?!x\d)({LETTER}+)", re.IGNORECASE)
+# Letters right behind a number that are no unit; an x alone stands between two numbers.
+LETTERS = re.compile(rf"(?!x(?!{LETTER}))({LETTER}+)", re.IGNORECASE)
 LEAST_WORD = 2
 
 
@@ -91,8 +91,12 @@ def unit_read(field: re.Match[str], behind: str) -> tuple[str, str]:
 
 
 def of_another_kind(name: str, behind: str) -> tuple[str, str, bool] | None:
-    """(words, kind, whether they follow at once) of a unit behind a field that is none of its own; None where one of its own stands there, or none."""
-    found = [(words, kind, not gap) for unit, kind, gap, words in units_behind(behind) if unit != "1"]
+    """(words, kind, whether they follow at once) of a unit behind a field that is none of its own; None where one of its own stands
+    there, or none, or a sense of rotation: 50_rev."""
+    found = [
+        (words, kind, not gap) for unit, kind, gap, words in units_behind(behind)
+        if unit != "1" and not any(fits.match(words) for fits in SENSE.values())
+    ]  # fmt: skip
     own = any(kind == NUMBERS[name][0] or (unit == "%" and "load" in name) for unit, kind, _, _ in units_behind(behind))
     return found[0] if found and not own else None
 

@@ -13,8 +13,8 @@ BEHIND = re.compile(rf"([_\s]?)({WORD}(?:[-_\s]{WORD}){{0,2}})")
 FIELDS = {u.TORQUE: "load", u.SPEED: "speed", u.TEMPERATURE: "temperature"}
 # Signs of a unit that speaks for itself behind letters or a gap: Last50Nm, 100_Nm; "Probe2h" and "2_C" may count anything.
 LEAST_UNIT = 2
-# Letters that are degrees behind a gap, too, where the number is one of a thermometer: 77 F.
-DEGREES, LEAST_DIGITS = ("C", "F"), 2
+# Letters that are degrees behind a gap, too, where the number has as many digits: 77 F.
+DEGREES = {"C": 2, "F": 2, "K": 3}
 NUMBERED = re.compile(rf"[^\W\d_]*({NUMBER})([^\W\d_]*)")
 
 
@@ -62,7 +62,7 @@ def of_unit(parts: list[str]) -> int:
         if len(behind) < taken or not all(re.fullmatch(r"[_\s-]", gap) for gap in behind[::2]) or (not begun and behind[0] == "-"):
             continue
         words = begun + "".join(behind if begun else behind[1:])
-        degrees = words in DEGREES and len(re.sub(r"\D", "", number)) >= LEAST_DIGITS
+        degrees = words in DEGREES and len(re.sub(r"\D", "", number)) >= DEGREES[words]
         if degrees or plain_field(words):
             return taken
     return 0
