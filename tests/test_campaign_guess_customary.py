@@ -211,3 +211,13 @@ def test_a_number_of_a_condition_that_is_none_is_refused_where_it_was_typed(tmp_
     error_file(tmp_path, NAME)
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", "--condition", given]) == 2
     assert re.search(f"--condition {given.partition('=')[0]}.*{said}", capsys.readouterr().err)
+
+
+def test_numbers_of_conditions_are_compared_whatever_their_units(tmp_path):
+    """A load of 80 N.m lies above one of 500 in-lbf, and 25 degC given is the 77 degF of the names."""
+    for name in ("te 500 in-lbf 77F run A", "te 80 Nm 77F run A", "te 167 Nm 77F run A"):
+        error_file(tmp_path, name)
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions={"temperature": "25 degC"}))
+    (held,) = proposal.held_out
+    assert proposal.conditions[held]["load_torque"] == "80 N.m" and not any("which is kept" in doubt.text for doubt in proposal.doubts)
+    assert any("77 degF, which is kept, not 78 F" in d.text for d in propose([tmp_path], Wishes("RV20E-121", conditions={"temperature": "78 F"})).doubts)

@@ -1,5 +1,6 @@
 """A campaign proposed from files: what ``rvwear campaign from`` and a page in the browser show, correct and save."""
 
+import math
 import os
 import re
 from collections import defaultdict
@@ -190,8 +191,16 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
     said = {key: guess.value for key, guess in run.factors.items()}
     return [
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
-        for key, text in wishes.conditions.items() if key in said and said[key].replace(" ", "") != text.replace(" ", "")
+        for key, text in wishes.conditions.items() if key in said and not is_same(key, said[key], text)
     ]
+
+
+def is_same(key: str, said: str, given: str) -> bool:
+    """Whether two texts of a condition mean the same: 77 degF and 77 F."""
+    if key not in FACTOR_KEYS or MEAN in (said, given):
+        return said == given
+    one, other = (Scales(None, 1.0, 1.0).number(FACTOR_KEYS[key], text, key) for text in (said, given))
+    return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12)
 
 
 def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
