@@ -173,10 +173,10 @@ def test_a_number_that_nothing_has_read_is_asked_about_rather_than_one_value_for
             error_file(tmp_path, f"TE 1800 RPM X{load} {sample} 77F run A")
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 1
     command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
-    assert "TE {speed} RPM X{load_torque} {condition} {temperature}F run {replicate}" in command and not any("load_torque=" in word for word in command)
+    assert "TE {speed} RPM X{load_torque:N.m} {condition} {temperature}F run {replicate}" in command and not any("load_torque=" in word for word in command)
     (need,) = propose([tmp_path], Wishes("RV20E-121")).needs
-    assert "if 500, 1000, 1478 in the names are the load" in need.remedy and "{load_torque:UNIT}" in need.remedy
-    assert main([*command[1:-1], command[-1].replace("{load_torque}", "{load_torque:in-lbf}")]) == 0
+    assert "if 500, 1000, 1478 in the names are the load" in need.remedy and "are the load, with its unit" in need.remedy
+    assert main([*command[1:-1], command[-1].replace("{load_torque:N.m}", "{load_torque:in-lbf}")]) == 0
     assert "load_torque 1478 lbf.inch" in capsys.readouterr().out
 
 

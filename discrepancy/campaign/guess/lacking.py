@@ -4,6 +4,7 @@ import shlex
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
+from discrepancy.campaign.guess.file_names import NUMBERS
 from discrepancy.campaign.guess.run import GuessedRun
 from discrepancy.campaign.guess.said import Doubt
 from discrepancy.campaign.guess.unread_numbers import suggested
@@ -31,13 +32,19 @@ def lacking(runs: Sequence[tuple[str, GuessedRun]], conditions: Mapping[str, Map
         missing = [f for f in QUANTITIES[run.quantity.value].factors if f in FACTOR_NAMES and not is_said(f, run, conditions[condition])]
         for factor in missing:
             # One number is not two things: that of a load first.
-            field = FIELDS.get(factor) if factor == "load" or "load" not in missing else None
+            field = field_of(factor) if factor == "load" or "load" not in missing else None
             asked = tuple(offer(*numbers) for numbers in suggested(patterns[run.quantity.value], field)) if field else ()
             found.setdefault((condition, factor, asked), f"{run.quantity.value} needs {' or '.join(keys_for(factor))}")
     whole: dict[tuple[str, str, tuple[str, ...]], list[str]] = defaultdict(list)
     for (condition, factor, asked), text in found.items():
         whole[text, factor, asked].append(condition)
     return [Doubt(", ".join(names), text, remedy(factor, asked, names, conditions)) for (text, factor, asked), names in whole.items()]
+
+
+def field_of(factor: str) -> str | None:
+    """Of a pattern, with the unit that would be taken: where names have none, it is seen."""
+    name = FIELDS.get(factor)
+    return f"{name}:{NUMBERS[name][1]}" if name else None
 
 
 def is_said(factor: str, run: GuessedRun, stated: Mapping[str, str]) -> bool:
@@ -54,7 +61,7 @@ def remedy(factor: str, asked: Sequence[str], names: Sequence[str], conditions: 
     key = USUAL.get(factor) or keys_for(factor)[0]
     if asked:
         offers = ", ".join(text.replace("{}", factor) for text in asked)
-        return f"{offers} ({{{FIELDS[factor]}:UNIT}} says another unit); else --condition 'NAME:{key}={OPEN}' for each condition"
+        return f"{offers}, with its unit; else --condition 'NAME:{key}={OPEN}' for each condition"
     said = any(k in stated for name, stated in conditions.items() if name not in names for k in keys_for(factor))
     options = [f"--condition '{name}:{key}={OPEN}'" for name in names] if said else [f"--condition '{key}={OPEN}'"]
     text = f"{' '.join(options)} (such as {FACTOR_KEYS[key].example}), or a {{{factor}}} in --names"
