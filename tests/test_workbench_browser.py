@@ -229,6 +229,8 @@ def test_units_typed_in_cells_are_read_or_told_at_once(bench, tmp_path):
     page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
     page.get_by_text("3 runs in 3 files, 2 conditions").wait_for()
     page.select_option("#measured", "RV20E-121")
+    # The reducer that was chosen has the page drawn anew.
+    page.locator("#save:not([disabled])").wait_for()
     page.get_by_text("another unit may be typed with it, such as 1478 in-lbf or 77 F").wait_for()
     assert page.get_by_label("pattern of the names").count() == 1
     load, warmth = page.get_by_label("load torque", exact=True).first, page.get_by_label("temperature", exact=True).first
