@@ -66,8 +66,9 @@ def measured(path: Path, columns: list[str], test: "Test", rated: float) -> "Gro
 
 def heads_of(path: Path) -> tuple[dict[str, tuple[str, str]], dict[str, Any]]:
     """(name -> (head, unit in its brackets), keys that read the file); nothing of a file that only the reader can say what is wrong with."""
+    from discrepancy.campaign.guess.header_units import IN_BRACKETS
     from discrepancy.campaign.guess.table import table_of
-    from discrepancy.campaign.guess.unit_words import IN_BRACKETS, unit_of
+    from fmu_src.unit_words import unit_of
 
     try:
         table = table_of(path)

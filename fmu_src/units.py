@@ -3,6 +3,7 @@
 import base64
 import json
 import tempfile
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
+from fmu_src.faults import nearest
+from fmu_src.unit_words import KNOWN, plain
 
 if TYPE_CHECKING:
     import pint
@@ -19,12 +22,6 @@ FMI_BASE = {
     "kg": "kilogram", "m": "meter", "s": "second", "A": "ampere", "K": "kelvin",
     "mol": "mole", "cd": "candela", "rad": "radian",
 }
-
-# As people write units, which pint takes for others or for none.
-WRITTEN = {
-    "Nm": "N.m", "kNm": "kN.m", "mNm": "mN.m", "Ncm": "N.cm", "Nmm": "N.mm", "kgf.m": "kilogram_force.m", "kgfm": "kilogram_force.m", "Nm/arcmin": "N.m/arcmin",
-    "°": "deg", "°C": "degC", "U/min": "rpm", "r/min": "rpm",
-}  # fmt: skip
 
 # What pint made of its definitions: the files of its own cache in one that is checked.
 MARK = b"rvwear units 1\n"
@@ -73,26 +70,50 @@ def registry() -> "pint.UnitRegistry[float]":
 
 @cache
 def parse(text: str) -> "pint.Unit":
-    """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``."""
-    text = WRITTEN.get(text, text)
+    """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``, or as people write it: ``in-lbf``, ``U/min``."""
     try:
-        unit = registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
-    except Exception as problem:  # noqa: BLE001
-        raise UnitError(f"unit {text!r} is not known ({problem}); write it like mm, N.m, 1/Pa, rad/s, or 1") from None
-    return unit
+        return by_pint(written(text))
+    except UnitError:
+        return by_pint(text)
+
+
+def written(text: str) -> str:
+    """What people write, in the words of pint; parts of a quotient each for itself."""
+    if known := KNOWN.get(plain(text)):
+        return known[0]
+    above, stroke, below = text.partition("/")
+    return "/".join(part_known[0] if (part_known := KNOWN.get(plain(part))) else part for part in (above, below)) if stroke else text
+
+
+@cache
+def by_pint(text: str) -> "pint.Unit":
+    """UnitError without pint's own words, which speak of its inside."""
+    try:
+        return registry().parse_units("" if text == "1" else text.replace(".", "*").replace("1/", "1 / "))
+    except Exception:  # noqa: BLE001
+        raise UnitError(f"unit {text!r} is not known; write it like mm, N.m, in-lbf, 1/Pa, rad/s, or 1{nearest(text, KNOWN)}") from None
 
 
 @cache
 def conversion(source: str, target: str) -> tuple[float, float]:
-    """(factor, offset) with target value = factor * source value + offset."""
+    """(factor, offset) with target value = factor * source value + offset.
+
+    What people write for several units is the one of the target's kind: C is a temperature, but for an electric charge.
+    """
     from pint import DimensionalityError
 
-    try:
-        zero = registry().Quantity(0.0, parse(source)).to(parse(target)).magnitude
-        one = registry().Quantity(1.0, parse(source)).to(parse(target)).magnitude
-    except DimensionalityError:
-        raise UnitError(f"unit {source!r} does not fit: a unit of the same kind as {target!r} is needed") from None
-    return one - zero, zero
+    aim = parse(target)
+    ways = [parse(source)]
+    with suppress(UnitError):
+        ways.append(by_pint(source))
+    for unit in ways:
+        try:
+            zero = registry().Quantity(0.0, unit).to(aim).magnitude
+            one = registry().Quantity(1.0, unit).to(aim).magnitude
+        except DimensionalityError:
+            continue
+        return one - zero, zero
+    raise UnitError(f"unit {source!r} does not fit: a unit of the same kind as {target!r} is needed")
 
 
 @cache

@@ -13,12 +13,13 @@ from bench_files import ANGLE, ARCSEC, CURVES, DEG, DEPTH, ERROR, GUESSED_UNITS,
 
 from cli.main import main
 from discrepancy.campaign.angle_doubts import turns_text
-from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.file_names import proposed
+from discrepancy.campaign.guess.given_names import by_pattern
+from discrepancy.campaign.guess.header_units import unit_in
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.run import steps_above
 from discrepancy.campaign.guess.table import table_of
-from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
 from discrepancy.campaign.load import load_campaign

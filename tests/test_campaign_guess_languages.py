@@ -7,12 +7,13 @@ from bench_files import ANGLE, ARCSEC, ERROR
 
 from discrepancy.campaign.amount import amount
 from discrepancy.campaign.guess.column_words import meaning_of, quantities_named
+from discrepancy.campaign.guess.header_units import name_of, unit_in
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
-from discrepancy.campaign.guess.unit_words import COUNTS, WRITTEN, name_of, plain, unit_in, unit_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import checked
+from fmu_src.unit_words import COUNTS, WRITTEN, plain, unit_of
 from fmu_src.units import parse
 
 

@@ -9,7 +9,8 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
 from cli.main import main
-from discrepancy.campaign.guess.file_names import by_pattern, proposed
+from discrepancy.campaign.guess.file_names import proposed
+from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
 
@@ -64,7 +65,7 @@ def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, caps
     loop_files(folder, "loop_20C_1", "loop_20C_2")
     assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm"]) == 1
     command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
-    assert command.count("--names") == 1 and "te_X{load_torque}_{replicate}" in command and not any("load_torque=" in word for word in command)
+    assert command.count("--names") == 1 and "te_X{load_torque:N.m}_{replicate}" in command and not any("load_torque=" in word for word in command)
     assert main(command[1:]) == 0
     out = capsys.readouterr().out
     assert "load_torque 167 N.m" in out and "load_torque 50 N.m" in out

@@ -9,10 +9,10 @@ from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, FRICTION, SPEEDS, TORQUE, 
 
 from cli.main import main
 from discrepancy.campaign.guess.column_words import meaning_of, quantities_named
+from discrepancy.campaign.guess.header_units import unit_in
 from discrepancy.campaign.guess.locked_words import angle_named, locked_angle
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
-from discrepancy.campaign.guess.unit_words import unit_in
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import checked
 from discrepancy.compare import compare

@@ -7,19 +7,24 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
 from cli.main import main
-from discrepancy.campaign.guess.file_names import suggested
 from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.unread_numbers import suggested
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import checked
 from fmu_src.faults import InputFault
 
 
 @pytest.mark.parametrize("patterns, found", [
-    (["g7_T50_{replicate}", "g7_T100_{replicate}"], "g7_T{load}_{replicate}"), (["g7_T50", "g8_T100"], None), (["g7_T50"], None),
-    (["a_b", "a_c"], None), (["T50kalt", "T100kalt"], "T{load}kalt"), (["T50_x", "M50_x"], None),
+    (["g7_T50_{replicate}", "g7_T100_{replicate}"], ["g7_T{load}_{replicate}"]), (["g7_T50"], []),
+    (["a_b", "a_c"], []), (["T50kalt", "T100kalt"], ["T{load}kalt"]), (["T50_x", "M50_x"], []),
+    # Of several numbers each is named; a word that differs besides stays a condition.
+    (["g7_T50", "g8_T100"], ["g{load}_{condition}", "{condition}_T{load}"]), (["te_50_new", "te_100_worn"], ["te_{load}_{condition}"]),
+    (["te_1_50", "te_1_100", "te_2_167"], ["te_{condition}_{load}", "te_{load}_{condition}"]),
+    # Names of two kinds, each with its own.
+    (["te_50", "te_100", "loop_x_50", "loop_x_100"], ["te_{load}", "loop_x_{load}"]),
 ])  # fmt: skip
 def test_names_that_differ_by_a_number_behind_letters_are_asked_about(patterns, found):
-    assert suggested(patterns, "load") == found
+    assert [pattern for pattern, _ in suggested(patterns, "load")] == found
 
 
 def test_unit_of_a_column_that_no_file_has_is_refused(tmp_path):

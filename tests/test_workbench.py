@@ -167,6 +167,22 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     assert not any(question in said["text"] for said in (*found["proposal"]["doubts"], *found["findings"]))
 
 
+def test_units_of_a_condition_are_read_or_refused_where_they_were_typed(tmp_path):
+    from discrepancy.campaign.load import load_campaign
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    given = {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"20degC:temperature": "77 F", "20degC:locked_at": "mean"}}
+    wish(folder, given)
+    save(folder)
+    assert load_campaign(folder.root).conditions["20degC"].factors["temperature"] == pytest.approx(298.15)
+    for text, said in (("77 X", "unit 'X' is not known"), ("1478 in-lbf", "does not fit"), ("warm", "is not a number with a unit")):
+        with pytest.raises(InputFault, match=said) as fault:
+            wish(folder, {**given, "conditions": {"20degC:temperature": text}})
+        assert "--" not in str(fault.value) and view(folder)["wishes"] == given
+
+
 def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_at_once(tmp_path, capsys):
     """The factor survives saving, and the page's command writes the same; a factor in a unit is none."""
     from workbench.intake import wish

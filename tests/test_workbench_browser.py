@@ -217,6 +217,36 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     assert sorted(filter(None, loads)) == ["167", "20", "80"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
 
 
+def test_units_typed_in_cells_are_read_or_told_at_once(bench, tmp_path):
+    """Cells said "1000 in-lbf N.m", and 77 X was taken without a word."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    names = ("1000 in-lbf 77F run A", "1000 in-lbf 77F run B", "500 in-lbf 77F run A")
+    head = "Zeit [s];Winkel [deg];Drehfehler [arcsec]\n"
+    for k, name in enumerate(names):
+        (tmp_path / f"Drehfehler 15rpm {name}.csv").write_text(head + "\n".join(f"{0.02 * i:.2f};{1.8 * i:.1f};{(i + k) % 7}" for i in range(201)))
+    page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
+    page.get_by_text("3 runs in 3 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    # The reducer that was chosen has the page drawn anew.
+    page.locator("#save:not([disabled])").wait_for()
+    page.get_by_text("another unit may be typed with it, such as 1478 in-lbf or 77 F").wait_for()
+    assert page.get_by_label("pattern of the names").count() == 1
+    load, warmth = page.get_by_label("load torque", exact=True).first, page.get_by_label("temperature", exact=True).first
+    beside = "e => e.parentElement.querySelector('span').textContent"
+    assert load.input_value() == "1000 lbf.inch" and load.evaluate(beside) == ""
+    load.fill("113")
+    assert load.evaluate(beside) == "N.m"
+    load.fill("1001 in-lbf")
+    load.press("Tab")
+    while 'load_torque = "1001 in-lbf"' not in (page.locator("pre.file").text_content() or ""):
+        page.wait_for_timeout(100)
+    warmth.fill("78 X")
+    warmth.press("Tab")
+    page.get_by_text("unit 'X' is not known").wait_for()
+
+
 def test_a_result_of_another_model_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     said = page.evaluate(PAST)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.check import check_campaign
-from discrepancy.campaign.guess.file_names import by_pattern
+from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import Proposal, propose
 from discrepancy.campaign.guess.run import guessed_run
 from discrepancy.campaign.guess.table import table_of
@@ -34,9 +34,9 @@ POINTS, MOST_COLUMNS = 80, 40
 WISHES = "wishes"
 # Units that are offered for a column, by its SI unit; any other may be typed.
 OFFERED = {
-    "rad": ("arcsec", "arcmin", "deg", "mdeg", "rad", "urad", "turn"), "N.m": ("N.m", "mN.m", "kN.m"), "rad/s": ("rpm", "rad/s", "Hz", "deg/s"),
-    "s": ("s", "ms", "h", "min"), "K": ("degC", "K"), "m": ("um", "mm", "m"), "1": ("1", "%", "ppm"), "kg": ("mg", "g", "kg"), "m/s^2": ("m/s^2", "g_0"),
-    "N.m/rad": ("N.m/arcmin", "N.m/rad"), "N": ("N", "kN"), "m/s": ("m/s", "mm/s"),
+    "rad": ("arcsec", "arcmin", "deg", "mdeg", "rad", "urad", "turn"), "N.m": ("N.m", "mN.m", "kN.m", "lbf.inch", "lbf.foot"),
+    "rad/s": ("rpm", "rad/s", "Hz", "deg/s"), "s": ("s", "ms", "h", "min"), "K": ("degC", "K", "degF"), "m": ("um", "mm", "m"), "1": ("1", "%", "ppm"),
+    "kg": ("mg", "g", "kg"), "m/s^2": ("m/s^2", "g_0"), "N.m/rad": ("N.m/arcmin", "N.m/rad", "lbf.inch/arcmin"), "N": ("N", "kN"), "m/s": ("m/s", "mm/s"),
 }  # fmt: skip
 
 

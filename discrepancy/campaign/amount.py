@@ -2,7 +2,6 @@
 
 from typing import TypeGuard
 
-from discrepancy.campaign.guess.unit_words import KNOWN, plain
 from fmu_src.faults import InputFault
 from fmu_src.units import UnitError, conversion
 from orchestrator.settings import NUMBER, require_point
@@ -10,9 +9,8 @@ from orchestrator.settings import NUMBER, require_point
 
 def to_si(unit: str, target: str, place: str) -> tuple[float, float]:
     """(factor, offset) from the stated unit, as benches write it, to ``target``."""
-    known, _ = KNOWN.get(plain(unit)) or (unit.strip(), "")
     try:
-        return conversion(known, target)
+        return conversion(unit.strip(), target)
     except UnitError as problem:
         raise InputFault(f"{place}: {problem}") from None
 

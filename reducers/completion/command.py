@@ -1,18 +1,29 @@
 """The command that completes a reducer, from what is given of it."""
 
+import math
+
 from reducers.completion.complete import UNITS
 from reducers.completion.given import Given
+
+# Digits that somebody may have typed, and those of a number with more.
+MOST_TYPED, CONVERTED = 8, 6
 
 
 def words_of(given: Given) -> list[str]:
     """``rvwear reducer new`` with all options but names of reducer and file; what is usual is left out, but for speed and rollers."""
-    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", "--pins", str(given.pins), "--rated", f"{given.rated:.12g}"]
-    words += ["--speed", f"{given.speed:.12g}", *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
-    words += ["--diameter", f"{given.diameter:.12g}"] if given.diameter is not None else []
-    words += ["--lost-motion", f"{given.lost_motion:.12g}"] if given.lost_motion != Given.lost_motion else []
+    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", "--pins", str(given.pins), "--rated", typed(given.rated)]
+    words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
+    words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
+    words += ["--lost-motion", typed(given.lost_motion)] if given.lost_motion != Given.lost_motion else []
     for name, value in given.known.items():
-        words += ["--known", f"{name}={value:.12g}{'' if UNITS[name] == '1' else UNITS[name]}"]
+        words += ["--known", f"{name}={typed(value)}{'' if UNITS[name] == '1' else UNITS[name]}"]
     return words
+
+
+def typed(value: float) -> str:
+    """With the digits that were given; six of a number that another unit made."""
+    given = f"{value:.{MOST_TYPED}g}"
+    return given if math.isclose(float(given), value, rel_tol=1e-12) else f"{value:.{CONVERTED}g}"
 
 
 def usual_name(given: Given) -> str:

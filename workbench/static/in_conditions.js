@@ -54,23 +54,34 @@ export function questions(bag) {
   ];
 }
 
-// A number with its unit: typing the number alone is enough.
+// A number with its unit: typing the number alone is enough, one in another unit has that with it.
+const NUMBER = /^[-+]?[\d.,]+(e[-+]?\d+)?$/i;
+const TYPED = "a number alone is in the unit beside it; another unit may be typed with it, such as 1478 in-lbf or 77 F";
+
 function amount(key, text, onchange, id) {
   if (key === "direction") return choose([["", "–"], "forward", "reverse"], text, onchange, { id, "aria-label": key });
-  const plain = UNITS[key] && text.endsWith(` ${UNITS[key]}`) ? text.slice(0, -UNITS[key].length - 1) : text;
+  const plain = UNITS[key] && text.endsWith(` ${UNITS[key]}`) ? text.slice(0, -UNITS[key].length - 1) : text,
+    unit = h("span", { class: "quiet" });
+  // Beside a number with a unit of its own no other stands.
+  const beside = () => {
+    const given = field.value.trim();
+    unit.textContent = !given || NUMBER.test(given) ? (UNITS[key] ?? "") : "";
+  };
   const field = h("input", {
     type: "text",
     value: plain,
-    size: 8,
+    size: Math.max(8, plain.length),
     id,
     "aria-label": words(key),
-    inputmode: UNITS[key] ? "decimal" : undefined,
+    title: UNITS[key] ? TYPED : undefined,
+    oninput: () => beside(),
     onchange: () => {
       const given = field.value.trim();
-      onchange(given && UNITS[key] && /^[-+]?[\d.,]+(e[-+]?\d+)?$/i.test(given) ? `${given.replace(",", ".")} ${UNITS[key]}` : given);
+      onchange(given && UNITS[key] && NUMBER.test(given) ? `${given.replace(",", ".")} ${UNITS[key]}` : given);
     },
   });
-  return h("label", { class: "inline" }, words(key), field, UNITS[key] ?? "");
+  beside();
+  return h("label", { class: "inline" }, words(key), field, unit);
 }
 
 export function conditions(bag) {
@@ -102,7 +113,7 @@ export function conditions(bag) {
       ...keys.map((key) => {
         const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", `${name}:${key}`, text), `c-${name}-${key}`);
         return label.tagName === "LABEL"
-          ? h("span", { class: "inline" }, label.querySelector("input"), " ", h("span", { class: "quiet" }, UNITS[key] ?? ""))
+          ? h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"))
           : label;
       }),
       h("label", { class: "held", title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, held.reason) : ""),
@@ -115,7 +126,7 @@ export function conditions(bag) {
     h(
       "p",
       { class: "quiet small" },
-      "Read from names and heads of the files; what stands here wins. Held-out conditions are never fitted: the error that counts is theirs.",
+      `Read from names and heads of the files; what stands here wins; ${TYPED}. Held-out conditions are never fitted: the error that counts is theirs.`,
     ),
     h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );

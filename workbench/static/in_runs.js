@@ -156,7 +156,7 @@ function group(bag, members) {
     value: first.names,
     size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
-    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}",
+    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
     onchange: () => say(pattern.value.trim()),
   });
   return h(

@@ -5,16 +5,17 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from discrepancy.campaign.guess import unit_words as u
 from discrepancy.campaign.guess.column_words import meaning_of
+from discrepancy.campaign.guess.header_units import name_of, unit_in
 from discrepancy.campaign.guess.magnitudes import speed_role
 from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.guess.shape import Shape, shape_of
 from discrepancy.campaign.guess.table import Table
-from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
 from discrepancy.campaign.guess.wishes import of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE, roles_of
 from discrepancy.held_names import LOCKED_AT
+from fmu_src import unit_words as u
+from fmu_src.unit_words import unit_of
 
 # By the reader's name of a column.
 Roles = dict[str, Guess[str]]

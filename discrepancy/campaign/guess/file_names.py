@@ -1,33 +1,38 @@
-"""What file names say of their conditions, by a pattern such as ``te_{load}Nm_{speed}rpm_{replicate}``."""
+"""What file names seem to say of their conditions, as a pattern such as ``te_{load}Nm_{speed}rpm_{replicate}``."""
 
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from discrepancy.campaign.guess import unit_words as u
 from discrepancy.campaign.guess.column_words import IN_NAMES, ON_SURFACE
-from discrepancy.campaign.guess.unit_words import unit_of
-from fmu_src.faults import InputFault, nearest
+from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, plain_field, spelled, with_units
+from fmu_src import unit_words as u
 
 # Field of a pattern -> kind of its unit and the unit where the name has none; fields without a unit have none here.
 NUMBERS = {
     "load": (u.TORQUE, "N.m"), "load_torque": (u.TORQUE, "N.m"), "speed": (u.SPEED, "rpm"), "input_speed": (u.SPEED, "rpm"), "output_speed": (u.SPEED, "rpm"),
     "temperature": (u.TEMPERATURE, "degC"), "hours": (u.TIME, "h"),
 }  # fmt: skip
-WORDS = ("replicate", "direction", "mounting", "condition", "any")
 SENSES = {
     "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|avant|avanti|adelante|正转|正転",
     "reverse": r"rev|reverse|bwd|backward|ccw|rück|rueck|rückwärts|links|arri[èe]re|indietro|atr[áa]s|反转|逆転",
 }  # fmt: skip
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
-NUMBER = r"[+-]?\d+(?:[.,p]\d+)?"
-WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-]\S*)$")
+WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-].*)$")
 COUNTED = re.compile(
     r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|ensaio|teste|medição"
     r"|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
     re.IGNORECASE,
 )
+# Words behind which a letter counts, too: run A, Lauf B.
+REPEATED = (
+    "rep|reps|replicate|repetition|repeat|run|trial|meas|measurement|wdh|wiederholung|lauf|durchlauf|durchgang|messung|versuch|essai|mesure|répétition"
+    "|prova|misura|ripetizione|ensayo|prueba|repetición|ensaio|medição|repetição"
+)
+REPEATED_WORD = re.compile(rf"(?:{REPEATED})\.?$", re.IGNORECASE)
+COUNT = re.compile(r"\d{1,2}$|[A-Za-z]$")
+COUNTED_WORD = re.compile(rf"(?i:{REPEATED})\.?(\d{{1,2}}|[A-Z])$")
 NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
@@ -38,7 +43,6 @@ PARTS_OF_QUANTITIES = {
 }  # fmt: skip
 # Dates and times, which differ from file to file and say nothing of the condition.
 MOMENT = re.compile(r"\d{4}-\d\d-\d\d|\d\d[-.]\d\d[-.]\d{4}|\d{8}T?|\d{6}|\d\d[-.h]\d\d(?:[-.m]\d\ds?)?$")
-FIELD = re.compile(r"\{(\w+)\}")
 PARTS = re.compile(r"([_\s]+|(?<=\D)-(?=\D)|(?<=\w)-(?=\D)|-(?=[A-Za-z])|[()]+)")
 # Where nothing else parts a name a hyphen before a number with a unit, or before the last one, does and is no minus: te-50Nm-40C-1.
 HYPHENS = re.compile(PARTS.pattern[:-1] + rf"|(?<=\w\w)(?<![Tt]emp)-(?={NUMBER}[^\W\d_])|(?<=[^\W\d_])-(?=\d{{1,2}}$))")
@@ -47,16 +51,12 @@ LETTERS = {
     "t": "temperature", "n": "speed", "m": "load", "temp": "temperature", "load": "load", "last": "load", "torque": "load", "speed": "speed", "h": "hours",
 }  # fmt: skip
 LETTERED = re.compile(rf"([^\W\d_]+)=?({NUMBER})([^\d]*)$")
-# The same of which letters may be missing.
-COUNTING = re.compile(rf"([^\W\d_]*)=?({NUMBER})([^\d]*)$")
-FIELDS = {u.TORQUE: "load", u.SPEED: "speed", u.TEMPERATURE: "temperature"}
-# Signs of a unit that speaks for itself behind letters or a gap: Last50Nm, 100_Nm; "Probe2h" and "2_C" may count anything.
-LEAST_UNIT = 2
 
 
 @dataclass(frozen=True)
 class Parsed:
-    """``numbers``: field -> (number, unit); ``label``: words that are left; ``pattern`` that was used."""
+    """``numbers``: field -> (number, unit); ``label``: words that are left; ``pattern`` that was used; ``unsure``: what of it may be meant
+    otherwise, and what settles it."""
 
     pattern: str
     numbers: Mapping[str, tuple[float, str]] = field(default_factory=dict)
@@ -65,6 +65,7 @@ class Parsed:
     mounting: str | None = None
     label: str = ""
     given: bool = False
+    unsure: tuple[tuple[str, str], ...] = ()
 
 
 def stem(path: Path) -> str:
@@ -82,6 +83,7 @@ def proposed(path: Path) -> Parsed:
     kinds = [match.span() for fits in (*IN_NAMES.values(), *ON_SURFACE.values()) for match in fits.finditer(whole)]
     place = 0
     last = max((k for k in range(0, len(parts), 2) if parts[k]), default=0)
+    counted = repetition(parts, last)
     for k, part in enumerate(parts):
         if k % 2 or not part:
             pattern += part
@@ -91,9 +93,9 @@ def proposed(path: Path) -> Parsed:
             pattern += text
         elif MOMENT.fullmatch(part):
             pattern += "{any}"
-        elif k == last and k > 0 and (match := COUNTED.match(part)):
-            replicate = int(match[1])
-            pattern += part[: match.start(1)] + "{replicate}" + part[match.end(1) :]
+        elif counted and k == counted[0]:
+            replicate = count_of(counted[1])
+            pattern += "{replicate}".join(part.rsplit(counted[1], 1))
         elif sense := next((name for name, fits in SENSE.items() if fits.match(part)), None):
             direction = sense
             pattern += "{direction}"
@@ -108,52 +110,32 @@ def proposed(path: Path) -> Parsed:
     return Parsed(pattern, numbers, replicate, direction, None, "_".join(words))
 
 
-def with_units(parts: Sequence[str]) -> list[str]:
-    """Parts of a name, those of a number and of its unit as one: 100_Nm."""
-    found: list[str] = []
-    for part in parts:
-        gap = found[-1] if len(found) > 1 else ""
-        if part and gap and re.fullmatch(r"[_\s]", gap) and re.fullmatch(rf"[^\W\d_]*{NUMBER}", found[-2]) and plain_field(part):
-            found[-2:] = [found[-2] + gap + part]
-        else:
-            found.append(part)
-    return found
+def repetition(parts: Sequence[str], last: int) -> tuple[int, str] | None:
+    """(place, count) of the part that ends with the number of a repetition: the last one, or one behind a word that says so, by a letter, too."""
+    if last > 0 and (match := COUNTED.match(parts[last])):
+        return last, match[1]
+    for k in range(0, len(parts), 2):
+        if (match := COUNTED_WORD.match(parts[k])) and k > 0:
+            return k, match[1]
+        if k > 0 and REPEATED_WORD.match(parts[k - 2]) and COUNT.match(parts[k]):
+            return k, parts[k]
+    return None
 
 
-def plain_field(word: str) -> tuple[str, str] | None:
-    """(field, unit) of a word that is a unit of a condition and hardly anything else."""
-    known = unit_of(word) if len(word) >= LEAST_UNIT else None
-    return (FIELDS[known[1]], known[0]) if known and known[1] in FIELDS else None
-
-
-def suggested(patterns: Sequence[str], field: str) -> str | None:
-    """The one pattern of names that differ by one number alone (T50, T100), with ``field`` in its place; None where it is not so plain.
-
-    What such letters stand for a name does not say, so nobody takes it unasked.
-    """
-    split = [PARTS.split(pattern) for pattern in dict.fromkeys(patterns)]
-    if len(split) < 2 or len({len(parts) for parts in split}) > 1:
-        return None
-    varying = [k for k, column in enumerate(zip(*split)) if len(set(column)) > 1]
-    if len(varying) != 1:
-        return None
-    matches = [COUNTING.match(parts[varying[0]]) for parts in split]
-    kinds = {(match[1], match[3]) if match else None for match in matches}
-    if len(kinds) != 1 or None in kinds or matches[0] is None:
-        return None
-    first = split[0]
-    return "".join((*first[: varying[0]], f"{matches[0][1]}{{{field}}}{matches[0][3]}", *first[varying[0] + 1 :]))
+def count_of(text: str) -> int:
+    """Of a number, or of a letter: A is 1."""
+    return int(text) if text.isdigit() else ord(text.lower()) - ord("a") + 1
 
 
 def number_of(part: str) -> tuple[str, float, str, str] | None:
     """(field, number, unit, part of the pattern) of a part such as 167Nm or T40."""
-    if (match := WITH_UNIT.match(part)) and (known := unit_of(match[2])):
+    if (match := WITH_UNIT.match(part)) and (known := spelled(match[2])):
         unit, kind = known
         name = FIELDS.get(kind) or ("hours" if unit == "h" else "load" if unit == "%" else None)
         if name:
             return name, figure(match[1]), unit, f"{{{name}}}{part[match.end(1):]}"
     if (match := LETTERED.match(part)) and (word := match[3].strip("_ ")):
-        known, name = unit_of(word), LETTERS.get(match[1].lower())
+        known, name = spelled(word), LETTERS.get(match[1].lower())
         # A single letter without a unit may count anything; with one of another kind that one decides: T100Nm.
         if known and name and known[1] == NUMBERS[name][0]:
             return name, figure(match[2]), known[0], part[: match.start(2)] + f"{{{name}}}{match[3]}"
@@ -167,42 +149,6 @@ def figure(text: str) -> float:
 
 
 def is_quantity(word: str) -> bool:
-    """Whether a word names what was measured and no condition."""
-    return word.lower() in PARTS_OF_QUANTITIES or any(fits.fullmatch(word) for fits in (*IN_NAMES.values(), *ON_SURFACE.values()))
-
-
-def by_pattern(path: Path, pattern: str) -> Parsed | None:
-    """What a name says by a given pattern; None if it does not fit.  InputFault for a field that is not known."""
-    fields, units = FIELD.findall(pattern), {}
-    known_fields = (*NUMBERS, *WORDS)
-    for name in fields:
-        if name not in known_fields:
-            raise InputFault(f"--names {pattern!r}: there is no field {{{name}}}; choose from {', '.join(known_fields)}{nearest(name, known_fields)}")
-        if name != "any" and fields.count(name) > 1:
-            raise InputFault(f"--names {pattern!r}: {{{name}}} stands there twice; take {{any}} for what does not count")
-    expression, place = "", 0
-    for match in FIELD.finditer(pattern):
-        name = match[1]
-        after = re.match(r"[_\s]?([^\s_\-{}()]*)", pattern[match.end() :])
-        if name in NUMBERS:
-            word = after[1] if after else ""
-            known = unit_of(word)
-            units[name] = known[0] if known and (known[1] == NUMBERS[name][0] or (known[0] == "%" and "load" in name)) else NUMBERS[name][1]
-        group = r"\d+" if name == "replicate" else NUMBER if name in NUMBERS else r".*?" if name == "any" else r".+?"
-        expression += re.escape(pattern[place : match.start()]) + (f"(?P<{name}>{group})" if name != "any" else group)
-        place = match.end()
-    found = re.fullmatch(expression + re.escape(pattern[place:]), stem(path)) or re.fullmatch(expression + re.escape(pattern[place:]), path.name)
-    if not found:
-        return None
-    said = found.groupdict()
-    direction = said.get("direction")
-    sense = next((name for name, fits in SENSE.items() if direction and fits.match(direction)), None)
-    if direction and not sense:
-        raise InputFault(f"--names {pattern!r}: {path.name}: direction {direction!r} is not known; write forward or reverse, or {{any}} in its place")
-    numbers = {name: (figure(said[name]), unit) for name, unit in units.items()}
-    return Parsed(pattern, numbers, int(said["replicate"]) if said.get("replicate") else None, sense, said.get("mounting"), said.get("condition") or "", True)
-
-
-def parsed(path: Path, patterns: Sequence[str]) -> Parsed:
-    """By the first given pattern that fits, else by a proposed one."""
-    return next((found for pattern in patterns if (found := by_pattern(path, pattern))), None) or proposed(path)
+    """Whether a word names what was measured, or that it was repeated, and no condition."""
+    counts = REPEATED_WORD.match(word) is not None
+    return counts or word.lower() in PARTS_OF_QUANTITIES or any(fits.fullmatch(word) for fits in (*IN_NAMES.values(), *ON_SURFACE.values()))

@@ -1,14 +1,15 @@
 """Which conditions are proposed to be held out: those whose place the conditions that stay cover, so that a fit to these keeps what it needs."""
 
-import re
 from collections.abc import Collection, Mapping, Sequence
 
 from discrepancy.campaign.findings import LEAST_CONDITIONS
 from discrepancy.campaign.guess.said import Guess
 from discrepancy.campaign.quantities import FACTOR_KEYS
+from discrepancy.campaign.scales import Scales
 from discrepancy.held_names import LOCKED_AT
 
-NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?")
+# Numbers of one key are compared, whatever their units.
+ANY_REDUCER = Scales(None, 1.0, 1.0)
 # What the conditions that stay have to cover first: several numbers that are calibrated, as lag and angle of an encoder, are told apart by loads alone.
 FIRST = ("load", "temperature", "speed")
 # What a condition states in words.
@@ -47,7 +48,7 @@ def covered(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]], f
     of several the nearest to the middle.  None where each lies beyond the others in the first number that differs.  Places at which the input
     was locked go round: none is beyond the others."""
     keys = FACTOR_KEYS.keys() - {LOCKED_AT}
-    levels = {name: {key: float(m[0]) for key, text in conditions[name].items() if key in keys and (m := NUMBER.match(text))} for name in names}
+    levels = {name: {key: ANY_REDUCER.number(FACTOR_KEYS[key], text, key) for key, text in conditions[name].items() if key in keys} for name in names}
     differing = sorted((key for key in levels[names[0]] if all(key in found for found in levels.values()) and len(values_of(levels, key)) > 1), key=rank)
     beyond = {name: [key for key in differing if is_beyond(levels[name][key], [levels[n][key] for n in names if n != name])] for name in free}
     fitting = [name for name in free if not differing or differing[0] not in beyond[name]]

@@ -2,9 +2,10 @@
 
 import re
 
-from discrepancy.campaign.guess import unit_words as u
 from discrepancy.campaign.guess.column_words import meaning_of
-from discrepancy.campaign.guess.unit_words import name_of, unit_in, unit_of
+from discrepancy.campaign.guess.header_units import name_of, unit_in
+from fmu_src import unit_words as u
+from fmu_src.unit_words import unit_of
 
 STATED = re.compile(r"^[#%\"\s]*([^:：=;\t,\d]{1,60}?)\s*[:：=;\t,]\s*[;\t,]*\s*([+-]?\d+(?:[.,]\d+)?)\s*[;\t,]?\s*([^;\t,\"]*)[;\t,\"\s]*$")
 # Several on one line: "torque = 100 N.m, speed = 15 rpm; temperature: 40 °C".

@@ -1,10 +1,10 @@
 """At which angle the input was locked, as heads and names of files say it: "Ingresso bloccato a 40°", "Eingang bei 40 Grad gesperrt"."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from discrepancy.campaign.guess.state_words import BETWEEN, HELD, SHAFTS
-from discrepancy.campaign.guess.unit_words import NARROW, unit_of
+from fmu_src.unit_words import NARROW, unit_of
 
 # Words of which one at least leads to the angle: "gesperrt, 40°" may be a temperature.
 LEADING = (
@@ -30,6 +30,8 @@ SAID = [
         rf"{EAST_ASIAN} ?(?:を|在|于|於)? ?{EAST_ASIAN_ANGLE} ?(?:处|處|で|に|の位置で)? ?{EAST_ASIAN_HELD}",
     )
 ]
+# What was held is not named: only where something else says that it was the input.
+HELD_AT = [re.compile(rf"\b(?:{HELD}) {AT}{ANGLE}"), re.compile(rf"\b{AT}{ANGLE} (?:{BETWEEN} ){{0,2}}(?:{HELD})\b")]
 IN_NAME = re.compile(rf"(?<![\d.]){ANGLE}")
 ANGLES = ("deg", "rad")
 # Signs of a line that may say it; what is longer is data.
@@ -46,7 +48,17 @@ def words_and_numbers(text: str) -> str:
 
 def locked_angle(texts: Iterable[str]) -> str | None:
     """The angle of the input, as "40 deg"; None where nothing says one plainly, or several are said."""
-    found = {angle for text in texts if len(text) <= LONGEST for fits in SAID for match in fits.finditer(words_and_numbers(text)) if (angle := angle_of(match))}
+    return only_angle(texts, SAID)
+
+
+def held_angle(texts: Iterable[str]) -> str | None:
+    """The same where no side is named: "locked at 90 deg"."""
+    return only_angle(texts, HELD_AT)
+
+
+def only_angle(texts: Iterable[str], patterns: Sequence[re.Pattern[str]]) -> str | None:
+    plain = [words_and_numbers(text) for text in texts if len(text) <= LONGEST]
+    found = {angle for text in plain for fits in patterns for match in fits.finditer(text) if (angle := angle_of(match))}
     return found.pop() if len(found) == 1 else None
 
 

@@ -1,5 +1,6 @@
 """A campaign proposed from files: what ``rvwear campaign from`` and a page in the browser show, correct and save."""
 
+import math
 import os
 import re
 from collections import defaultdict
@@ -12,21 +13,23 @@ from unicodedata import normalize
 
 from discrepancy.campaign.guess.conditions import State, named_conditions
 from discrepancy.campaign.guess.counted import with_odd_counts_doubted, with_repetitions
-from discrepancy.campaign.guess.file_names import by_pattern, stem
+from discrepancy.campaign.guess.file_names import stem
+from discrepancy.campaign.guess.given_names import require_fit
+from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_unit import with_one_unit
-from discrepancy.campaign.guess.unit_words import name_of
 from discrepancy.campaign.guess.whose_angle import whose_angle
 from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
 from discrepancy.campaign.scales import Scales
-from discrepancy.held_names import HELD
+from discrepancy.held_names import HELD, LOCKED_AT
+from discrepancy.problem import MEAN
 from fmu_src.faults import InputFault, nearest
 from reducers.reducer import load_reducer
 
@@ -86,7 +89,8 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     if wishes.reducer:
         load_reducer(wishes.reducer)
     guessed = with_odd_counts_doubted(with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
-    require_names(paths, wishes)
+    require_fit(paths, wishes.names)
+    require_numbers(wishes)
     require_columns(guessed, wishes)
     require_units(guessed, wishes)
     require_roles(guessed, wishes)
@@ -129,13 +133,6 @@ def leave_out_idle(conditions: dict[str, dict[str, str]], runs: Sequence[tuple[s
                 stated.pop(key, None)
 
 
-def require_names(paths: Sequence[Path], wishes: Wishes) -> None:
-    """InputFault for a pattern of names that fits none of the files."""
-    for pattern in wishes.names:
-        if not any(by_pattern(path, pattern) for path in paths):
-            raise InputFault(f"--names {pattern!r} fits none of the {len(paths)} files ({paths[0].name}, ...); correct it, or leave it out")
-
-
 def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     """InputFault for a unit or a scale of a column that no file has."""
     known = sorted({header for run in runs for header in run.headers})
@@ -162,6 +159,14 @@ def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
                 raise InputFault(f"{fault}{factor}") from None
 
 
+def require_numbers(wishes: Wishes) -> None:
+    """InputFault for a number of a condition that is none, or has a unit of another kind: said here, where it was typed."""
+    for given, text in wishes.conditions.items():
+        name = given.rpartition(":")[2]
+        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN):
+            Scales(None, 1.0, 1.0).number(FACTOR_KEYS[name], text, f"--condition {given}")
+
+
 def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     """InputFault for a ``--column`` that no file follows: a role or a column that there is not, or that its quantity has no place for."""
     known = sorted({role for quantity in QUANTITIES.values() for role in roles_of(quantity)})
@@ -186,8 +191,16 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
     said = {key: guess.value for key, guess in run.factors.items()}
     return [
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
-        for key, text in wishes.conditions.items() if key in said and said[key].replace(" ", "") != text.replace(" ", "")
+        for key, text in wishes.conditions.items() if key in said and not is_same(key, said[key], text)
     ]
+
+
+def is_same(key: str, said: str, given: str) -> bool:
+    """Whether two texts of a condition mean the same: 77 degF and 77 F."""
+    if key not in FACTOR_KEYS or MEAN in (said, given):
+        return said == given
+    one, other = (Scales(None, 1.0, 1.0).number(FACTOR_KEYS[key], text, key) for text in (said, given))
+    return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12)
 
 
 def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:

@@ -11,19 +11,21 @@ import numpy as np
 
 from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of
 from discrepancy.campaign.guess.column_words import quantities_named, surface_named
-from discrepancy.campaign.guess.file_names import Parsed, parsed, stem
+from discrepancy.campaign.guess.file_names import Parsed, stem
+from discrepancy.campaign.guess.given_names import parsed
+from discrepancy.campaign.guess.header_units import name_of, unknown_in
 from discrepancy.campaign.guess.lines_above import stated_above
-from discrepancy.campaign.guess.locked_words import locked_angle
+from discrepancy.campaign.guess.locked_words import held_angle, locked_angle
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
-from discrepancy.campaign.guess.unit_words import COUNTS, name_of, unknown_in
 from discrepancy.campaign.guess.wishes import Wishes, of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
 from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.faults import InputFault
-from fmu_src.units import conversion
+from fmu_src.unit_words import COUNTS
+from fmu_src.units import UnitError, conversion
 
 ANGLES = ("angle", "input_angle")
 # A clock that starts so many times its range away has its zero elsewhere.
@@ -31,6 +33,8 @@ FAR_START = 10.0
 # A turn is short of its last step.
 JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
+# A speed that is stated and one that was measured are the same within this share.
+SAME_SPEED = 0.05
 NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
@@ -94,7 +98,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         )
     found = as_stated(found, stated)
     best = found[0]
-    quantity, doubts = quantity_guess(found, wanted, path), [*table.doubts, *unfitting(path, name, wishes), *not_taken(path, best, stated)]
+    quantity = quantity_guess(found, wanted, path)
+    doubts = [*table.doubts, *unfitting(path, name, wishes), *unsure_units(path, name), *not_taken(path, best, stated)]
     if not quantity.sure:
         doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
     by_name = {c.name: c for c in columns}
@@ -107,11 +112,10 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         if not guess.sure:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
     tags, more_doubts = tags_of(quantity.value, text, speaking, wishes, path)
-    factors, speed_doubts = factors_of(name, table, path)
+    factors, speed_doubts = factors_of(name, table, path, entries)
     if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
         factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
-    of_input = quantity.value in HELD and LOCKED_AT not in entries and ("locked" not in tags or tags["locked"].value == "input")
-    if of_input and (at := locked_angle((path.parent.name, speaking, *table.above, *table.headers.values()))):
+    if quantity.value in HELD and LOCKED_AT not in entries and (at := where_locked(path, table, tags)):
         factors[LOCKED_AT] = Guess(at, "the file's name or head says so")
     headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
     repeated = repetitions(table, columns)
@@ -163,6 +167,20 @@ def unfitting(path: Path, name: Parsed, wishes: Wishes) -> list[Doubt]:
         return []
     remedy = f"{shlex.join(['--names', name.pattern])} beside the others, corrected"
     return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", remedy)]
+
+
+def unsure_units(path: Path, name: Parsed) -> list[Doubt]:
+    return [Doubt(path.name, text, remedy) for text, remedy in name.unsure]
+
+
+def where_locked(path: Path, table: Table, tags: Mapping[str, Guess[str]]) -> str | None:
+    """The angle at which the input was held: said of it plainly, or of what was held where only the input can be meant."""
+    side = tags.get("locked")
+    if side and side.value != "input":
+        return None
+    texts = (path.parent.name, stem(path), *table.above, *table.headers.values())
+    of_input = side.sure if side else locked_side(" ".join(texts)) == "input"
+    return locked_angle(texts) or (held_angle(texts) if of_input else None)
 
 
 def not_taken(path: Path, best: Assignment, stated: Mapping[str, str]) -> list[Doubt]:
@@ -260,7 +278,7 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
     return found, doubts
 
 
-def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[str]], list[Doubt]]:
+def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry]) -> tuple[dict[str, Guess[str]], list[Doubt]]:
     """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table."""
     found: dict[str, Guess[str]] = {}
     doubts = []
@@ -269,8 +287,9 @@ def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[
         for field, (number, unit) in numbers.items():
             key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
             if field == "speed":
-                side = speed_role(conversion(unit, "rpm")[0] * number)
-                key, reason, sure = side.value, f"{where}; {side.reason}", False
+                rpm = conversion(unit, "rpm")[0] * number
+                side = speed_column(rpm, table, entries) or speed_role(rpm)
+                key, reason, sure = side.value, f"{where}; {side.reason}", side.sure
             if key in found or (key.endswith("speed") and any(k.endswith("speed") for k in found)):
                 continue
             found[key] = Guess(f"{number:g} {unit}", reason, sure)
@@ -283,6 +302,21 @@ def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[
     if name.mounting:
         found["mounting"] = Guess(name.mounting, f"the file's name, by {name.pattern!r}")
     return found, doubts
+
+
+def speed_column(rpm: float, table: Table, entries: Mapping[str, Entry]) -> Guess[str] | None:
+    """The side at which the file's own column has a stated speed."""
+    for role in ("input_speed", "output_speed"):
+        if role in entries:
+            entry = entries[role]
+            measured = float(np.nanmedian(np.abs(table.columns[entry.column.value]))) * abs(float(entry.keys.get("scale", 1.0)))
+            try:
+                measured *= conversion(entry.unit.value, "rpm")[0]
+            except UnitError:
+                continue
+            if abs(measured - rpm) <= SAME_SPEED * rpm:
+                return Guess(role, f"column {entry.header!r} has it")
+    return None
 
 
 def repetitions(table: Table, columns: list[Column]) -> tuple[str, tuple[int, ...]] | None:

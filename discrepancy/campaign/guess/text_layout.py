@@ -8,9 +8,9 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from discrepancy.campaign.guess.unit_words import unit_of
 from discrepancy.campaign.readers import ReadFault
 from discrepancy.campaign.readers.csv import COMMENT, first_lines, opened, scan, sniff_delimiter
+from fmu_src.unit_words import unit_of
 
 MOST_LINES = 400
 # Of these lines above a table, which may hold figures too, its head is one.

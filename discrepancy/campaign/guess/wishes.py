@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from typing import TypeVar
 
-from discrepancy.campaign.guess.unit_words import name_of
+from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
 from fmu_src.faults import InputFault, nearest
 

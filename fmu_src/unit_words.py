@@ -1,4 +1,4 @@
-"""Units as benches write them in header cells, lines of units and file names, and what kind of quantity they are of."""
+"""Units as people write them in files, names and settings, and what kind of quantity they are of."""
 
 import re
 
@@ -26,14 +26,20 @@ WRITTEN = {
     TORQUE: {
         "N.m": "N.m Nm m.N 牛米 牛.米 牛顿米 牛顿.米 Newtonmeter newton.mètre newton.metro ニュートンメートル", "mN.m": "mN.m mNm", "kN.m": "kN.m kNm 千牛.米",
         "daN.m": "daN.m daNm m.daN", "N.mm": "N.mm Nmm 牛.毫米", "N.cm": "N.cm Ncm 牛.厘米", "kN.mm": "kN.mm kNmm", "kN.cm": "kN.cm kNcm",
-        "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm m.kg 公斤.米 千克力.米", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm 公斤.厘米", "ozf.inch": "ozf.in oz.in in.oz",
-        "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb", "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb",
+        "kgf.m": "kgf.m kg.m kgm kgfm kp.m kpm m.kg 公斤.米 千克力.米", "kgf.cm": "kgf.cm kg.cm kgcm kgfcm kp.cm 公斤.厘米",
+        "ozf.inch": "ozf.in oz.in in.oz in.ozf inoz ozin ozf.inch",
+        "lbf.inch": "lbf.in in.lb in.lbf lb.in inlb inlbf lbin lbfin in.lbs lbs.in in.lbfs inch.lb inch.lbs inch.lbf lb.inch lbf.inch inch.pound inch.pounds"
+        " pound.inch pound.inches",
+        "lbf.foot": "lbf.ft ft.lb ft.lbf lb.ft ftlb ftlbf lbft lbfft ft.lbs lbs.ft ft.lbfs foot.lb foot.lbs foot.lbf lb.foot lbf.foot foot.pound foot.pounds"
+        " pound.foot pound.feet",
     },
     SPEED: {
         "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
         " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min"
         " rot/min rotações/min voltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
-        "turn/s": "rev/s rps U/s r/s tr/s tours/s giri/s vueltas/s rot/s voltas/s 转/秒 轉/秒 回転/秒", "rad/s": "rad/s 弧度/秒 ラジアン/秒",
+        "krpm": "krpm 1000/min",
+        "turn/s": "rev/s rps r.p.s. rev/sec U/s r/s tr/s tours/s giri/s vueltas/s rot/s voltas/s 转/秒 轉/秒 回転/秒",
+        "rad/s": "rad/s 弧度/秒 ラジアン/秒",
         "deg/s": "deg/s °/s Grad/s degrés/s gradi/s grados/s graus/s 度/秒",
     },
     LENGTH: {
@@ -45,13 +51,15 @@ WRITTEN = {
         "min": "min minutes Minuten minuti minutos 分钟 分鐘 分間",
         "h": "h hr hrs hours hour Std Std. Stunden heure heures ore horas 小时 小時 時間 时",
     },
-    TEMPERATURE: {"degC": "°C ℃ degC C Celsius 摄氏度 攝氏度 摂氏", "K": "K Kelvin", "degF": "°F ℉ degF"},
-    SHARE: {"%": "% ％ percent Prozent pour.cent pourcent pourcents per.cento por.ciento パーセント", "ppm": "ppm", "1": "1 - –"},
+    TEMPERATURE: {"degC": "°C ℃ degC deg.C C Celsius 摄氏度 攝氏度 摂氏", "K": "K Kelvin degK", "degF": "°F ℉ degF deg.F F Fahrenheit"},
+    SHARE: {"%": "% ％ pct percent Prozent pour.cent pourcent pourcents per.cento por.ciento パーセント", "ppm": "ppm", "1": "1 - –"},
     MASS: {"mg": "mg 毫克", "g": "g Gramm grammes grammi gramos gramas 克 グラム", "ug": "ug µg", "kg": "kg 公斤 千克"},
     ACCELERATION: {"m/s^2": "m/s^2 m/s2 m/ss 米/秒^2", "mm/s^2": "mm/s^2 mm/s2", "g_0": "gn"},
     STIFFNESS: {
         "N.m/arcmin": "N.m/arcmin Nm/arcmin N.m/arc.min Nm/arc.min Nm/' N.m/' Nm/角分 N.m/角分 牛米/角分 N.m/分", "N.m/rad": "N.m/rad Nm/rad",
         "N.m/deg": "N.m/deg Nm/deg Nm/° N.m/°",
+        "lbf.inch/arcmin": "in.lbf/arcmin in.lb/arcmin lbf.in/arcmin lb.in/arcmin in.lbf/arc.min in.lb/arc.min lbf.in/arc.min lb.in/arc.min",
+        "lbf.inch/deg": "in.lbf/deg in.lb/deg lbf.in/deg lb.in/deg", "lbf.inch/rad": "in.lbf/rad in.lb/rad lbf.in/rad lb.in/rad",
     },
 }  # fmt: skip
 # Letters, figures and signs of East Asian width as those of ASCII.
@@ -78,42 +86,8 @@ for _kind, _units in WRITTEN.items():
 # Without regard to case M would be a metre, N a nanometre.
 LEAST_LOWER = 2
 
-IN_BRACKETS = re.compile(r"\s*[\[(（【{<]([^\[\](){}（）【】<>]*)[\])）】}>]\s*")
-# The whole last word where it has parts: "Drehzahl U/min" is in no minutes, "T_N.m" in no metres.
-LAST_WORD = re.compile(r"^(.+?)(?:[\s_:：,]|/(?=\s))+(?:in\s+)?([^\s_:：,]*[^\s_:：,/][/.][^\s_:：,]+)$")
-AFTER_WORD = re.compile(r"^(.*\S)\s*(?:/|\bin\b|,|:|：)\s*(\S+)$")
-AFTER_LINE = re.compile(r"^(.+)[_ .-]([^_ ]+)$")
-ENDINGS = (LAST_WORD, AFTER_WORD, AFTER_LINE)
-
 
 def unit_of(text: str) -> tuple[str, str] | None:
     """(unit, kind) that a text alone is, if it is one."""
     word = plain(text.strip().strip("[](){}（）"))
     return KNOWN.get(word) or (LOWER.get(word.lower()) if len(word) >= LEAST_LOWER else None)
-
-
-def unit_in(header: str) -> tuple[str, str, str] | None:
-    """(unit, kind, where it stands) of a header cell: in brackets, after a stroke, or as its last part."""
-    for found in IN_BRACKETS.findall(header):
-        if known := unit_of(found):
-            return *known, f"[{found}] in its header"
-    # Half of what stands in brackets is no unit: "N furlong" is none, and no furlong.
-    outside = IN_BRACKETS.sub(" ", header).strip()
-    for pattern in ENDINGS:
-        if (match := pattern.match(outside)) and (known := unit_of(match[2])) and known[0] != "1":
-            return *known, f"its header ends with {match[2]}"
-    return None
-
-
-def unknown_in(header: str) -> str:
-    """What stands in a header's brackets where a unit does, and is none that is known; empty if there is nothing of that kind."""
-    return "" if unit_in(header) else next((found.strip() for found in reversed(IN_BRACKETS.findall(header)) if found.strip()), "")
-
-
-def name_of(header: str) -> str:
-    """A header cell without its unit."""
-    name = IN_BRACKETS.sub(" ", header).strip()
-    for pattern in ENDINGS:
-        if (match := pattern.match(name)) and (known := unit_of(match[2])) and known[0] != "1":
-            return match[1].strip(" :：")
-    return name

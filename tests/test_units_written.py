@@ -1,0 +1,63 @@
+"""Units as people write them are the same wherever they are typed: reducer files, settings, options, campaigns."""
+
+import pytest
+
+from cli.main import main
+from discrepancy.campaign.amount import amount
+from fmu_src.faults import InputFault
+from fmu_src.unit_words import COUNTS, WRITTEN, plain
+from fmu_src.units import UnitError, conversion, parse
+from orchestrator.settings import parse_value
+from reducers.completion.command import typed
+from reducers.reducer import load_reducer
+
+INCH_POUND = 0.1129848290276167
+
+
+@pytest.mark.parametrize("unit, target, factor", [
+    ("in-lbf", "N.m", INCH_POUND), ("lb-in", "N.m", INCH_POUND), ("ft-lb", "N.m", 12 * INCH_POUND), ("in-lbf/arcmin", "N.m/arcmin", INCH_POUND),
+    ("in-lbf/degree", "N.m/degree", INCH_POUND), ("U/min", "rpm", 1.0), ("krpm", "rpm", 1000.0), ("N m", "N.m", 1.0), ("Grad", "deg", 1.0), ("kgf.m", "N.m", 9.80665),
+    # A word for several units is that of the kind that is needed.
+    ("C", "A.s", 1.0), ("kg.m", "N.m", 9.80665),
+])  # fmt: skip
+def test_units_as_people_write_them(unit, target, factor):
+    assert conversion(unit, target) == pytest.approx((factor, 0.0))
+
+
+def test_every_spelling_is_its_unit():
+    for units in WRITTEN.values():
+        for unit, words in units.items():
+            for word in words.split() if unit != COUNTS else ():
+                assert conversion(plain(word), unit) == pytest.approx((1.0, 0.0)), word
+
+
+def test_fahrenheit_has_its_zero():
+    factor, offset = conversion("F", "K")
+    assert 77 * factor + offset == pytest.approx(298.15)
+
+
+@pytest.mark.parametrize("text", ["in-lbx", "mmm", "+", "((", "N-", "1/"])
+def test_no_python_speaks_of_a_unit(text):
+    with pytest.raises(UnitError) as fault:
+        parse(text)
+    assert f"unit {text!r} is not known; write it like" in str(fault.value)
+    assert not any(word in str(fault.value) for word in ("operand", "ParserHelper", "defined in the unit registry", "Error"))
+
+
+def test_reducer_files_settings_and_campaigns_take_the_same(tmp_path, capsys):
+    known = load_reducer("RV20E-121")
+    text = known.path.read_text(encoding="utf-8")
+    line = next(line for line in text.splitlines() if line.startswith("load_torque ="))
+    (tmp_path / "mine.toml").write_text(text.replace(line, 'load_torque = { value = 1478, unit = "in-lbf", source = "catalogue" }'), encoding="utf-8")
+    assert load_reducer(tmp_path / "mine.toml").starts["load_torque"] == pytest.approx(1478 * INCH_POUND)
+    variable = known.plant.by_name["load_torque"]
+    assert parse_value("1478in-lbf", variable) == pytest.approx(amount("1478 in-lbf", "N.m", "here")) == pytest.approx(1478 * INCH_POUND)
+    with pytest.raises(InputFault, match=r"here = 3 in-lbx: unit 'in-lbx' is not known; .*did you mean"):
+        amount("3 in-lbx", "N.m", "here")
+    assert main(["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", "3646in-lbf", "--output", str(tmp_path / "new.toml"), "-q"]) == 0
+    assert "--rated 411.943 " in (tmp_path / "new.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("value, text", [(411.942686635, "411.943"), (412.0, "412"), (7.5, "7.5"), (1234.5678, "1234.5678"), (0.1 + 0.2, "0.3"), (203.2, "203.2")])
+def test_numbers_in_commands_have_the_digits_that_were_given_or_six(value, text):
+    assert typed(value) == text
