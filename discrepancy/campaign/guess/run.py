@@ -3,7 +3,7 @@
 import re
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,7 @@ FAR_START = 10.0
 # A turn is short of its last step.
 JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
+ABOVE = "a line above the table"
 NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
@@ -50,7 +51,8 @@ class Entry:
 @dataclass(frozen=True)
 class GuessedRun:
     """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
-    ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part."""
+    ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part; ``above``: keys that lines
+    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says."""
 
     path: Path
     quantity: Guess[str]
@@ -63,6 +65,8 @@ class GuessedRun:
     doubts: tuple[Doubt, ...]
     headers: tuple[str, ...]
     left_out: tuple[str, ...]
+    above: frozenset[str]
+    actual: Mapping[str, str] = field(default_factory=dict)
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -119,7 +123,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
     if VALUE in entries and VALUE not in stated:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
-    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out)
+    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out,
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)))  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
@@ -264,7 +269,7 @@ def factors_of(name: Parsed, table: Table, path: Path) -> tuple[dict[str, Guess[
     """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table."""
     found: dict[str, Guess[str]] = {}
     doubts = []
-    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), "a line above the table")]
+    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), ABOVE)]
     for numbers, where in sources:
         for field, (number, unit) in numbers.items():
             key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
