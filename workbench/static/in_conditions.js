@@ -83,6 +83,8 @@ export function conditions(bag) {
   const keys = CONDITION.filter((k) => used.has(k) || (k === "output_speed" && !used.has("input_speed")) || offered.includes(k));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
+      // With those that joined it by what was put in: what is said of it now is said of them, too.
+      names = [name, ...Object.keys(data.proposal.joined).filter((other) => data.proposal.joined[other] === name)],
       runs = data.proposal.runs.filter((r) => r.condition === name);
     const keep = h("input", {
       type: "checkbox",
@@ -92,7 +94,7 @@ export function conditions(bag) {
         wish((w) => {
           const now = new Set(w.held_out ?? Object.keys(data.proposal.held_out));
           if (keep.checked) now.add(name);
-          else now.delete(name);
+          else names.forEach((each) => now.delete(each));
           w.held_out = [...now];
         }),
     });
@@ -100,7 +102,7 @@ export function conditions(bag) {
       h("b", {}, name),
       String(runs.length),
       ...keys.map((key) => {
-        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", `${name}:${key}`, text), `c-${name}-${key}`);
+        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text), `c-${name}-${key}`);
         return label.tagName === "LABEL"
           ? h("span", { class: "inline" }, label.querySelector("input"), " ", h("span", { class: "quiet" }, UNITS[key] ?? ""))
           : label;

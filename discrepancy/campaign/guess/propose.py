@@ -46,9 +46,9 @@ class PlacedRun:
 
 @dataclass(frozen=True)
 class Proposal:
-    """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be given before a model can be held against the campaign; ``unplaced``: of the
-    doubts those of loops of which nobody says where the input was locked; ``angle_of``: whose angle transmission errors stand over, if over one
-    that turns as the output does."""
+    """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be
+    given before a model can be held against the campaign; ``unplaced``: of the doubts those of loops of which nobody says where the input was
+    locked; ``angle_of``: whose angle transmission errors stand over, if over one that turns as the output does."""
 
     name: str
     reducer: str | None
@@ -72,7 +72,8 @@ class Proposal:
                     "replicate": run.replicate.as_json(), "where": run.where, "reading": run.guessed.reading, "names": run.guessed.name.pattern,
                     "columns": {role: entry.as_json() for role, entry in run.guessed.columns.items()},
                     "tags": {tag: guess.as_json() for tag, guess in run.guessed.tags.items()},
-                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()}, "actual": dict(run.guessed.actual), "left_out": list(run.guessed.left_out),
+                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()}, "actual": dict(run.guessed.actual),
+                    "left_out": list(run.guessed.left_out),
                 }
                 for run in self.runs
             ],

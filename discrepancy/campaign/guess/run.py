@@ -3,7 +3,7 @@
 import re
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +66,7 @@ class GuessedRun:
     headers: tuple[str, ...]
     left_out: tuple[str, ...]
     above: frozenset[str]
-    actual: Mapping[str, str] = field(default_factory=dict)
+    actual: Mapping[str, str]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -124,7 +124,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     if VALUE in entries and VALUE not in stated:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out,
-                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)))  # fmt: skip
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), {})  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
