@@ -88,14 +88,14 @@ def test_conditions_that_say_the_same_by_what_is_stated_become_one(tmp_path):
     """Twelve temperatures were stated by name, became one, and twelve conditions stayed, each "not repeated"."""
     names = list(proposed(tmp_path, TWO).conditions)
     assert names == ["100N.m_25degC", "50N.m_25degC", "50N.m_28degC"]
-    given = {"50N.m_28degC:temperature": "25.0 degC", "50N.m_25degC:hours": "5 h"}
+    given = {"50N.m_28degC:temperature": "25.0 degC", "50N.m_25degC:hours": "5 h", "50N.m_28degC:hours": "5h"}
     proposal = propose([tmp_path], Wishes("RV20E-121", conditions=given, held_out=("50N.m_28degC",)))
     assert list(proposal.conditions) == names[:2] and proposal.joined == {"50N.m_28degC": "50N.m_25degC"}
     assert proposal.conditions["50N.m_25degC"]["hours"] == "5 h" and proposal.held_out.keys() == {"50N.m_25degC"}
     assert [(run.condition, run.replicate.value) for run in proposal.runs if "50Nm" in run.name] == [("50N.m_25degC", 1), ("50N.m_25degC", 2)]
-    # What is said of one that joined another is said of that one.
-    more = propose([tmp_path], Wishes("RV20E-121", conditions=given | {"50N.m_28degC:load_torque": "60 N.m"}))
-    assert more.conditions["50N.m_25degC"]["load_torque"] == "60 N.m"
+    # Names are those without what is stated by them, and nothing joins that is alike in between only.
+    shifted = propose([tmp_path], Wishes("RV20E-121", conditions={"50N.m_25degC:temperature": "28 degC", "50N.m_28degC:temperature": "31 degC"}))
+    assert [stated["temperature"] for stated in shifted.conditions.values()] == ["25 degC", "28 degC", "31 degC"] and not shifted.joined
     with pytest.raises(InputFault, match="there is no condition 50N.m_29degC"):
         propose([tmp_path], Wishes("RV20E-121", conditions={"50N.m_29degC:hours": "1 h"}))
 

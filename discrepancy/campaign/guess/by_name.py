@@ -12,24 +12,25 @@ NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*
 def given_for_one(conditions: dict[str, dict[str, str]], labels: Mapping[str, set[str]], wishes: Wishes) -> dict[str, str]:
     """Lays ``NAME:KEY`` over the condition of that name; InputFault if there is none.
 
-    One that then says the same as another of the same words (``labels``) joins it: name -> name of the one that it joined, whose what is said
-    of it later is, too.
+    Those that say the same when all is laid, and have the same words (``labels``), become the first of them: name -> that one's name.  Not
+    before: 25 and 28 degC that are to be 28 and 31 are alike in between.
     """
-    joined: dict[str, str] = {}
     for key, text in wishes.conditions.items():
         name, colon, own = key.rpartition(":")
         if not colon:
             continue
-        if name not in conditions and name not in joined:
+        if name not in conditions:
             raise InputFault(f"--condition {key}={text}: there is no condition {name}; choose from {', '.join(conditions)}{nearest(name, conditions)}")
-        name = joined.get(name, name)
         if own.endswith("put_speed"):
             conditions[name] = {k: v for k, v in conditions[name].items() if not k.endswith("put_speed")}
         conditions[name][own] = spaced(text)
+    stated = {key.rpartition(":")[0] for key in wishes.conditions}
+    joined: dict[str, str] = {}
+    for name in list(conditions):
         alike = [n for n in conditions if labels[n] == labels[name] and in_figures(conditions[n]) == in_figures(conditions[name])]
-        for other in alike[1:]:
-            joined |= {n: alike[0] for n, into in joined.items() if into == other} | {other: alike[0]}
-            del conditions[other]
+        if alike[0] != name and stated & {name, alike[0]}:
+            joined[name] = alike[0]
+            del conditions[name]
     return joined
 
 
