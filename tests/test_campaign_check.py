@@ -51,7 +51,9 @@ def angle_file(folder, name: str, turns: float, points: int) -> str:
 def test_poor_design(tmp_path):
     run = angle_file(tmp_path, "short.csv", 0.6, 50)
     check = campaign(tmp_path, {"a": condition(direction="forward")}, [f'condition = "a"\n{run}'])
-    assert [finding.code for finding in check.problems] == ["noise unknown"]
+    # A diagnosis takes the noise from the scatter within the run, and is possible.
+    assert not check.problems
+    assert "scatter within runs, times 1.5" in next(f for f in check.findings if f.code == "noise guessed").text
     assert {
         "no held-out condition", "few levels of load", "one direction", "one mounting", "record too short",
         "sampling too coarse",
@@ -118,6 +120,23 @@ def test_condition_that_the_model_cannot_predict(tmp_path):
     check = campaign(tmp_path, {"a": 'direction = "forward"\noutput_speed = "15 rpm"'}, [value("input_torque", "1 N.m")])
     assert [finding.code for finding in check.problems] == ["condition incomplete"]
     assert "[conditions.a]" in check.problems[0].remedy and "load_torque" in check.problems[0].remedy
+
+
+def test_numbers_without_noise_are_a_problem_where_nothing_else_was_measured(tmp_path):
+    """check said "no diagnosis is possible" of a campaign that diagnose answered; single numbers say nothing of their noise."""
+    numbers = [value("lost_motion", "50 arcsec", "a").replace('noise = "', '# noise = "')]
+    alone = campaign(tmp_path, {"a": condition(direction="forward")}, numbers)
+    assert [finding.code for finding in alone.problems] == ["noise unknown"]
+    series = f'condition = "a"\n{angle_file(tmp_path, "te.csv", 1.0, 5000)}'
+    beside = campaign(tmp_path, {"a": condition(direction="forward")}, [*numbers, series])
+    assert not beside.problems and {"noise unknown", "noise guessed"} <= codes(beside)
+
+
+def test_a_run_without_rows_is_no_problem_beside_others(tmp_path):
+    (tmp_path / "empty.csv").write_text("phi,te\n")
+    run = angle_file(tmp_path, "te.csv", 1.0, 5000)
+    check = campaign(tmp_path, {"a": condition(direction="forward")}, [f'condition = "a"\n{run}', f'condition = "a"\nreplicate = 2\n{run.replace("te.csv", "empty.csv")}'])
+    assert not check.problems and "no rows" in codes(check)
 
 
 @pytest.mark.parametrize("rows, code", [

@@ -89,7 +89,8 @@ def test_a_file_that_was_copied_counts_once_and_is_said(tmp_path, capsys):
     said = "runs loop_1 and loop_2 hold the same numbers: a copy is no repetition"
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--tag", "locked=input"]) == 0
     assert said in " ".join(capsys.readouterr().out.split())
-    assert main(["campaign", "check", str(tmp_path)]) == 1
+    # compare and diagnose take the noise of one loop from its own scatter.
+    assert main(["campaign", "check", str(tmp_path)]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert said in shown and "no run is repeated and no noise is stated" in shown
     assert main(["compare", "RV20E-121", str(tmp_path), "--json"]) == 0

@@ -136,6 +136,28 @@ def test_an_angle_of_the_motor_is_mended_by_a_click_and_by_its_role(bench, tmp_p
     assert page.get_by_text("which is kept, not").count() == 0
 
 
+def test_cells_that_make_conditions_alike_join_them_and_a_cell_of_both_says_it_of_both(bench, tmp_path):
+    page = bench.page
+    for k, degrees in enumerate((25, 28), 1):
+        rows = "\n".join(f"{1.8 * n:.1f};{(n * k) % 7}" for n in range(201))
+        (tmp_path / f"Drehfehler_50Nm_15rpm_{degrees}C_{k}.csv").write_text(f"Winkel Abtrieb [deg];Drehfehler [arcsec]\n{rows}")
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.set_input_files("#files", sorted(map(str, tmp_path.glob("*.csv"))))
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    cells = page.get_by_label("temperature", exact=True)
+    cells.nth(1).fill("25")
+    page.keyboard.press("Tab")
+    page.get_by_text("2 runs in 2 files, 1 condition", exact=True).wait_for()
+    cells.nth(0).fill("30")
+    page.keyboard.press("Tab")
+    page.wait_for_function("document.querySelector('[aria-label=temperature]').value === '30'")
+    assert page.get_by_text("2 runs in 2 files, 1 condition", exact=True).count() == 1
+    cells.nth(0).fill("")
+    page.keyboard.press("Tab")
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+
+
 def test_whose_angle_it_is_is_doubted_and_chosen_beside_the_columns(bench, tmp_path):
     page = bench.page
     head = "Zeit [s];Winkel Abtrieb [deg];Drehfehler [arcsec]\n"

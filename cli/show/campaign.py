@@ -35,7 +35,8 @@ def show(check: Check) -> None:
     out.print(pairs)
     problems = len(check.problems)
     outcome = f"{problems} problem{'s' * (problems != 1)}, {len(check.findings) - problems} warnings"
-    out.print(f"{outcome}; " + ("no diagnosis is possible yet" if problems else "a diagnosis is possible"))
+    impossible = "no diagnosis can be relied on yet" if check.campaign.training else "no diagnosis is possible yet"
+    out.print(f"{outcome}; {impossible if problems else 'a diagnosis is possible'}")
 
 
 def told(verdict: Verdict) -> str:

@@ -13,7 +13,7 @@ from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.problem import ERROR, ORDERS
-from discrepancy.repetitions import outlying
+from discrepancy.repetitions import SERIES, outlying
 
 PROBLEM, WARNING = "problem", "warning"
 # Of a quantity from so many on one may be held out: two are left to fit.
@@ -22,7 +22,8 @@ LEAST_CONDITIONS = 3
 
 @dataclass(frozen=True)
 class Finding:
-    """``problem``: no diagnosis is possible; ``warning``: some answers will be out of reach.  ``of``: the one column that it is about, if it is about one."""
+    """``problem``: no diagnosis is possible, or none to rely on; ``warning``: some answers will be out of reach.  ``of``: the one
+    column that it is about, if it is about one."""
 
     level: str
     code: str
@@ -37,27 +38,40 @@ class Finding:
 
 def unfilled(design: Design) -> Iterator[Finding]:
     campaign = design.campaign
+    # What has rows is diagnosed without the others.
+    level = WARNING if campaign.records else PROBLEM
     for run, file in campaign.unfilled.items():
-        yield Finding(PROBLEM, "no rows", f"run {run}: {file} holds no complete row", "fill it in, or remove the run")
+        yield Finding(level, "no rows", f"run {run}: {file} holds no complete row", "fill it in, or remove the run")
     if campaign.records and not campaign.training:
         yield Finding(PROBLEM, "nothing to fit", "every run is held out", "leave held_out away in most conditions")
 
 
 def noise(design: Design) -> Iterator[Finding]:
+    """As a diagnosis takes it: from repetitions, else as stated, else of series from their own scatter; single numbers have none."""
+    lacking = [q for q in design.quantities if not repeated(design, q) and not all(record.stated_noise for record in design.of(q))]
+    series = [q for q in lacking if q != ORDERS and any(len(record.values) >= SERIES for record in design.of(q))]
+    remedy = "repeat at least one condition (replicate = 2), or state noise = \"...\" in its runs"
     for quantity in design.quantities:
-        repeated = any(count > 1 for count in design.replicates(quantity).values())
-        stated = all(record.stated_noise for record in design.of(quantity))
-        if not repeated and not stated:
+        if quantity in series:
             yield Finding(
-                PROBLEM, "noise unknown",
-                f"{quantity}: no run is repeated and no noise is stated: no discrepancy can be told from noise",
-                "repeat at least one condition (replicate = 2), or state noise = \"...\" in its runs",
+                WARNING, "noise guessed",
+                f"{quantity}: no run is repeated and no noise is stated: it is guessed from the scatter within runs, times 1.5, and what differs from run"
+                " to run is assumed: small effects pass for noise", remedy,
             )  # fmt: skip
-        elif not repeated:
+        elif quantity in lacking:
+            yield Finding(
+                WARNING if len(lacking) - len(series) < len(design.quantities) else PROBLEM, "noise unknown",
+                f"{quantity}: no run is repeated and no noise is stated: nothing can be concluded from these numbers", remedy,
+            )  # fmt: skip
+        elif not repeated(design, quantity):
             yield Finding(
                 WARNING, "no replicates", f"{quantity}: the noise is only stated, not measured",
                 "repeat at least one condition (replicate = 2)",
             )  # fmt: skip
+
+
+def repeated(design: Design, quantity: str) -> bool:
+    return any(count > 1 for count in design.replicates(quantity).values())
 
 
 def missing_factors(design: Design) -> Iterator[Finding]:

@@ -141,11 +141,13 @@ export function show(root, context) {
     together: new Set(),
     redraw: () => draw(),
   };
-  const putIn = (part, key, value) =>
+  const putIn = (part, keys, value) =>
     wish((w) => {
       w[part] = { ...w[part] };
-      if (value === "" || value === null) delete w[part][key];
-      else w[part][key] = value;
+      for (const key of [keys].flat()) {
+        if (value === "" || value === null) delete w[part][key];
+        else w[part][key] = value;
+      }
     });
 
   function draw() {

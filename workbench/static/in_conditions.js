@@ -5,6 +5,9 @@ import { choose, h, note, table, words } from "./dom.js";
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
 const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", temperature: "degC", hours: "h", locked_at: "deg" };
 
+// A condition with those that joined it by what was put in: what is said of it is said of them, too.
+const withJoined = ({ joined }, name) => [name, ...Object.keys(joined).filter((other) => joined[other] === name)];
+
 // What is needed first, then what is not sure: each with the place where it is answered.
 export function questions(bag) {
   const { data, wish } = bag;
@@ -22,7 +25,7 @@ export function questions(bag) {
   // What some conditions need is said of them alone: the others may say something else, or need none.
   const answer = (needing, key, text) =>
     wish((w) => {
-      const own = needing.length < names.length ? needing.map((name) => `${name}:${key}`) : [key];
+      const own = needing.length < names.length ? needing.flatMap((name) => withJoined(data.proposal, name)).map((name) => `${name}:${key}`) : [key];
       w.conditions = { ...w.conditions, ...Object.fromEntries(own.map((name) => [name, text])) };
     });
   return [
@@ -94,6 +97,7 @@ export function conditions(bag) {
   const keys = CONDITION.filter((k) => used.has(k) || (k === "output_speed" && !used.has("input_speed")) || offered.includes(k));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
+      names = withJoined(data.proposal, name),
       runs = data.proposal.runs.filter((r) => r.condition === name);
     const keep = h("input", {
       type: "checkbox",
@@ -103,7 +107,7 @@ export function conditions(bag) {
         wish((w) => {
           const now = new Set(w.held_out ?? Object.keys(data.proposal.held_out));
           if (keep.checked) now.add(name);
-          else now.delete(name);
+          else names.forEach((each) => now.delete(each));
           w.held_out = [...now];
         }),
     });
@@ -111,7 +115,7 @@ export function conditions(bag) {
       h("b", {}, name),
       String(runs.length),
       ...keys.map((key) => {
-        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", `${name}:${key}`, text), `c-${name}-${key}`);
+        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text), `c-${name}-${key}`);
         return label.tagName === "LABEL"
           ? h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"))
           : label;

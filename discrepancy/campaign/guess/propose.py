@@ -5,12 +5,13 @@ import os
 import re
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
+from discrepancy.campaign.guess.by_name import given_for_one, spaced
 from discrepancy.campaign.guess.conditions import State, named_conditions
 from discrepancy.campaign.guess.counted import with_odd_counts_doubted, with_repetitions
 from discrepancy.campaign.guess.file_names import stem
@@ -18,6 +19,7 @@ from discrepancy.campaign.guess.given_names import require_fit
 from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.lacking import lacking
+from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
@@ -47,14 +49,15 @@ class PlacedRun:
 
 @dataclass(frozen=True)
 class Proposal:
-    """``data``: folder that all files lie in.  ``needs`` must be given before a model can be held against the campaign; ``unplaced``: of the
-    doubts those of loops of which nobody says where the input was locked; ``angle_of``: whose angle transmission errors stand over, if over one
-    that turns as the output does."""
+    """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be
+    given before a model can be held against the campaign; ``unplaced``: of the doubts those of loops of which nobody says where the input was
+    locked; ``angle_of``: whose angle transmission errors stand over, if over one that turns as the output does."""
 
     name: str
     reducer: str | None
     data: Path
     conditions: dict[str, dict[str, str]]
+    joined: dict[str, str]
     held_out: dict[str, Guess[bool]]
     runs: tuple[PlacedRun, ...]
     doubts: tuple[Doubt, ...]
@@ -64,7 +67,7 @@ class Proposal:
 
     def as_json(self) -> dict[str, Any]:
         return {
-            "name": self.name, "reducer": self.reducer, "data": str(self.data), "conditions": self.conditions,
+            "name": self.name, "reducer": self.reducer, "data": str(self.data), "conditions": self.conditions, "joined": self.joined,
             "held_out": {name: guess.as_json() for name, guess in self.held_out.items()}, "angle_of": self.angle_of and self.angle_of.as_json(),
             "runs": [
                 {
@@ -72,7 +75,8 @@ class Proposal:
                     "replicate": run.replicate.as_json(), "where": run.where, "reading": run.guessed.reading, "names": run.guessed.name.pattern,
                     "columns": {role: entry.as_json() for role, entry in run.guessed.columns.items()},
                     "tags": {tag: guess.as_json() for tag, guess in run.guessed.tags.items()},
-                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()}, "left_out": list(run.guessed.left_out),
+                    "stated": {key: guess.as_json() for key, guess in run.guessed.factors.items()}, "actual": dict(run.guessed.actual),
+                    "left_out": list(run.guessed.left_out),
                 }
                 for run in self.runs
             ],
@@ -88,28 +92,32 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
         raise InputFault(f"no files: {folders} holds none of {', '.join(sorted(ENDINGS))}; name measurement files, or folders that hold some")
     if wishes.reducer:
         load_reducer(wishes.reducer)
-    guessed = with_odd_counts_doubted(with_repetitions(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
+    measured = with_measured_joined(with_given_instead(with_one_unit([guessed_run(path, wishes) for path in paths]), wishes))
+    guessed = with_odd_counts_doubted(with_repetitions(measured, wishes))
     require_fit(paths, wishes.names)
     require_numbers(wishes)
     require_columns(guessed, wishes)
     require_units(guessed, wishes)
     require_roles(guessed, wishes)
     states = [state_of(run, wishes) for run in guessed]
-    names = named_conditions(states)
-    conditions: dict[str, dict[str, str]] = {}
+    by_state = named_conditions(states)
+    conditions, labels = dict[str, dict[str, str]](), defaultdict[str, set[str]](set)
     for state in states:
-        conditions.setdefault(names[state], {})
-        conditions[names[state]] |= dict(state.stated)
-    leave_out_idle(conditions, [(names[state], run) for state, run in zip(states, guessed)], wishes)
-    given_for_one(conditions, wishes)
-    runs = placed(guessed, [names[state] for state in states])
-    angle_of, of_angles = whose_angle(zip((names[state] for state in states), guessed), conditions, wishes)
+        conditions.setdefault(by_state[state], {})
+        conditions[by_state[state]] |= dict(state.stated)
+        labels[by_state[state]].add(state.label)
+    leave_out_idle(conditions, [(by_state[state], run) for state, run in zip(states, guessed)], wishes)
+    joined = given_for_one(conditions, labels, wishes)
+    names = [joined.get(by_state[state], by_state[state]) for state in states]
+    guessed = [without_what_is_given(run, {by_state[state], name}, wishes) for run, state, name in zip(guessed, states, names)]
+    runs = placed(guessed, names)
+    angle_of, of_angles = whose_angle(zip(names, guessed), conditions, wishes)
     doubts = [*merged([*(d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))), *of_angles]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
     unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
-        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, held(wishes, conditions, runs),
-        tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced), angle_of,
+        name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,
+        held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced), angle_of,
     )  # fmt: skip
 
 
@@ -117,7 +125,7 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     """What the file says, and besides what is given for all."""
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
-    given = {key: text for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
+    given = {key: spaced(text) for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label), run.quantity.value not in HELD)
 
 
@@ -213,16 +221,11 @@ def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
     return found
 
 
-def given_for_one(conditions: dict[str, dict[str, str]], wishes: Wishes) -> None:
-    """Lays ``NAME:KEY`` over the condition of that name; InputFault if there is none."""
-    for key, text in wishes.conditions.items():
-        name, colon, own = key.rpartition(":")
-        if colon and name not in conditions:
-            raise InputFault(f"--condition {key}={text}: there is no condition {name}; choose from {', '.join(conditions)}{nearest(name, conditions)}")
-        if colon:
-            if own.endswith("put_speed"):
-                conditions[name] = {k: v for k, v in conditions[name].items() if not k.endswith("put_speed")}
-            conditions[name][own] = text
+def without_what_is_given(run: GuessedRun, names: set[str], wishes: Wishes) -> GuessedRun:
+    """What is given of its condition by one of its ``names`` wins over what the run itself had."""
+    given = {key.rpartition(":")[2] for key in wishes.conditions if key.rpartition(":")[0] in names}
+    speeds = any(key.endswith("put_speed") for key in given)
+    return replace(run, actual={key: text for key, text in run.actual.items() if key not in given and not (speeds and key.endswith("put_speed"))})
 
 
 def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[PlacedRun]:
@@ -249,7 +252,7 @@ def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[Pla
     return runs
 
 
-def held(wishes: Wishes, conditions: dict[str, dict[str, str]], runs: Sequence[PlacedRun]) -> dict[str, Guess[bool]]:
+def held(wishes: Wishes, conditions: dict[str, dict[str, str]], joined: dict[str, str], runs: Sequence[PlacedRun]) -> dict[str, Guess[bool]]:
     if wishes.held_out is None:
         measured, repeated = defaultdict(list), defaultdict(set)
         for run in runs:
@@ -258,9 +261,9 @@ def held(wishes: Wishes, conditions: dict[str, dict[str, str]], runs: Sequence[P
                 repeated[run.condition].add(run.guessed.quantity.value)
         return held_out(conditions, measured, repeated)
     for name in wishes.held_out:
-        if name not in conditions:
+        if name not in conditions and name not in joined:
             raise InputFault(f"--held-out {name}: there is no such condition; choose from {', '.join(conditions)}")
-    return {name: Guess(True, "given") for name in wishes.held_out}
+    return {joined.get(name, name): Guess(True, "given") for name in wishes.held_out}
 
 
 def merged(doubts: Sequence[Doubt]) -> list[Doubt]:

@@ -35,6 +35,7 @@ JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
 # A speed that is stated and one that was measured are the same within this share.
 SAME_SPEED = 0.05
+ABOVE = "a line above the table"
 NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
@@ -54,7 +55,8 @@ class Entry:
 @dataclass(frozen=True)
 class GuessedRun:
     """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
-    ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part."""
+    ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part; ``above``: keys that lines
+    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says."""
 
     path: Path
     quantity: Guess[str]
@@ -67,6 +69,8 @@ class GuessedRun:
     doubts: tuple[Doubt, ...]
     headers: tuple[str, ...]
     left_out: tuple[str, ...]
+    above: frozenset[str]
+    actual: Mapping[str, str]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -123,7 +127,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
     if VALUE in entries and VALUE not in stated:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
-    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out)
+    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out,
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), {})  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
@@ -282,7 +287,7 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
     """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table."""
     found: dict[str, Guess[str]] = {}
     doubts = []
-    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), "a line above the table")]
+    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), ABOVE)]
     for numbers, where in sources:
         for field, (number, unit) in numbers.items():
             key, reason, sure = {"load": "load_torque"}.get(field, field), where, True

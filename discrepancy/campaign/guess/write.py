@@ -49,6 +49,8 @@ def run_lines(run: PlacedRun, data: Path) -> list[str]:
     lines = ["[[runs]]", f"id = {toml(run.name)}", f"quantity = {toml(guessed.quantity.value)}{unsure(guessed.quantity.sure)}"]
     lines += [f"tags.{tag} = {toml(guess.value)}{unsure(guess.sure)}" for tag, guess in guessed.tags.items()]
     lines += [f"condition = {toml(run.condition)}", f"replicate = {run.replicate.value}"]
+    if guessed.actual:
+        lines.append(f"actual = {toml(guessed.actual)}")
     lines.append(f"file = {toml(guessed.path.resolve().relative_to(data).as_posix())}")
     lines += [f"{key} = {toml(value)}" for key, value in guessed.reading.items()]
     if guessed.quantity.value == ERROR and "input_angle" in guessed.columns and not over_output(guessed):
