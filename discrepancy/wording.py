@@ -9,7 +9,7 @@ from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.other_places import place_of
-from discrepancy.scales import largest, of_parameter, parameter_texts, shown
+from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
 # A share from here on would be rounded to all of it.
@@ -132,7 +132,7 @@ def with_base_text(entry: Mapping[str, Any]) -> str:
     """What an interval takes for known, where that is less sure than the interval is narrow; empty elsewhere."""
     if "interval_with_base" not in entry:
         return ""
-    scale = of_parameter(largest(entry["value"], *entry["interval"]), entry["unit"])
+    scale = of_estimate(entry)
     low, high = (readable(scale.number(v), 3) for v in entry["interval_with_base"])
     return f"with the base model's numbers as its file has them; {low} to {high} with each free within its range"
 

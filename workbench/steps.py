@@ -127,12 +127,12 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     from discrepancy.as_told import tables_of, told_name
     from discrepancy.page.amounts import pretty
     from discrepancy.page.whys import of_estimate
-    from discrepancy.scales import parameter_texts
+    from discrepancy.scales import estimate_texts
     from discrepancy.wording import with_base_text
 
     found = []
     for name, entry in given.items():
-        value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
+        value, interval, unit = estimate_texts(entry)
         told = told_name(name, tables_of(answer.model))
         found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
                       "with_base": with_base_text(entry),

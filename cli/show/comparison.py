@@ -16,7 +16,7 @@ from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
-from discrepancy.scales import parameter_texts, shown
+from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
@@ -126,7 +126,7 @@ def show_answer(answer: Answer) -> None:
             names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
             out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
         for name, number in effect["parameters"].items():
-            value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
+            value, interval, unit = estimate_texts(number)
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
             if more := with_base_text(number):
