@@ -25,7 +25,7 @@ def test_directions_are_those_of_what_stands_somewhere():
 
 def test_a_phase_is_told_in_degrees_everywhere():
     assert estimate_texts(PHASE) == ("-0.1152", "-1.204 to 0.9738", "deg")
-    assert amounts.estimate(PHASE) == ("−0.115", "−1.2 to 0.974", "°")
+    assert amounts.estimate(PHASE) == ("−0.115", "−1.20 to 0.974", "°")
     told = as_told.parameter(PHASE)
     assert told["unit"] == "deg" and told["value"] == pytest.approx(-0.11525) and told["si"]["value"] == SMALL
     variable = parameter_variable(every_effect()["first_stage_error"], "first_stage_phase")

@@ -93,7 +93,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
-    from discrepancy.page.amounts import effect_title, with_titles
+    from discrepancy.left_sizes import left_sizes
+    from discrepancy.page.amounts import effect_title, signal_title, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
@@ -114,7 +115,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
-        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)), "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [with_titles(law.text) for law in answer.laws],

@@ -14,6 +14,7 @@ from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
+from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.scales import estimate_texts, parameter_texts, shown
@@ -142,6 +143,8 @@ def show_answer(answer: Answer) -> None:
     left = left_text(answer)
     if left:
         out.print(f"\nnot explained: {left}")
+    if sizes := left_sizes(answer):
+        out.print(f"every sample is off by  {sizes}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
     for text in stand_ins(answer).values():

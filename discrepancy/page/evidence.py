@@ -5,13 +5,13 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
+from discrepancy.inference.verdict import SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text, with_base_text
+from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, turned_down, variant_text, with_base_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -61,13 +61,13 @@ def shares(answer: Answer) -> Figure:
     names, beside = [named(e) for e in answer.effects], [e["share_explained"] for e in answer.effects]
     text = "What an effect takes off the chi-square, of all that is more than noise."
     if not fitted_together(answer):
-        texts = ["most" if answer.verdict == INCOMPLETE and s >= NEARLY_ALL else percent(s) for s in beside]
+        texts = [percent(answer, s) for s in beside]
         values = [100.0 * s for s in beside]
         return bars.single("shares", SHARES, text, names, values, "share [%]", [look.NOW] * len(names), texts, 12, range=[0.0, 112.0])
     alone = [e["share_alone"] for e in answer.effects]
     text += f" Effects that do alike have much alone and little beside the others; {together_text(answer).partition(';')[0]}."
     both = [100.0 * s for s in alone], [100.0 * s for s in beside]
-    return bars.shares("shares", SHARES, text, names, *both, ([percent(s) for s in alone], [percent(s) for s in beside]))
+    return bars.shares("shares", SHARES, text, names, *both, ([percent(answer, s) for s in alone], [percent(answer, s) for s in beside]))
 
 
 def base_off(answer: Answer) -> Section:

@@ -107,6 +107,7 @@ export function show(root, context) {
           answer.together ? h("p", { class: "quiet", style: { "margin-top": "8px" } }, answer.together) : null,
           answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
           answer.left ? h("p", { class: "small" }, h("b", {}, "Not explained: "), answer.left) : null,
+          answer.sizes ? h("p", { class: "small" }, h("b", {}, "Every sample is off by: "), answer.sizes) : null,
           answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
         ),
         cards(answer.page.cards),
