@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.telling import beyond
-from tests.test_base_off import bench
+from discrepancy.inference.telling import beyond, by_weight, meaning
+from discrepancy.problem import Candidate, Parameter
+from tests.test_base_off import amplitude, bench
 
 
 def test_effect_that_changes_more_than_was_measured_is_a_bound():
@@ -18,3 +19,21 @@ def test_effect_that_changes_more_than_was_measured_is_a_bound():
     assert beyond(doctor.space, far, play) and not beyond(doctor.space, member, play)
     near = replace(member, fit=replace(member.fit, values={**member.fit.values, "play": 150.0}))
     assert not beyond(doctor.space, near, play)
+
+
+def test_what_carries_an_effect_is_told_first():
+    both = Candidate("both", "both", (amplitude("gain", 0.01), amplitude("play", 1.0, 1)))
+    model = bench({"play": 4.0})
+    model.candidates = (both,)
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    doctor.screened()
+    member = doctor.fit(["both"])
+    assert [p.name for p in by_weight(doctor.space, member, both)] == ["play", "gain"]
+    assert list(doctor.run().effects[0].parameters) == ["play", "gain"]
+
+
+def test_a_parameter_is_told_in_words_without_where_it_is_off():
+    runout = Parameter("planet_runout", "m", 0.0, -2e-4, 2e-4, 1e-5, description="run-out of planet 1, along the line of action (0: off)")
+    assert meaning(runout) == "run-out of planet 1, along the line of action"
+    assert meaning(replace(runout, description="share (of the whole)")) == "share (of the whole)"

@@ -136,7 +136,7 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
         value, interval, unit = estimate_texts(entry)
         told = told_name(name, tables_of(answer.model))
         found.append({"name": told, "value": value, "interval": interval, "unit": pretty(unit), "bound": bool(entry.get("bound")),
-                      "with_base": with_base_text(entry),
+                      "with_base": with_base_text(entry), "meaning": entry.get("meaning", ""),
                       "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 

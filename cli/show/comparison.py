@@ -130,6 +130,8 @@ def show_answer(answer: Answer) -> None:
             value, interval, unit = estimate_texts(number)
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+            if number.get("meaning"):
+                out.print(f"    {number['meaning']}")
             if more := with_base_text(number):
                 out.print(f"    {more}")
         if held := held_text(effect["name"], answer.model):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
+from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation
@@ -77,7 +78,8 @@ class Teller:
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
-                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside} | with_base(numbers[p.name], p, factors) for p in c.parameters}
+                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside, "meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+                           for p in by_weight(self.space, member, c)}
                 effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
@@ -140,6 +142,21 @@ class Teller:
         after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
         held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}
         return float(before), float(after)
+
+
+def by_weight(space: Workspace, member: Refit, candidate: Candidate) -> list[Parameter]:
+    """Parameters of an effect as they are told: amplitudes by how much each changes the fitted runs, calibrations taken out; then shapes."""
+    fit, base = member.fit, space.base
+    names = [p.name for p in fit.parameters]
+    columns = project_out(fit.jacobian[:, [names.index(p.name) for p in candidate.amplitudes]], base.jacobian, base.normal)
+    amounts = np.array([fit.values[p.name] - p.off for p in candidate.amplitudes])
+    changes = np.linalg.norm(columns, axis=0) * np.abs(amounts)
+    return [candidate.amplitudes[k] for k in np.argsort(-changes, kind="stable")] + list(candidate.shapes)
+
+
+def meaning(p: Parameter) -> str:
+    """What a parameter is, without where it is off."""
+    return p.description.removesuffix(f" ({p.off:g}: off)")
 
 
 def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:

@@ -40,15 +40,15 @@ def effects(answer: Answer) -> Section:
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
             bound = "; ".join(filter(None, (bound, with_base_text(entry))))
             told = told_name(name, tables_of(answer.model))
-            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
+            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, entry.get("meaning", ""), bound])
             first = False
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
         for wave in waves_of(effect["parameters"]):
             value, interval, unit = amounts.estimate({"value": wave.amplitude, "interval": wave.interval, "unit": wave.unit})
             told = f"amplitude, from {told_name(wave.cosine, tables_of(answer.model))} and its sine"
-            rows.append(["", "", told, value, interval, unit, f"phase {wave.phase:.0f}°"])
+            rows.append(["", "", told, value, interval, unit, "", f"phase {wave.phase:.0f}°"])
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, dict(effect["parameters"][wave.cosine])))
-    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
+    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", "meaning", ""], rows, (3, 4), whys=answers)
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )

@@ -135,6 +135,7 @@ export function show(root, context) {
           h("b", {}, `${p.value} ${p.unit}`),
           h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}${p.with_base ? `, ${p.with_base}` : ""} `),
           why(p.why, p.name),
+          p.meaning ? h("div", { class: "quiet small" }, p.meaning) : null,
         ),
       ),
       h("p", { class: "quiet small" }, [e.share, e.error, e.held].filter(Boolean).join("; ")),
