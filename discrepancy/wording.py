@@ -75,6 +75,12 @@ def stand_ins(answer: Answer) -> dict[str, str]:
     return {name: f"in place of {name}{beside} could stand: {', '.join(others)}" for name, others in answer.diagnosis.alternatives.items()}
 
 
+def told_apart_by(answer: Answer, title: Callable[[str], str] = str) -> list[str]:
+    """What the campaign cannot tell apart, each with how much worse it fits than the first."""
+    reasons = {effect["name"]: effect.get("reason") for effect in answer.effects}
+    return [title(name) + (f" ({reasons[name]})" if reasons.get(name) else "") for name in answer.confusable]
+
+
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
     """The rivals that are no stand-ins, with the part at which they were tried; beside several effects a rival alone is held against all of them."""
     rejected = [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]

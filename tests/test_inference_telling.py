@@ -1,11 +1,14 @@
 """What is told of a fit: estimates beyond all that was measured are bounds."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.telling import beyond, by_weight, meaning
+from discrepancy.inference.verdict import SET
 from discrepancy.problem import Candidate, Parameter
-from tests.test_base_off import amplitude, bench
+from discrepancy.wording import told_apart_by
+from tests.test_base_off import CANDIDATES, amplitude, bench
 
 
 def test_effect_that_changes_more_than_was_measured_is_a_bound():
@@ -37,3 +40,16 @@ def test_a_parameter_is_told_in_words_without_where_it_is_off():
     runout = Parameter("planet_runout", "m", 0.0, -2e-4, 2e-4, 1e-5, description="run-out of planet 1, along the line of action (0: off)")
     assert meaning(runout) == "run-out of planet 1, along the line of action"
     assert meaning(replace(runout, description="share (of the whole)")) == "share (of the whole)"
+
+
+def test_alternatives_say_by_how_much_they_fit_worse():
+    model = bench({"gain": 0.03})
+    model.candidates = CANDIDATES[:2]
+    found = Diagnostician(model).run()
+    first, second = found.effects
+    members = {m.name: m.fit.chi2 for m in found.fits.members}
+    assert found.verdict == SET and first.chi2_difference == 0.0 and first.reason == ""
+    worse = members[second.name] - members[first.name]
+    assert second.chi2_difference == worse and second.reason == f"fits worse by {worse:.1f} in chi-square than {first.name}"
+    answer = SimpleNamespace(effects=[e.to_dict() for e in found.effects], confusable=found.confusable)
+    assert told_apart_by(answer) == [first.name, f"{second.name} ({second.reason})"]

@@ -98,7 +98,19 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
-    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down, variant_text
+    from discrepancy.wording import (
+        base_texts,
+        error_text,
+        fitted_together,
+        left_text,
+        shares_text,
+        stand_ins,
+        together_text,
+        told_apart_by,
+        tone,
+        turned_down,
+        variant_text,
+    )
 
     page = page_data(page_of(answer))
     doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
@@ -115,7 +127,9 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
-        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)), "sizes": left_sizes(answer, signal_title),
+        "alike": told_apart_by(answer, effect_title),
+        "base_off": [{"name": e.name, "text": text} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [with_titles(law.text) for law in answer.laws],

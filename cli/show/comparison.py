@@ -29,6 +29,7 @@ from discrepancy.wording import (
     signals_left,
     stand_ins,
     together_text,
+    told_apart_by,
     turned_down,
     variant_text,
     with_base_text,
@@ -148,7 +149,7 @@ def show_answer(answer: Answer) -> None:
     if sizes := left_sizes(answer):
         out.print(f"every sample is off by  {sizes}")
     if answer.confusable:
-        out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
+        out.print(f"\nthis campaign cannot tell apart: {', '.join(told_apart_by(answer))}; `rvwear next` proposes what would")
     for text in stand_ins(answer).values():
         out.print(text)
     for law in answer.laws:

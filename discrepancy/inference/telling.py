@@ -82,7 +82,7 @@ class Teller:
                            for p in by_weight(self.space, member, c)}
                 effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
-                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
+                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0, *beside_first(member, members)))
                 if after > before:
                     warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
@@ -163,6 +163,14 @@ def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) ->
     """The interval with the base model's numbers free within their ranges, where that is another one."""
     factor = factors.get(p.name, 1.0)
     return {"interval_with_base": list(widened(estimate.interval, estimate.value, factor, (p.lower, p.upper)))} if factor > WIDER else {}
+
+
+def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None, str]:
+    """By how much an alternative fits worse than the first of them, as a number and in words."""
+    if len(members) < 2:
+        return None, ""
+    worse = float(member.fit.chi2 - members[0].fit.chi2)
+    return worse, "" if member is members[0] else f"{why_not(member, members[0], worse)} than {members[0].name}"
 
 
 def why_not(rival: Refit, first: Refit, worse: float) -> str:

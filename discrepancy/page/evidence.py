@@ -11,7 +11,7 @@ from discrepancy.page.amounts import effect_title as words
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, turned_down, variant_text, with_base_text
+from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, told_apart_by, turned_down, variant_text, with_base_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -139,7 +139,7 @@ def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
 def confusable(answer: Answer) -> Section:
     """What stands for what, and how alike the responses are."""
     lead = (
-        f"This campaign cannot tell apart: {listed([words(n) for n in answer.confusable])}. rvwear next proposes what would."
+        f"This campaign cannot tell apart: {listed(told_apart_by(answer, words))}. rvwear next proposes what would."
         if answer.confusable
         else "Effects that could stand in place of one that is named" + (", beside the others." if fitted_together(answer) else ".")
     )

@@ -147,7 +147,7 @@ export function show(root, context) {
           "details",
           { class: "panel", open: answer.confusable.length + answer.stand_ins.length > 0 },
           h("summary", {}, h("b", {}, "Rivals, and why not")),
-          answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${answer.confusable.map(words).join(", ")}.`) : null,
+          answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${(answer.alike ?? answer.confusable).join(", ")}.`) : null,
           answer.stand_ins.map((text) => h("p", {}, text)),
           table(
             ["effect", "why not", ""],
