@@ -3,6 +3,7 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
+from discrepancy.extend import judgement
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.telling import beyond, by_weight, meaning
 from discrepancy.inference.verdict import SET
@@ -53,3 +54,15 @@ def test_alternatives_say_by_how_much_they_fit_worse():
     assert second.chi2_difference == worse and second.reason == f"fits worse by {worse:.1f} in chi-square than {first.name}"
     answer = SimpleNamespace(effects=[e.to_dict() for e in found.effects], confusable=found.confusable)
     assert told_apart_by(answer) == [first.name, f"{second.name} ({second.reason})"]
+
+
+def test_an_alternative_is_judged_as_it_will_be_when_it_is_added():
+    model = bench({"gain": 0.03})
+    model.candidates = CANDIDATES[:2]
+    model.records = [replace(r, held_out=r.factors["load"] == 140.0) for r in model.records]
+    doctor = Diagnostician(model)
+    found = doctor.run()
+    assert found.verdict == SET and len(found.effects) == 2
+    for effect, member in zip(found.effects, found.fits.members):
+        added = judgement(doctor, member, None)
+        assert (effect.held_out_error_before, effect.held_out_error_after) == (added.before, added.after)

@@ -14,7 +14,7 @@ from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
 from discrepancy.left_sizes import left_sizes
-from discrepancy.next_run import NextRun
+from discrepancy.next_run import Asked, NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
 from discrepancy.wording import error_text, is_shown, left_text, share_text, shares_text, tone
 from fmu_src.progress import Task
@@ -35,6 +35,15 @@ def test_texts_are_no_markup(capsys):
     shown = capsys.readouterr().out
     assert shown.count("[disc=1") >= 5 and "[bold]" in shown and "[red]odd[/red]" in shown
     assert all(text in shown for text in ("[disc=2]", "[crank=1]", "[disc=3]", "2 um", "cost [runs]"))
+
+
+def test_what_separates_stands_before_what_shows_a_law(capsys):
+    answer = SimpleNamespace(model=SimpleNamespace(campaign=SimpleNamespace(rig=None)))
+    found = NextExperiment(True, "loops tell", [Proposal("loops at 20 degC", {}, 1.0, 9.0, 7.0, {})], {})
+    shows.show_next(NextRun(answer, found, ["a", "b"], "loops tell", [Asked("hysteresis", "mount sensor and unit anew")]))
+    shown = capsys.readouterr().out
+    assert shown.index("loops at 20 degC") < shown.index("mount sensor and unit anew")
+    assert "[chi-square]" in shown and "6 of chi-square is enough" in shown
 
 
 def test_texts_beside_a_bar_are_no_markup():

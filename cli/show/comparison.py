@@ -12,6 +12,7 @@ from discrepancy.compare import Comparison, calibrated_text
 from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
@@ -206,15 +207,21 @@ def show_left(step: Mapping[str, Any], out: Console) -> None:
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
     out.print(run.verdict)
+    if run.result is not None:
+        show_proposals(run, run.result, out)
     show_asked(run, out)
-    if run.result is None:
-        return
+
+
+def show_proposals(run: NextRun, result: NextExperiment, out: Console) -> None:
+    """What would tell the rivals apart, and what it costs not to know."""
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
-    for name in ("experiment", f"cost{f' [{run.cost_unit}]' if run.cost_unit else ''}", "least separation", "mean separation"):
+    separations = "least separation [chi-square]", "mean separation [chi-square]"
+    for name in ("experiment", f"cost{f' [{run.cost_unit}]' if run.cost_unit else ''}", *separations):
         table.add_column(name, justify="left" if name == "experiment" else "right")
-    for p in run.result.proposals[:LONGEST]:
+    for p in result.proposals[:LONGEST]:
         table.add_row(p.experiment, f"{p.cost:g}", f"{p.least:.1f}", f"{p.score:.1f}")
     out.print(table)
+    out.print(f"separation of two effects, their parameters free within what is known of them: {ENOUGH:g} of chi-square is enough")
     for name, text in run.stakes().items():
         out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")
 

@@ -9,6 +9,7 @@ from scipy.special import chdtrc, fdtrc
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
+from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
@@ -200,9 +201,11 @@ class Diagnostician:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
-        # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
-        shown = judge if len(members) > 1 else judgement.held_out(members)
-        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, self.judged_alone)
+
+    def judged_alone(self, member: Refit) -> HeldOut | None:
+        """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, in other patterns."""
+        return self.judgement.held_out([member]).judge(member) if self.space.held_out else None
 
     def p_refitted(self) -> float:
         """p over all effects of the best refit of those that calibrations hide; 1 where none is worth one.

@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.beside_base import WIDER, widened
@@ -56,7 +56,7 @@ class Teller:
 
     def diagnosis(
         self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
-        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None,
+        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: Callable[[Refit], HeldOut | None] | None,
     ) -> Diagnosis:  # fmt: skip
         """Everything that is told, in plain data."""
         effects = []
@@ -126,14 +126,12 @@ class Teller:
         return drop_cost(joint, candidate) if rest is None else rest.fit.chi2 - joint.fit.chi2
 
     def _errors(
-        self, judge: HeldOutJudge | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
+        self, judge: Callable[[Refit], HeldOut | None] | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
     ) -> tuple[float, float]:
-        if judge is not None and self.space.held_out:
-            judged = judge.judge(member)
-            if judged is not None:
-                held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after,
-                                         "unit": "noise"}
-                return judged.before, judged.after
+        judged = judge(member) if judge else None
+        if judged is not None:
+            held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after, "unit": "noise"}
+            return judged.before, judged.after
         base = sum(leave_condition_out(self.space, self.space.base).values())
         left = sum(leave_condition_out(self.space, member.fit).values())
         whole = member.gain / max(captured, 0.05)

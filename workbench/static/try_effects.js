@@ -4,14 +4,14 @@ import { h, number, words } from "./dom.js";
 
 const plain = (value) => String(Number(value.toPrecision(4)));
 
-export function entry(e, { values, search, drawList, follow }) {
+export function entry(e, { values, open, drawList, follow }) {
   const on = e.parameters.some((p) => p.name in values);
   return h(
     "li",
     {},
     h(
       "details",
-      { open: on || (!!search && search.length > 2) },
+      { open: on || open },
       h(
         "summary",
         { title: e.law },
