@@ -221,7 +221,7 @@ def show_proposals(run: NextRun, result: NextExperiment, out: Console) -> None:
     for p in result.proposals[:LONGEST]:
         table.add_row(p.experiment, f"{p.cost:g}", f"{p.least:.1f}", f"{p.score:.1f}")
     out.print(table)
-    out.print(f"separation of two effects, their parameters free within what is known of them: {ENOUGH:g} of chi-square is enough")
+    out.print(f"separations in chi-square, parameters of the effects free within what is known of them: {ENOUGH:g} is enough")
     for name, text in run.stakes().items():
         out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")
 
