@@ -9,7 +9,6 @@ from scipy.special import chdtrc, fdtrc
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
-from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
@@ -201,11 +200,7 @@ class Diagnostician:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
-        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, self.judged_alone)
-
-    def judged_alone(self, member: Refit) -> HeldOut | None:
-        """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, in other patterns."""
-        return self.judgement.held_out([member]).judge(member) if self.space.held_out else None
+        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, judgement.alone)
 
     def p_refitted(self) -> float:
         """p over all effects of the best refit of those that calibrations hide; 1 where none is worth one.
