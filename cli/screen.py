@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from exports.plain import plain_json
-from studies.figure_units import figure_unit
+from studies.figure_units import WHICH_ERROR, figure_unit
 
 # Wide enough for all tables, also where the output goes to a file.
 WIDTH = 100
@@ -51,5 +51,6 @@ def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] =
     for name, value in values.items():
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
         unit = units.get(name) or figure_unit(name)
-        table.add_row(name, text, "" if unit == "1" else unit)
+        which = f"\n  {WHICH_ERROR[name]}" if name in WHICH_ERROR else ""
+        table.add_row(f"{name}{which}", text, "" if unit == "1" else unit)
     console().print(table)

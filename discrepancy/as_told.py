@@ -8,7 +8,8 @@ from discrepancy.inference.verdict import BaseError
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.scales import largest, of_axis, of_parameter, of_signal
+from discrepancy.problem import is_direction as bounds_of_direction
+from discrepancy.scales import largest, of_axis, of_estimate, of_parameter, of_signal
 from fmu_src.table import Table
 from reducers.reducer import Reducer
 
@@ -35,6 +36,12 @@ def effect_name(effect: str, parameter: str) -> str:
     return path + bracket + rest
 
 
+def is_direction(effect: str, parameter: str) -> bool:
+    """Whether an effect's parameter says where something stands."""
+    base, known = parameter.partition("[")[0], every_effect()
+    return effect in known and any(v.name == base and bounds_of_direction(v.unit, v.minimum, v.maximum) for v in (p.variable for p in known[effect].parameters))
+
+
 def row(entry: Mapping[str, Any], signal: str, unit: str, keys: Sequence[str]) -> dict[str, Any]:
     """An entry whose ``keys`` are differences or sizes of a signal [``unit``, SI]."""
     scale = of_signal(signal, unit)
@@ -49,7 +56,7 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
 def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
     """An estimate: value, interval and standard deviation in the field's unit."""
     low, high = entry["interval"]
-    scale = of_parameter(largest(entry["value"], low, high), entry["unit"])
+    scale = of_estimate(entry)
     told = {"value": scale.number(entry["value"]), "interval": [scale.number(low), scale.number(high)], "unit": scale.unit}
     if "standard_deviation" in entry:
         told["standard_deviation"] = abs(scale.factor) * entry["standard_deviation"]
@@ -73,10 +80,10 @@ def numbers(values: Mapping[str, float], units: Mapping[str, str], tables: Seque
     return found
 
 
-def added(entry: Mapping[str, Any]) -> dict[str, Any]:
+def added(effect: str, parameter: str, entry: Mapping[str, Any]) -> dict[str, Any]:
     """A parameter as a model file has it: value and ends of its interval."""
     ends = [entry[key] for key in ("value", "low", "high") if key in entry]
-    scale = of_parameter(largest(*ends), entry.get("unit", "1"))
+    scale = of_parameter(largest(*ends), entry.get("unit", "1"), is_direction(effect, parameter))
     told = {key: scale.number(entry[key]) for key in ("value", "low", "high") if key in entry} | {"unit": scale.unit}
     return {**entry, **told, "si": dict(entry)}
 

@@ -55,7 +55,8 @@ class Extension:
     def as_json(self) -> dict[str, Any]:
         signals = [as_told.row(r, r["signal"], r["unit"], ("before", "after", "noise_floor")) for r in self.step["signals"]]
         effects = {
-            name: {as_told.effect_name(name, key): as_told.added(entry) for key, entry in numbers.items()} for name, numbers in self.file.effects.items()
+            name: {as_told.effect_name(name, key): as_told.added(name, key, entry) for key, entry in numbers.items()}
+            for name, numbers in self.file.effects.items()
         }
         step = self.step | {"signals": signals, "nuisances": as_told.numbers(self.step["nuisances"], self.units, as_told.tables_of(self.file))}
         return {"model": self.file.name, "verdict": self.verdict, "step": step, "effects": effects}

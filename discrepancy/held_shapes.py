@@ -3,7 +3,7 @@
 from discrepancy.as_told import effect_name
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.scales import of_parameter
+from discrepancy.scales import of_variable
 
 
 def held_text(effect: str, model: object) -> str:
@@ -14,5 +14,5 @@ def held_text(effect: str, model: object) -> str:
     for p in known.parameters if known else ():
         if p.is_held:
             value = values.get(p.variable.name, float(p.variable.start))
-            found.append(f"{effect_name(effect, p.variable.name)} = {of_parameter(abs(value), p.variable.unit).text(value, 4)}")
+            found.append(f"{effect_name(effect, p.variable.name)} = {of_variable(p.variable, abs(value)).text(value, 4)}")
     return f"held, not fitted: {', '.join(found)}" if found else ""

@@ -32,6 +32,15 @@ BASE = "base"
 CHAIN = "chain"
 
 
+# Bounds of an angle [rad] that are so far apart are those of a direction, where a gear or a wave stands; errors of angles are far smaller.
+WIDE = 1.5
+
+
+def is_direction(unit: str, low: float, high: float) -> bool:
+    """Whether a parameter with these bounds says where something stands, and not how large an error is."""
+    return unit == "rad" and high - low > WIDE
+
+
 @contextmanager
 def near(values: Mapping[str, float]) -> Iterator[None]:
     """Predictions in this block are of values a little beside ``values``."""
@@ -127,6 +136,10 @@ class Parameter:
     prior: float | None = None
     description: str = ""
     of_base: bool = False
+
+    @property
+    def is_direction(self) -> bool:
+        return is_direction(self.unit, self.lower, self.upper)
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,16 @@
 """SI values in the units that a bench uses; what is computed stays in SI."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.problem import is_direction
 from fmu_src.units import UnitError, conversion, parse, registry
+from fmu_src.variables import Variable
 
 # What numbers of no one quantity are shown in, by their SI unit.
 USUAL = {
@@ -44,10 +48,13 @@ def of_signal(signal: str, unit: str) -> Scale:
     return Scale(1.0, unit) if usual in ("degC", unit) else Scale(conversion(unit, usual)[0], usual)
 
 
-def of_parameter(size: float, unit: str) -> Scale:
-    """Of a parameter of about ``size`` (SI): the field's unit, or the SI unit with a prefix; pint knows them."""
+def of_parameter(size: float, unit: str, direction: bool = False) -> Scale:
+    """Of a parameter of about ``size`` (SI): the field's unit, or the SI unit with a prefix; pint knows them.
+
+    ``direction``: an angle that says where something stands, which is told in degrees however small it is.
+    """
     if unit == "rad":
-        usual = "arcsec" if size < MANY * ARCMIN / 60.0 else "arcmin" if size < MANY * ARCMIN else "deg"
+        usual = "deg" if direction else "arcsec" if size < MANY * ARCMIN / 60.0 else "arcmin" if size < MANY * ARCMIN else "deg"
         return Scale(conversion(unit, usual)[0], usual)
     if unit == "K":
         return Scale(1.0, "degC", ABSOLUTE_ZERO) if size > TEMPERATURE else Scale(1.0, unit)
@@ -99,11 +106,26 @@ def shown(value: float, unit: str, signal: str = "") -> str:
     return of_signal(signal, unit).text(value)
 
 
-def parameter_texts(value: float, interval: tuple[float, float], unit: str) -> tuple[str, str, str]:
+def parameter_texts(value: float, interval: tuple[float, float], unit: str, direction: bool = False) -> tuple[str, str, str]:
     """(value, interval, unit) of an estimate, all in one unit."""
-    scale = of_parameter(largest(value, *interval), unit)
+    scale = of_parameter(largest(value, *interval), unit, direction)
     low, high = (readable(scale.number(v), 4) for v in interval)
     return readable(scale.number(value), 4), f"{low} to {high}", "" if scale.unit == "1" else scale.unit
+
+
+def of_variable(variable: Variable, size: float) -> Scale:
+    """Of an effect's parameter, or another variable, of about ``size`` (SI)."""
+    return of_parameter(size, variable.unit, is_direction(variable.unit, variable.minimum, variable.maximum))
+
+
+def of_estimate(entry: Mapping[str, Any]) -> Scale:
+    """Of an estimate as a diagnosis has it, which fits value and interval."""
+    return of_parameter(largest(entry["value"], *entry["interval"]), entry["unit"], entry.get("direction", False))
+
+
+def estimate_texts(entry: Mapping[str, Any]) -> tuple[str, str, str]:
+    """``parameter_texts`` of an estimate as a diagnosis has it."""
+    return parameter_texts(entry["value"], entry["interval"], entry["unit"], entry.get("direction", False))
 
 
 def largest(*values: float) -> float:

@@ -17,7 +17,7 @@ from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel, defined_at
 from discrepancy.problem import Record
-from discrepancy.scales import largest, of_axis, of_parameter, of_signal
+from discrepancy.scales import of_axis, of_estimate, of_signal
 from discrepancy.verdict import Answer
 from exports.tables import Column, Table, rows_table
 from fmu_src.arrays import Floats, Mask
@@ -91,7 +91,7 @@ def parameter_rows(effect: Mapping[str, Any], answer: Answer) -> list[dict[str, 
     for name, p in effect["parameters"].items():
         low, high = p["interval"]
         told = told_name(name, tables_in(answer.model))
-        scale = of_parameter(largest(p["value"], low, high), p["unit"])
+        scale = of_estimate(p)
         rows.append({
             "effect": effect["name"], "variant": effect["variant"], "parameter": told, "value": scale.number(p["value"]), "low": scale.number(low),
             "high": scale.number(high), "unit": scale.unit, "share_explained": effect["share_explained"],

@@ -1,5 +1,6 @@
 """What may be said of a diagnosis, in words that its numbers bear; for screen and page."""
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -9,11 +10,13 @@ from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.other_places import place_of
-from discrepancy.scales import largest, of_parameter, parameter_texts, shown
+from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
-# A share from here on would be rounded to all of it.
-NEARLY_ALL = 0.95
+# A share from here on would be rounded to all of it, and from there on in hundredths of a percent, too.
+NEARLY_ALL, ALL_BUT_ALL = 0.995, 0.9999
+# What is named leaves something.
+LEAVES = (INCOMPLETE, STOPPED, UNKNOWN)
 MOST_NAMED = 3
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
@@ -30,10 +33,8 @@ def signals_left(left: Mapping[str, float], title: Callable[[str], str] = str) -
 
 
 def share_text(answer: Answer, share: float) -> str:
-    """How much of the misfit an effect takes; what leaves something is never said to explain all of it."""
-    if answer.verdict in (INCOMPLETE, STOPPED, UNKNOWN) and share >= NEARLY_ALL:
-        return "explains most of the misfit, not all of it"
-    return f"explains {100.0 * share:.0f} % of the misfit"
+    """How much of the misfit an effect takes."""
+    return f"explains {percent(answer, share)} of the misfit"
 
 
 def fitted_together(answer: Answer) -> bool:
@@ -42,9 +43,13 @@ def fitted_together(answer: Answer) -> bool:
     return bool(members) and len(members[0].candidates) > 1
 
 
-def percent(share: float) -> str:
-    """An effect that is significant takes something, however small."""
-    return "less than 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
+def percent(answer: Answer, share: float) -> str:
+    """An effect that is significant takes something, however small; what leaves something is never said to take all."""
+    if share < 0.005:
+        return "less than 1 %"
+    if answer.verdict in LEAVES and share >= NEARLY_ALL:
+        return f"{math.floor(1e4 * share) / 100.0:.2f} %" if share < ALL_BUT_ALL else "over 99.99 %"
+    return f"{100.0 * share:.0f} %"
 
 
 def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
@@ -52,7 +57,7 @@ def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
     if effect.get("share_alone") is None:
         return share_text(answer, effect["share_explained"])
     others = "the others" if len(answer.effects) > 1 else "what of the base model is off"
-    return f"explains {percent(effect['share_alone'])} of the misfit alone, adds {percent(effect['share_explained'])} beside {others}"
+    return f"explains {percent(answer, effect['share_alone'])} of the misfit alone, adds {percent(answer, effect['share_explained'])} beside {others}"
 
 
 def together_text(answer: Answer) -> str:
@@ -68,6 +73,12 @@ def stand_ins(answer: Answer) -> dict[str, str]:
     """What could stand in place of each effect, as a sentence."""
     beside = ", beside the others," if fitted_together(answer) else ""
     return {name: f"in place of {name}{beside} could stand: {', '.join(others)}" for name, others in answer.diagnosis.alternatives.items()}
+
+
+def told_apart_by(answer: Answer, title: Callable[[str], str] = str) -> list[str]:
+    """What the campaign cannot tell apart, each with how much worse it fits than the first."""
+    reasons = {effect["name"]: effect.get("reason") for effect in answer.effects}
+    return [title(name) + (f" ({reasons[name]})" if reasons.get(name) else "") for name in answer.confusable]
 
 
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
@@ -132,7 +143,7 @@ def with_base_text(entry: Mapping[str, Any]) -> str:
     """What an interval takes for known, where that is less sure than the interval is narrow; empty elsewhere."""
     if "interval_with_base" not in entry:
         return ""
-    scale = of_parameter(largest(entry["value"], *entry["interval"]), entry["unit"])
+    scale = of_estimate(entry)
     low, high = (readable(scale.number(v), 3) for v in entry["interval_with_base"])
     return f"with the base model's numbers as its file has them; {low} to {high} with each free within its range"
 

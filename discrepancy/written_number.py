@@ -6,7 +6,7 @@ Read again they are the same to a thousandth of their uncertainty, and to twelve
 import math
 from typing import Any
 
-from discrepancy.scales import Scale, largest, of_parameter
+from discrepancy.scales import Scale, largest, of_variable
 from fmu_src.units import UnitError, conversion
 from fmu_src.variables import Variable
 
@@ -29,9 +29,9 @@ def digits_of(value: float, half: float) -> int:
     return min(DIGITS, max(LEAST, 1 + math.floor(math.log10(abs(value))) - math.floor(math.log10(SHARE * half))))
 
 
-def scale_of(size: float, unit: str) -> Scale:
-    """The field's unit, where a file can be read with it; else ``unit`` itself."""
-    scale = of_parameter(size, unit)
+def scale_of(size: float, variable: Variable) -> Scale:
+    """The field's unit, where a file can be read with it; else the variable's own."""
+    unit, scale = variable.unit, of_variable(variable, size)
     try:
         factor, _ = conversion(scale.unit, unit)
     except UnitError:
@@ -43,7 +43,7 @@ def written_entry(variable: Variable, entry: dict[str, Any]) -> dict[str, Any]:
     """Value and interval of an effect's parameter [its SI unit], which stays within its bounds as it is read."""
     numbers: dict[str, float] = {key: float(entry[key]) for key in ("value", "low", "high") if key in entry}
     half = 0.5 * abs(numbers.get("high", math.nan) - numbers.get("low", math.nan))
-    for scale in (scale_of(largest(*numbers.values()), variable.unit), Scale(1.0, variable.unit)):
+    for scale in (scale_of(largest(*numbers.values()), variable), Scale(1.0, variable.unit)):
         back, offset = conversion(scale.unit, variable.unit)
         told = {key: rounded(scale.number(v), digits_of(scale.number(v), abs(scale.factor) * half)) for key, v in numbers.items()}
         if variable.minimum <= back * told["value"] + offset <= variable.maximum:
@@ -54,7 +54,7 @@ def written_entry(variable: Variable, entry: dict[str, Any]) -> dict[str, Any]:
 
 def written_setting(variable: Variable, value: float) -> str | float:
     """A number of the reducer: ``"3 um"``."""
-    scale = scale_of(abs(value), variable.unit)
+    scale = scale_of(abs(value), variable)
     number = rounded(scale.number(value))
     return number if scale.unit == "1" else f"{number:.{DIGITS}g} {scale.unit}"
 

@@ -52,7 +52,7 @@ def lost_motion(context: Context) -> Finding:
     ends = [span_of(values) for values in zip(*((new, later, 100.0 * later / new) for new, later, _, _ in lives))]
     figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121", "Torque one way during life; lost motion between +3 and -3 % of it.",
                    [Curve("lost motion", run.hours, lost, mode="lines+markers"),
-                    Curve("transmission error, peak to peak", run.hours, error, mode="lines+markers")],
+                    Curve("transmission error of the second stage, peak to peak", run.hours, error, mode="lines+markers")],
                     "operating time [h]", "[arcsec]", 6, 300, [(1550.0, "1,550 h")], y_axis={"rangemode": "tozero"})
     return Finding(
         REPRODUCED, "Raceways open a clearance at right angles to the eccentricity and flanks recede alike on all"
@@ -60,7 +60,7 @@ def lost_motion(context: Context) -> Finding:
         [held("lost motion, new", "arcsec", lost[0], 42.7, ends[0]),
          held("growth in 1,550 h", "arcsec", grown, 12.92, ends[1]),
          held("growth", "%", 100.0 * grown / lost[0], 30.23, ends[2]),
-         Number("transmission error, new", "arcsec", error[0], None, 6.8),
+         Number("transmission error of the second stage, new", "arcsec", error[0], None, 6.8),
          Number("at 1,550 h", "arcsec", at(error, 1550.0)), Number("lost motion after 10,000 h", "arcsec", lost[-1])],
         [("lost motion grows by a tenth or more", grown > 0.1 * lost[0]),
          ("transmission error does not grow", at(error, 1550.0) < 1.1 * error[0])], figures=[figure],

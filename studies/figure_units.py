@@ -11,6 +11,9 @@ HELD = "stiffness: input held, loading, between half and all of the torque; runn
 # Two widths of one loop likewise.
 WIDTHS = "loop width: at no torque, the way through the clearances in it; its mean between 3 % and half of the torque is what rvwear compare shows"
 
+# Two transmission errors of one turn likewise, whose names tell them apart only to who knows that there are two.
+WHICH_ERROR = {"transmission_error_pp_arcsec": "second stage alone, against the cranks", "transmission_error_at_input_pp_arcsec": "whole, against the input"}
+
 
 def figure_unit(name: str) -> str:
     """Unit of a figure, from the ending of its name; "1" if it has none."""

@@ -10,7 +10,10 @@ from cli.options import number_in
 from cli.screen import WIDTH
 from cli.show.doctor import show
 from cli.show.effects import show_one
-from discrepancy.catalogue.catalogue import entries
+from discrepancy.catalogue.catalogue import Entry, entries
+from discrepancy.catalogue.examples import cases
+from discrepancy.catalogue.signature import Row, Signature
+from fmu_src.effect import Effect, amplitude
 
 
 def said(capsys, *arguments):
@@ -103,6 +106,19 @@ def test_an_effect_is_numbered_only_where_the_audit_has_it(capsys):
     show_one(own, [], "RV20E-121")
     said = " ".join(capsys.readouterr().out.split())
     assert f"{own.name}, acts in the" in said and "audit" not in said.partition("acts in")[0]
+
+
+def test_an_effect_that_shows_nothing_says_so_and_asks_for_its_size(capsys):
+    effect = Effect(0, "own", "law", "source", "signature", (amplitude("own_turn", "rad", "turning", 5e-6, -1e-2, 1e-2),))
+    own = Entry("own", effect, "plant", cases("own", effect))
+    still, moved = (Signature("own", own.cases[0], (Row("lost motion", "arcsec", "rated", 40.0, 40.0 + change),)) for change in (0.0, 5.0))
+    show_one(own, [still], "RV20E-121")
+    said = " ".join(capsys.readouterr().out.split())
+    assert "at its usual size 5e-06 rad nothing changes that could be seen here; is the usual size too small, or does it act on another part?" in said
+    assert "not listed" not in said and "without" not in said
+    show_one(own, [still, moved], "RV20E-121")
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Those that are not listed do not change" in said and "lost motion" in said
 
 
 def test_a_word_finds_the_effects_in_which_it_stands(capsys):

@@ -13,9 +13,10 @@ from cli.show import comparison as shows
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
-from discrepancy.next_run import NextRun
+from discrepancy.left_sizes import left_sizes
+from discrepancy.next_run import Asked, NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
-from discrepancy.wording import error_text, is_shown, left_text, share_text, tone
+from discrepancy.wording import error_text, is_shown, left_text, share_text, shares_text, tone
 from fmu_src.progress import Task
 
 CLI = Path(__file__).resolve().parents[1] / "cli"
@@ -43,6 +44,15 @@ def test_of_several_signals_it_is_said_of_what_a_share_is(capsys):
         shows.show_localisation(Localisation(groups, {}, 0.01))
         shown = " ".join(capsys.readouterr().out.split())
         assert "of all misfit" in shown and ("chi-square of all signals together" in shown) == said
+
+
+def test_what_separates_stands_before_what_shows_a_law(capsys):
+    answer = SimpleNamespace(model=SimpleNamespace(campaign=SimpleNamespace(rig=None)))
+    found = NextExperiment(True, "loops tell", [Proposal("loops at 20 degC", {}, 1.0, 9.0, 7.0, {})], {})
+    shows.show_next(NextRun(answer, found, ["a", "b"], "loops tell", [Asked("hysteresis", "mount sensor and unit anew")]))
+    shown = capsys.readouterr().out
+    assert shown.index("loops at 20 degC") < shown.index("mount sensor and unit anew")
+    assert "[chi-square]" in shown and ": 6 is enough" in shown
 
 
 def test_texts_beside_a_bar_are_no_markup():
@@ -96,9 +106,24 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
 def test_what_leaves_something_does_not_explain_all():
     left = {"findings": [{"signal": SIGNAL, "feature": "value", "dependence": "hours", "p": 1e-9}]}
     answer = answer_of(INCOMPLETE, True, leftover=left)
-    assert "100 %" not in share_text(answer, 1.0) and share_text(answer, 0.6) == "explains 60 % of the misfit"
+    assert share_text(answer, 1.0) == "explains over 99.99 % of the misfit" and share_text(answer, 0.6) == "explains 60 % of the misfit"
+    assert share_text(answer, 0.99984) == "explains 99.98 % of the misfit"
+    alone = answer.effects[0] | {"share_alone": 0.99984, "share_explained": 0.3}
+    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 %")
     assert left_text(answer) == f"{SIGNAL}, value, changing with hours"
     assert share_text(answer_of(ONE, True), 1.0) == "explains 100 % of the misfit"
+
+
+def test_what_is_left_is_sized_signal_by_signal(capsys):
+    answer = answer_of(INCOMPLETE, True, leftover={"findings": [{"signal": "hysteresis", "feature": "value", "dependence": "everywhere", "p": 1e-9}]})
+    answer.diagnosis.fits.members = [SimpleNamespace(fit=SimpleNamespace(values={}), candidates=[1])]
+    space = answer.diagnosis.fits.space
+    space.noise.whiteners = [SimpleNamespace(kept=np.array([True, True]), floor=floor) for floor in (1e-3 / 1.1, 0.5e-3)]
+    for record in space.records:
+        record.tags, record.condition, record.replicate = {}, "c", 1
+    shows.show_answer(answer)
+    assert "every sample is off by  hysteresis: 1.1 times its noise (unused runs: 2)" in capsys.readouterr().out
+    assert left_sizes(answer_of(ONE, True)) == ""
 
 
 def test_error_below_the_noise_is_not_many_times_the_noise(capsys):

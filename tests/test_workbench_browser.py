@@ -572,6 +572,19 @@ def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
         assert page.locator("[data-parameter=thermal_expansion]").input_value() == tried
 
 
+def test_a_search_under_try_opens_what_is_called_so_alone(bench):
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page = bench.page
+    bench.view("try")
+    page.fill("input[type=search]", "(planet)")
+    page.locator("[data-parameter=planet_runout]").wait_for()
+    titles = page.locator("ul.list > li > details[open] > summary").all_inner_texts()
+    assert titles == ["first stage error (planet)"]
+    # The words about an effect are those of all its forms: these are listed below it.
+    listed = page.locator("ul.list > li > details > summary").all_inner_texts()
+    assert listed[0] == titles[0] and "first stage error (mesh)" in listed
+
+
 @pytest.mark.campaign
 def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench, tmp_path):
     page = dropped(bench, tmp_path)

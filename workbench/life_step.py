@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
     ("lag of the carrier", "arcsec", (("mean_lag_arcsec", "lag"),)),
-    ("transmission error, peak to peak", "arcsec", (("transmission_error_pp_arcsec", "transmission error"),)),
+    ("transmission error, peak to peak", "arcsec", (("transmission_error_at_input_pp_arcsec", "transmission error"),)),
     ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Of hours, and of a torque [N m].

@@ -93,11 +93,24 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
-    from discrepancy.page.amounts import effect_title, with_minus, with_titles
+    from discrepancy.left_sizes import left_sizes
+    from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
-    from discrepancy.wording import base_texts, error_text, fitted_together, left_text, shares_text, stand_ins, together_text, tone, turned_down, variant_text
+    from discrepancy.wording import (
+        base_texts,
+        error_text,
+        fitted_together,
+        left_text,
+        shares_text,
+        stand_ins,
+        together_text,
+        told_apart_by,
+        tone,
+        turned_down,
+        variant_text,
+    )
 
     page = page_data(page_of(answer))
     doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
@@ -114,7 +127,9 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
+        "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
         "laws": [with_minus(with_titles(law.text)) for law in answer.laws],
@@ -127,15 +142,15 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
     from discrepancy.as_told import tables_of, told_name
     from discrepancy.page.amounts import pretty, with_minus
     from discrepancy.page.whys import of_estimate
-    from discrepancy.scales import parameter_texts
+    from discrepancy.scales import estimate_texts
     from discrepancy.wording import with_base_text
 
     found = []
     for name, entry in given.items():
-        value, interval, unit = parameter_texts(entry["value"], entry["interval"], entry["unit"])
+        value, interval, unit = estimate_texts(entry)
         told = told_name(name, tables_of(answer.model))
         found.append({"name": told, "value": with_minus(value), "interval": with_minus(interval), "unit": pretty(unit), "bound": bool(entry.get("bound")),
-                      "with_base": with_minus(with_base_text(entry)),
+                      "with_base": with_minus(with_base_text(entry)), "meaning": entry.get("meaning", ""),
                       "why": asdict(of_estimate(answer.diagnosis.fits.space, entry))})  # fmt: skip
     return found
 

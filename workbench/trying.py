@@ -184,11 +184,14 @@ def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
         low = p.off
     if p.sign < 0:
         high = p.off
-    scale = of_parameter(max(abs(low), abs(high)), p.unit)
+    all_round = p.is_direction and p.upper - p.lower > 2.0 * math.pi
+    if all_round:
+        low, high = -math.pi, math.pi
+    scale = of_parameter(max(abs(low), abs(high)), p.unit, p.is_direction)
     return {
         "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(p.off),
         "low": scale.number(low), "high": scale.number(high), "bounds": [scale.number(p.lower), scale.number(p.upper)], "typical": scale.factor * p.scale,
-        "amplitude": is_amplitude, "description": p.description,
+        "amplitude": is_amplitude, "all_round": all_round, "description": p.description,
     }  # fmt: skip
 
 

@@ -12,11 +12,13 @@ from discrepancy.compare import Comparison, calibrated_text
 from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
+from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
-from discrepancy.scales import parameter_texts, shown
+from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
@@ -28,6 +30,7 @@ from discrepancy.wording import (
     signals_left,
     stand_ins,
     together_text,
+    told_apart_by,
     turned_down,
     variant_text,
     with_base_text,
@@ -133,9 +136,11 @@ def show_answer(answer: Answer) -> None:
             names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
             out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
         for name, number in effect["parameters"].items():
-            value, interval, unit = parameter_texts(number["value"], number["interval"], number["unit"])
+            value, interval, unit = estimate_texts(number)
             bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
             out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+            if number.get("meaning"):
+                out.print(f"    {number['meaning']}")
             if more := with_base_text(number):
                 out.print(f"    {more}")
         if held := held_text(effect["name"], answer.model):
@@ -149,8 +154,10 @@ def show_answer(answer: Answer) -> None:
     left = left_text(answer)
     if left:
         out.print(f"\nnot explained: {left}")
+    if sizes := left_sizes(answer):
+        out.print(f"every sample is off by  {sizes}")
     if answer.confusable:
-        out.print(f"\nthis campaign cannot tell apart: {', '.join(answer.confusable)}; `rvwear next` proposes what would")
+        out.print(f"\nthis campaign cannot tell apart: {', '.join(told_apart_by(answer))}; `rvwear next` proposes what would")
     for text in stand_ins(answer).values():
         out.print(text)
     for law in answer.laws:
@@ -207,15 +214,21 @@ def show_left(step: Mapping[str, Any], out: Console) -> None:
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
     out.print(run.verdict)
+    if run.result is not None:
+        show_proposals(run, run.result, out)
     show_asked(run, out)
-    if run.result is None:
-        return
+
+
+def show_proposals(run: NextRun, result: NextExperiment, out: Console) -> None:
+    """What would tell the rivals apart, and what it costs not to know."""
     table = Table(title=f"to separate {', '.join(run.rivals)}", title_justify="left")
-    for name in ("experiment", f"cost{f' [{run.cost_unit}]' if run.cost_unit else ''}", "least separation", "mean separation"):
+    separations = "least separation [chi-square]", "mean separation [chi-square]"
+    for name in ("experiment", f"cost{f' [{run.cost_unit}]' if run.cost_unit else ''}", *separations):
         table.add_column(name, justify="left" if name == "experiment" else "right")
-    for p in run.result.proposals[:LONGEST]:
+    for p in result.proposals[:LONGEST]:
         table.add_row(p.experiment, f"{p.cost:g}", f"{p.least:.1f}", f"{p.score:.1f}")
     out.print(table)
+    out.print(f"separations in chi-square, parameters of the effects free within what is known of them: {ENOUGH:g} is enough")
     for name, text in run.stakes().items():
         out.print(f"what it costs not to know: at {name} the rivals differ by up to {text}")
 

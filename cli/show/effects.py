@@ -7,6 +7,7 @@ from rich.table import Table
 from cli.options import IDEAL_REDUCER
 from cli.screen import WIDTH, console, dense, styled
 from discrepancy.catalogue.catalogue import Entry
+from discrepancy.catalogue.examples import CASES
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.signature import Signature
@@ -41,12 +42,28 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
         table.add_row(v.path, p.told_kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
     out.print(table)
     for signature in found:
-        table = Table(title=f"computed for {reducer}: {signature.case.title}", title_justify="left")
+        title = f"computed for {reducer}: {signature.case.title}"
+        if not signature.shows:
+            out.print(f"{title}\n  {unseen(entry, signature)}")
+            continue
+        table = Table(title=title, title_justify="left")
         for head in ("figure", "condition", "without", "with", "unit"):
             table.add_column(head, justify="right" if head.startswith("with") else "left")
         for row in signature.rows:
             if row.is_visible():
                 table.add_row(row.figure, row.condition, number(row.without), number(row.present), "" if row.unit == "1" else row.unit)
         out.print(table)
+    if found and not any(signature.shows for signature in found):
+        return
     ideal = " (rigid supports, no losses, so that an effect shows by itself); --reducer RV20E-121 for one as soft and lossy as a real one"
     out.print(f"Figures are those of {reducer}{ideal if reducer == IDEAL_REDUCER else ''}. Those that are not listed do not change.")
+
+
+def unseen(entry: Entry, signature: "Signature") -> str:
+    """What is said of an effect that changes no figure; one's own is shown at the usual size that its file states, in that file's units."""
+    if entry.name in CASES:
+        return "nothing changes that could be seen here"
+    values = signature.case.values
+    sizes = [f"{values[v.name]:g} {'' if v.unit == '1' else v.unit}".rstrip() for v in (p.variable for p in entry.effect.amplitudes()) if v.name in values]
+    size = f"size {sizes[0]}" if len(sizes) == 1 else f"sizes {', '.join(sizes)}"
+    return f"at its usual {size} nothing changes that could be seen here; is the usual size too small, or does it act on another part?"

@@ -64,6 +64,11 @@ class Signature:
     case: Case
     rows: tuple[Row, ...]
 
+    @property
+    def shows(self) -> bool:
+        """Whether anything changes that could be seen."""
+        return any(r.is_visible() for r in self.rows)
+
     def row(self, figure: str, condition: str = "rated") -> Row:
         return next(r for r in self.rows if r.figure == figure and r.condition == condition)
 

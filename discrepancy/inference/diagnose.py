@@ -200,9 +200,7 @@ class Diagnostician:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
             reason += "; some have alternatives that this campaign cannot separate"
-        # Rivals are compared in common; what stands alone is judged as it will be when it is added to the model.
-        shown = judge if len(members) > 1 else judgement.held_out(members)
-        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, shown)
+        return self.teller.diagnosis(verdict, reason, members, rivals, captured, text, p_screen, p_local, alternatives, judgement.alone)
 
     def p_refitted(self) -> float:
         """p over all effects of the best refit of those that calibrations hide; 1 where none is worth one.

@@ -90,6 +90,10 @@ class Judgement:
         """A judge over runs that were not used, in directions that these have in common."""
         return HeldOutJudge(self.space, self.localisation, rivals, self.orders)
 
+    def alone(self, result: Refit) -> HeldOut | None:
+        """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, over other patterns."""
+        return self.held_out([result]).judge(result) if self.space.held_out else None
+
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""
         if self.space.held_out:

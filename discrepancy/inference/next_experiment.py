@@ -144,11 +144,11 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
         ys = [np.atleast_1d(predict(r, r.values, condition)) for r in rivals]
         stake[condition.name] = float(max((np.max(np.abs(a - b)) for a, b in combinations(ys, 2)), default=0.0))
     if good:
-        verdict = f"{good[0].experiment} separates all rivals (least separation {good[0].least:.1f}) at cost {good[0].cost:g}"
+        verdict = f"{good[0].experiment} separates all rivals (least separation {good[0].least:.1f} of chi-square) at cost {good[0].cost:g}"
     elif rest and rest[0].score >= enough:
         verdict = f"no experiment separates every pair; {rest[0].experiment} separates most"
     else:
-        verdict = "cannot be separated on this rig: no setting within the limits reaches " + f"{enough:g}"
+        verdict = "cannot be separated on this rig: no setting within the limits reaches " + f"{enough:g} of chi-square"
     return NextExperiment(bool(good), verdict, good + rest, stake, every)
 
 

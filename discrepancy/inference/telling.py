@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
+from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.held_out.held_out import HeldOutJudge
+from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.beside_base import WIDER, widened
@@ -55,7 +56,7 @@ class Teller:
 
     def diagnosis(
         self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
-        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: HeldOutJudge | None,
+        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: Callable[[Refit], HeldOut | None] | None,
     ) -> Diagnosis:  # fmt: skip
         """Everything that is told, in plain data."""
         effects = []
@@ -77,10 +78,11 @@ class Teller:
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
-                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside} | with_base(numbers[p.name], p, factors) for p in c.parameters}
+                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside, "meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+                           for p in by_weight(self.space, member, c)}
                 effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
-                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0))
+                                      self.scores[c.name].p_adjusted if c.name in self.scores else 1.0, *beside_first(member, members)))
                 if after > before:
                     warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
@@ -124,14 +126,12 @@ class Teller:
         return drop_cost(joint, candidate) if rest is None else rest.fit.chi2 - joint.fit.chi2
 
     def _errors(
-        self, judge: HeldOutJudge | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
+        self, judge: Callable[[Refit], HeldOut | None] | None, member: Refit, captured: float, held_out: dict[str, dict[str, Any]]
     ) -> tuple[float, float]:
-        if judge is not None and self.space.held_out:
-            judged = judge.judge(member)
-            if judged is not None:
-                held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after,
-                                         "unit": "noise"}
-                return judged.before, judged.after
+        judged = judge(member) if judge else None
+        if judged is not None:
+            held_out[member.name] = {"before": judged.before, "after": judged.after, "rms": judged.rms, "p_after": judged.p_after, "unit": "noise"}
+            return judged.before, judged.after
         base = sum(leave_condition_out(self.space, self.space.base).values())
         left = sum(leave_condition_out(self.space, member.fit).values())
         whole = member.gain / max(captured, 0.05)
@@ -142,10 +142,33 @@ class Teller:
         return float(before), float(after)
 
 
+def by_weight(space: Workspace, member: Refit, candidate: Candidate) -> list[Parameter]:
+    """Parameters of an effect as they are told: amplitudes by how much each changes the fitted runs, calibrations taken out; then shapes."""
+    fit, base = member.fit, space.base
+    names = [p.name for p in fit.parameters]
+    columns = project_out(fit.jacobian[:, [names.index(p.name) for p in candidate.amplitudes]], base.jacobian, base.normal)
+    amounts = np.array([fit.values[p.name] - p.off for p in candidate.amplitudes])
+    changes = np.linalg.norm(columns, axis=0) * np.abs(amounts)
+    return [candidate.amplitudes[k] for k in np.argsort(-changes, kind="stable")] + list(candidate.shapes)
+
+
+def meaning(p: Parameter) -> str:
+    """What a parameter is, without where it is off."""
+    return p.description.removesuffix(f" ({p.off:g}: off)")
+
+
 def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:
     """The interval with the base model's numbers free within their ranges, where that is another one."""
     factor = factors.get(p.name, 1.0)
     return {"interval_with_base": list(widened(estimate.interval, estimate.value, factor, (p.lower, p.upper)))} if factor > WIDER else {}
+
+
+def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None, str]:
+    """By how much an alternative fits worse than the first of them, as a number and in words."""
+    if len(members) < 2:
+        return None, ""
+    worse = float(member.fit.chi2 - members[0].fit.chi2)
+    return worse, "" if member is members[0] else f"{why_not(member, members[0], worse)} than {members[0].name}"
 
 
 def why_not(rival: Refit, first: Refit, worse: float) -> str:

@@ -48,7 +48,10 @@ class Settings:
 
 @dataclass(frozen=True)
 class Effect:
-    """A named effect with its estimates and what it achieves."""
+    """A named effect with its estimates and what it achieves.
+
+    Of one of several alternatives ``chi2_difference`` is by how much it fits worse than the first, ``reason`` that in words; None and empty of others.
+    """
 
     name: str
     title: str
@@ -60,6 +63,8 @@ class Effect:
     held_out_error_after: float
     at_bounds: tuple[str, ...]
     p: float
+    chi2_difference: float | None = None
+    reason: str = ""
 
     def to_dict(self) -> dict[str, Any]:
         return {**self.__dict__, "at_bounds": list(self.at_bounds)}

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.scales import AXES, Scale, largest, of_parameter, of_signal
+from discrepancy.scales import AXES, Scale, largest, of_estimate, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
 
@@ -88,7 +88,7 @@ def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     low, high = entry["interval"]
     size = largest(entry["value"], low, high)
-    found = of_parameter(size, entry["unit"])
+    found = of_estimate(entry)
     value, unit = found.number(entry["value"]), pretty(found.unit)
     if high - low <= 1e-9 * size:
         return number(value), UNDETERMINED, unit

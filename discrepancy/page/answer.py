@@ -6,7 +6,9 @@ from discrepancy import wording
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
+from discrepancy.page.amounts import signal_title
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -60,7 +62,8 @@ def sentence(answer: Answer) -> str:
     if answer.verdict in (UNKNOWN, SEVERAL):
         said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
-    return said + (f" Left are: {left}." if left else "")
+    sizes = left_sizes(answer, signal_title)
+    return said + (f" Left are: {left}." if left else "") + (f" Every sample is off by: {sizes}." if sizes else "")
 
 
 def headline(answer: Answer) -> str:
@@ -108,9 +111,8 @@ def cards(answer: Answer) -> list[Card]:
     made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
         best, together = answer.effects[0], wording.fitted_together(answer)
-        most = answer.verdict == INCOMPLETE and diagnosis.captured >= wording.NEARLY_ALL
-        share = "most, not all" if most else f"{100.0 * diagnosis.captured:.0f} %"
-        alone = ", ".join(f"{named(e)} {wording.percent(e['share_alone'])}" for e in answer.effects) if together else ""
+        share = wording.percent(answer, diagnosis.captured)
+        alone = ", ".join(f"{named(e)} {wording.percent(answer, e['share_alone'])}" for e in answer.effects) if together else ""
         title = "Share of the misfit explained" + (" together" if together else "")
         made.append(Card(title, share, f"alone: {alone}" if together else f"best: {named(best)}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:

@@ -5,14 +5,14 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.verdict import INCOMPLETE, SET, SEVERAL
+from discrepancy.inference.verdict import SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.amounts import with_minus
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import NEARLY_ALL, fitted_together, not_judged_text, percent, together_text, turned_down, variant_text, with_base_text
+from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, told_apart_by, turned_down, variant_text, with_base_text
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
@@ -41,15 +41,15 @@ def effects(answer: Answer) -> Section:
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
             bound = "; ".join(filter(None, (bound, with_base_text(entry))))
             told = told_name(name, tables_of(answer.model))
-            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, bound])
+            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, entry.get("meaning", ""), bound])
             first = False
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
         for wave in waves_of(effect["parameters"]):
             value, interval, unit = amounts.estimate({"value": wave.amplitude, "interval": wave.interval, "unit": wave.unit})
             told = f"amplitude, from {told_name(wave.cosine, tables_of(answer.model))} and its sine"
-            rows.append(["", "", told, value, interval, unit, f"phase {wave.phase:.0f}°"])
+            rows.append(["", "", told, value, interval, unit, "", f"phase {wave.phase:.0f}°"])
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, dict(effect["parameters"][wave.cosine])))
-    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", ""], rows, (3, 4), whys=answers)
+    table = Table("Parameters", ["effect", "part", "parameter", "value", "95 % interval", "unit", "meaning", ""], rows, (3, 4), whys=answers)
     lead = {SET: "Each alone explains the misfit; they are alternatives.", SEVERAL: "All of them together."}.get(
         answer.verdict, "As fitted to the runs that are not held out."
     )
@@ -62,13 +62,13 @@ def shares(answer: Answer) -> Figure:
     names, beside = [named(e) for e in answer.effects], [e["share_explained"] for e in answer.effects]
     text = "What an effect takes off the chi-square, of all that is more than noise."
     if not fitted_together(answer):
-        texts = ["most" if answer.verdict == INCOMPLETE and s >= NEARLY_ALL else percent(s) for s in beside]
+        texts = [percent(answer, s) for s in beside]
         values = [100.0 * s for s in beside]
         return bars.single("shares", SHARES, text, names, values, "share [%]", [look.NOW] * len(names), texts, 12, range=[0.0, 112.0])
     alone = [e["share_alone"] for e in answer.effects]
     text += f" Effects that do alike have much alone and little beside the others; {together_text(answer).partition(';')[0]}."
     both = [100.0 * s for s in alone], [100.0 * s for s in beside]
-    return bars.shares("shares", SHARES, text, names, *both, ([percent(s) for s in alone], [percent(s) for s in beside]))
+    return bars.shares("shares", SHARES, text, names, *both, ([percent(answer, s) for s in alone], [percent(answer, s) for s in beside]))
 
 
 def base_off(answer: Answer) -> Section:
@@ -141,7 +141,7 @@ def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
 def confusable(answer: Answer) -> Section:
     """What stands for what, and how alike the responses are."""
     lead = (
-        f"This campaign cannot tell apart: {listed([words(n) for n in answer.confusable])}. rvwear next proposes what would."
+        f"This campaign cannot tell apart: {listed(told_apart_by(answer, words))}. rvwear next proposes what would."
         if answer.confusable
         else "Effects that could stand in place of one that is named" + (", beside the others." if fitted_together(answer) else ".")
     )

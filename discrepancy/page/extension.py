@@ -1,7 +1,7 @@
 """The pages of an extension and of a model with its ladder."""
 
 
-from discrepancy.as_told import effect_name
+from discrepancy.as_told import effect_name, is_direction
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
@@ -170,6 +170,7 @@ def parameters(file: ModelFile) -> Section:
         for k, (name, entry) in enumerate(entries.items()):
             both = {
                 "value": entry["value"],
+                "direction": is_direction(effect, name),
                 "unit": entry.get("unit", "1"),
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
             }

@@ -30,7 +30,9 @@ def page(run: NextRun) -> Page:
         lead = f"Something is left {run.answer.left_over}. Where it would show its law:"
         head = ["measure", "because", "condition", f"cost{f' [{currency}]' if currency else ''}", "expected misfit"]
         note = "Misfit in chi-square, of two runs that are off as those of this signal are on average."
-        sections.insert(0, Section("open", "What nothing explains", lead, [], [Table("", head, rows, (3, 4), note)]))
+        left = Section("open", "What nothing explains", lead, [], [Table("", head, rows, (3, 4), note)])
+        # The table that answers stands first.
+        sections = [*sections, left] if run.result else [left, *sections]
     rivals = listed([effect_title(r) for r in run.rivals])
     verdict = readable(run.verdict)
     finding = verdict[:1].upper() + verdict[1:] + "."
@@ -53,7 +55,7 @@ def cards(run: NextRun, currency: str) -> list[Card]:
             tone=tone,
         ),
         Card("Cost", number(best.cost), "", unit=currency),
-        Card("Least separation of two rivals", size(best.least), f"{ENOUGH:g} is enough", tone=tone, why=whys.of_proposal(best, run.rivals)),
+        Card("Least separation of two rivals", size(best.least), f"in chi-square; {ENOUGH:g} is enough", tone=tone, why=whys.of_proposal(best, run.rivals)),
         Card("Diagnosis so far", run.answer.verdict, f"{len(run.rivals)} rivals"),
     ]
 
@@ -69,7 +71,7 @@ def proposals(result: NextExperiment, currency: str, rivals: Sequence[str]) -> S
     if not best:
         return Section("proposals", "Proposals", "The rig can measure none of what this campaign has.")
     rows = [[title(p), number(p.cost), size(p.least), size(p.score)] for p in best[:MOST]]
-    head = ["experiment", f"cost{f' [{currency}]' if currency else ''}", "least separation", "mean separation"]
+    head = ["experiment", f"cost{f' [{currency}]' if currency else ''}", "least separation [chi-square]", "mean separation [chi-square]"]
     table = Table(
         f"The best {len(rows)}",
         head,

@@ -38,7 +38,7 @@ def between(p: Profile, best: float, at: Floats) -> Floats:
 
 
 def figure(place: int, p: Profile, name: str) -> look.Figure:
-    scale = of_parameter(float(np.abs(p.values).max()), p.unit)
+    scale = of_parameter(float(np.abs(p.values).max()), p.unit, p.is_direction)
     x = scale.factor * p.values + scale.offset
     best, width = float(p.values[int(np.argmin(p.chi2))]), p.deviation
     fine = np.linspace(float(p.values.min()), float(p.values.max()), 61)

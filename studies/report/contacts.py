@@ -161,7 +161,7 @@ def turn_curves(result: Result) -> list[Figure]:
     lag = ARCSEC * result["lag"]
     return [
         curve(result, "turn_lag", "Lag", "lag [arcsec]", lag, "Carrier behind its ideal angle, second stage alone."),
-        curve(result, "turn_error", "Transmission error", "lag less its mean [arcsec]",
+        curve(result, "turn_error", "Transmission error, second stage alone", "lag less its mean [arcsec]",
               lag - lag.mean(axis=1, keepdims=True),
               "The part of the lag that comes and goes with each turn of the cranks."),
         curve(result, "turn_pin_force", "Largest pin force", "force [N]", result["largest_pin_force"],

@@ -21,10 +21,10 @@ def turn_figures(turn: xr.Dataset) -> list[Figure]:
         return values
 
     unit = turn["lag"].attrs["units"]
-    lag, error = over("lag"), over("transmission_error")
+    lag, error = over("lag"), over("transmission_error_at_input")
     # A picture has no title: what was taken off stands in the legend and at the axis.
     errors = [
-        Curve("transmission error at the input", angle, error - error.mean()),
+        Curve("transmission error", angle, error - error.mean()),
         Curve(f"lag of the carrier, less {number(lag.mean())} {unit}", angle, lag - lag.mean(), dash="dash"),
     ]
     forces = [Curve("largest pin force", angle, over("largest_pin_force")), Curve("largest roller force", angle, over("largest_roller_force"), dash="dash")]

@@ -11,6 +11,18 @@ export function nextPart(bag) {
   const sheet = next
     ? [
         h("p", { class: "lead" }, next.verdict),
+        next.proposals.length
+          ? h(
+              "div",
+              { id: "sheet" },
+              table(
+                ["☐", "experiment", price, "least separation [chi-square]", "mean separation [chi-square]"],
+                next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
+                [2, 3, 4],
+                { class: "rows" },
+              ),
+            )
+          : null,
         next.asked.length
           ? h(
               "div",
@@ -19,18 +31,6 @@ export function nextPart(bag) {
                 ["☐", "measure", "because", "condition", price, "expected misfit"],
                 next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
                 [4, 5],
-                { class: "rows" },
-              ),
-            )
-          : null,
-        next.proposals.length
-          ? h(
-              "div",
-              { id: "sheet" },
-              table(
-                ["☐", "experiment", price, "least separation", "mean separation"],
-                next.proposals.map((p) => ["☐", p.experiment, String(Number(p.cost.toPrecision(4))), number(p.least, 3), number(p.mean, 3)]),
-                [2, 3, 4],
                 { class: "rows" },
               ),
             )

@@ -181,12 +181,14 @@ export function show(root, context) {
     return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3);
   };
 
-  const shownEntry = (e) => entry(e, { values, search, drawList, follow });
+  // What is called so stands open and first; what a search only finds in the words about it (which all forms of an effect share) is listed.
+  const named = (e) => !!search && `${e.title} ${e.parameters.map((p) => p.name).join(" ")}`.toLowerCase().includes(search);
+  const shownEntry = (e) => entry(e, { values, open: search.length > 2 && named(e), drawList, follow });
   function drawList() {
     if (!data) return;
     const on = (e) => e.parameters.some((p) => p.name in values);
-    const fits = (e) => !search || `${e.title} ${e.says ?? ""} ${e.parameters.map((p) => p.name).join(" ")}`.toLowerCase().includes(search);
-    const effects = data.effects.filter((e) => fits(e) || on(e)).sort((p, q) => on(q) - on(p));
+    const fits = (e) => !search || named(e) || (e.says ?? "").toLowerCase().includes(search);
+    const effects = data.effects.filter((e) => fits(e) || on(e)).sort((p, q) => on(q) - on(p) || named(q) - named(p));
     const numbers = data.numbers.filter((e) => fits(e) || on(e));
     clear(
       list,

@@ -4,14 +4,14 @@ import { h, number, words } from "./dom.js";
 
 const plain = (value) => String(Number(value.toPrecision(4)));
 
-export function entry(e, { values, search, drawList, follow }) {
+export function entry(e, { values, open, drawList, follow }) {
   const on = e.parameters.some((p) => p.name in values);
   return h(
     "li",
     {},
     h(
       "details",
-      { open: on || (!!search && search.length > 2) },
+      { open: on || open },
       h(
         "summary",
         { title: e.law },
@@ -95,7 +95,8 @@ function slider(p, values, follow) {
     h(
       "span",
       { class: "quiet small", style: { "grid-column": "1 / -1" } },
-      `${number(p.low, 3)} to ${number(p.high, 3)}; allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`,
+      `${number(p.low, 3)} to ${number(p.high, 3)}; ` +
+        (p.all_round ? "all round (behind a gear a further turn is another place)" : `allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`),
       refused,
     ),
   );

@@ -27,6 +27,7 @@ class Profile:
     values: Floats
     chi2: Floats
     deviation: float
+    is_direction: bool = False
 
 
 def profiles(space: Workspace, result: Refit) -> list[Profile]:
@@ -42,7 +43,7 @@ def profiles(space: Workspace, result: Refit) -> list[Profile]:
         places = np.unique(np.clip(best[k] + deviation * np.array(AWAY), p.lower, p.upper))
         others = np.array([j for j in range(len(names)) if j != k], dtype=np.intp)
         chi2 = space.threads.map(partial(moved, space, result, best, k, others), [float(value) for value in places])
-        found.append(Profile(p.name, p.unit, places, np.array(chi2) - fit.chi2, deviation))
+        found.append(Profile(p.name, p.unit, places, np.array(chi2) - fit.chi2, deviation, p.is_direction))
     return found
 
 

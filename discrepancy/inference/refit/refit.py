@@ -31,10 +31,11 @@ class Estimate:
     interval: tuple[float, float]
     dof: float
     at_bound: bool
+    is_direction: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         return {"value": self.value, "interval": list(self.interval), "unit": self.unit, "standard_deviation": self.deviation,
-                "degrees_of_freedom": self.dof, "at_bound": self.at_bound}
+                "degrees_of_freedom": self.dof, "at_bound": self.at_bound} | ({"direction": True} if self.is_direction else {})
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,7 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
             continue
         if fit.normal[k, k] * p.scale**2 < UNDETERMINED:
             # The data say nothing about it: the interval is its range.
-            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False))
+            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False, p.is_direction))
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
@@ -115,7 +116,7 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
         else:
             low, high = value - half, value + half
         interval = (float(max(low, p.lower)), float(min(high, p.upper)))
-        estimated.append(Estimate(p.name, p.unit, value, deviation, interval, dof, p.name in fit.at_bounds))
+        estimated.append(Estimate(p.name, p.unit, value, deviation, interval, dof, p.name in fit.at_bounds, p.is_direction))
     return estimated
 
 
