@@ -23,6 +23,9 @@ FMI_BASE = {
     "mol": "mole", "cd": "candela", "rad": "radian",
 }
 
+# What people write for a torque (kgf.m) is the model's own unit of an unbalance.
+OWN = ("kg.m",)
+
 # What pint made of its definitions: the files of its own cache in one that is checked.
 MARK = b"rvwear units 1\n"
 
@@ -72,7 +75,7 @@ def registry() -> "pint.UnitRegistry[float]":
 def parse(text: str) -> "pint.Unit":
     """A unit such as ``N.m``, ``1/Pa``, ``um``, ``rpm`` or ``1``, or as people write it: ``in-lbf``, ``U/min``."""
     try:
-        return by_pint(written(text))
+        return by_pint(text if text in OWN else written(text))
     except UnitError:
         return by_pint(text)
 
@@ -104,8 +107,9 @@ def conversion(source: str, target: str) -> tuple[float, float]:
 
     aim = parse(target)
     ways = [parse(source)]
-    with suppress(UnitError):
-        ways.append(by_pint(source))
+    for text in (source, written(source)):
+        with suppress(UnitError):
+            ways.append(by_pint(text))
     for unit in ways:
         try:
             zero = registry().Quantity(0.0, unit).to(aim).magnitude

@@ -6,7 +6,7 @@ from cli.main import main
 from discrepancy.campaign.amount import amount
 from fmu_src.faults import InputFault
 from fmu_src.unit_words import COUNTS, WRITTEN, plain
-from fmu_src.units import UnitError, conversion, parse
+from fmu_src.units import UnitError, by_pint, conversion, parse
 from orchestrator.settings import parse_value
 from reducers.completion.command import typed
 from reducers.reducer import load_reducer
@@ -61,3 +61,13 @@ def test_reducer_files_settings_and_campaigns_take_the_same(tmp_path, capsys):
 @pytest.mark.parametrize("value, text", [(411.942686635, "411.943"), (412.0, "412"), (7.5, "7.5"), (1234.5678, "1234.5678"), (0.1 + 0.2, "0.3"), (203.2, "203.2")])
 def test_numbers_in_commands_have_the_digits_that_were_given_or_six(value, text):
     assert typed(value) == text
+
+
+def test_what_people_write_for_another_unit_is_none_of_the_models_own():
+    """kg.m of an unbalance was read as kgf.m, with a factor of 9.8 in every FMU."""
+    reducer = load_reducer("RV20E-121")
+    own = {v.unit for table in (reducer.plant, reducer.wear) for v in table.variables}
+    assert "kg.m" in own
+    assert {unit: parse(unit) for unit in own} == {unit: by_pint(unit) for unit in own}
+    assert conversion("kg.m", "N.m") == (9.80665, 0.0)
+    assert conversion("g.mm", "kg.m") == (pytest.approx(1e-6), 0.0)

@@ -66,9 +66,12 @@ def test_digits_follow_the_uncertainty():
 
 def test_angles_are_in_degrees_minutes_or_seconds_by_their_size(tmp_path):
     path, degree = tmp_path / "m.toml", np.pi / 180.0
-    sizes = {"disc_tooth_errors": {"disc_runout_angle": 30.0 * degree, "disc_ovality_angle": degree}, "edge_loading": {"misalignment": 0.01 * degree}}
+    sizes = {
+        "disc_tooth_errors": {"disc_runout_angle": 30.0 * degree}, "crank_lobe_errors": {"lobe_phase_error_1": 0.5 * degree},
+        "edge_loading": {"misalignment": 0.01 * degree},
+    }  # fmt: skip
     effects = {effect: {name: {"value": value, "unit": "rad"} for name, value in own.items()} for effect, own in sizes.items()}
     save_model(ModelFile("m", load_reducer("RV20E-121"), {}, effects), path)
     written = [entry for table in tomllib.loads(path.read_text())["effects"].values() for entry in table.values()]
-    assert sorted((e["value"], e["unit"]) for e in written) == [(30.0, "deg"), (36.0, "arcsec"), (60.0, "arcmin")]
-    assert load_model(path).values() == pytest.approx(sizes["disc_tooth_errors"] | sizes["edge_loading"])
+    assert sorted((e["value"], e["unit"]) for e in written) == [(30.0, "arcmin"), (30.0, "deg"), (36.0, "arcsec")]
+    assert load_model(path).values() == pytest.approx({name: value for own in sizes.values() for name, value in own.items()})

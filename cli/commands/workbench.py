@@ -1,9 +1,11 @@
 """``rvwear workbench``: the whole loop in a browser."""
 
 import argparse
+import os
 import sys
 import webbrowser
 from pathlib import Path
+from typing import NoReturn
 
 from cli.options import all_cores
 from fmu_src.faults import MissingPart
@@ -17,8 +19,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     bench.set_defaults(run=run_workbench)
 
 
-def run_workbench(options: argparse.Namespace) -> int:
-    """Serves until Ctrl-C."""
+def run_workbench(options: argparse.Namespace) -> NoReturn:
+    """Serves until Ctrl-C, and ends the process."""
     try:
         from workbench.folder import opened
         from workbench.server import serve
@@ -35,4 +37,7 @@ def run_workbench(options: argparse.Namespace) -> int:
             print("no browser was found: open the address yourself", file=sys.stderr)
 
     serve(folder, options.port, all_cores(), ready)
-    return 0
+    # Kernels that a view has asked for may still be compiled in a thread: Python's own end would take the compiler away under it, which aborts.
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)
