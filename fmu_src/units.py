@@ -85,7 +85,11 @@ def written(text: str) -> str:
     if known := KNOWN.get(plain(text)):
         return known[0]
     above, stroke, below = text.partition("/")
-    return "/".join(part_known[0] if (part_known := KNOWN.get(plain(part))) else part for part in (above, below)) if stroke else text
+    if not stroke:
+        return text
+    over, under = (part_known[0] if (part_known := KNOWN.get(plain(part))) else part for part in (above, below))
+    # A product below the stroke is below as a whole: um/Nm.
+    return f"{over}/({under})" if under != below and "." in under else f"{over}/{under}"
 
 
 @cache

@@ -88,12 +88,19 @@ def angle_zero(record: Record) -> str:
 def zero_of(bench: Bench, record: Record, values: Values) -> float:
     """Angle [rad] by which the model's output is ahead of the record's angle if nothing gave way or turned unevenly."""
     zero = values.get(angle_zero(record), 0.0)
-    return zero - values.get(LAG_SHARE, 1.0) * bench.lag(condition_of(bench, record)) if record.of_output else zero
+    if not record.of_output:
+        return zero
+    return zero - values.get(LAG_SHARE, 1.0) * (bench.lag(condition_of(bench, record)) + values.get(lag_added(record), 0.0))
+
+
+def lag_added(record: Record) -> str:
+    """What effects add to the lag of the base model under the record's condition (``lags``)."""
+    return f"lag_added[{record.condition}]"
 
 
 def places_of_zero(record: Record) -> tuple[str, ...]:
     """Names of what ``zero_of`` depends on."""
-    return (angle_zero(record), LAG_SHARE) if record.of_output else (angle_zero(record),)
+    return (angle_zero(record), LAG_SHARE, lag_added(record)) if record.of_output else (angle_zero(record),)
 
 
 def held_condition(bench: Bench, record: Record) -> Condition:

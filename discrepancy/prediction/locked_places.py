@@ -9,13 +9,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from discrepancy.held_names import LOCKED_AT
+from discrepancy.prediction.by_effects import Effects, with_most
 from discrepancy.prediction.conditions import angle_zero
 from discrepancy.problem import Record
 
 # Nearer places show the same [rad of the input].
 NEAR = math.radians(1.0)
-
-Effects = frozenset[str]
 
 
 class LockedPlaces:
@@ -42,8 +41,7 @@ class LockedPlaces:
 
     def taken(self, effects: Effects) -> dict[str, float]:
         """The zeros found with these effects, else with the most of them."""
-        known = [other for other in self.found if other <= effects]
-        return self.found[max(known, key=len)] if known else self.zeros
+        return with_most(self.found, effects, self.zeros)
 
     def base(self) -> dict[str, float]:
         """The zeros from which places count with no effect."""

@@ -21,6 +21,7 @@ from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error, shifted_errors
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.model_error import LOOPS, with_error
@@ -96,6 +97,7 @@ class PhysicalModel:
         self.declared = declared
         # No FMU can be told where its cages stand; what they change is the same in process.
         in_process = Bench(model.reducer, settings) if fmus else self.bench
+        self.lags = Lags(self.bench, self.records)
         self.cages = Cages(in_process, self.records, self.for_record)
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
@@ -161,13 +163,15 @@ class PhysicalModel:
     def settle(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
         every = self.standing() | dict(values)
-        moved = self.locked_places.place(self.cages.effects(every), every)
-        return (self.cages.place(every) if self.cages.ripples else False) or moved
+        effects = self.cages.effects(every)
+        moved = [place(effects, every) for place in (self.locked_places.place, self.lags.place)]
+        return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
-        """See ``problem.Settling``: inputs were locked elsewhere."""
+        """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""
         every = self.standing() | dict(values)
-        return self.locked_places.are_elsewhere(self.cages.effects(every), every)
+        effects = self.cages.effects(every)
+        return any(are_elsewhere(effects, every) for are_elsewhere in (self.locked_places.are_elsewhere, self.lags.are_elsewhere))
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -223,6 +227,7 @@ class PhysicalModel:
     def asked(self, values: Mapping[str, float]) -> Asked:
         """``values`` beside the nuisances where they start."""
         every = self.standing() | dict(values)
+        every |= self.lags.taken(self.cages.effects(every))
         return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every))
 
     def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False, changes: Changes = CHANGES) -> list[Floats]:
