@@ -18,7 +18,7 @@ from discrepancy.inference.noise.noise import noise_key
 from discrepancy.inference.noise.series import spacing_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, UNKNOWN, Settings
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record, is_unplaced
@@ -135,7 +135,8 @@ def next_run(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
 def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     """What to measure next after a diagnosis."""
     fits = answer.diagnosis.fits
-    members = fits.members or fits.rivals[:MOST_RIVALS]
+    # Where nothing is missing, what came nearest is no suspect.
+    members = fits.members or ([] if answer.verdict == NONE else fits.rivals[:MOST_RIVALS])
     names: dict[str, Refit] = {}
     for member in members:
         # Variants of one effect need no separation: the effect is known.

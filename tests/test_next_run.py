@@ -81,8 +81,8 @@ def test_span_is_said_in_words():
     assert said == "50 N.m, any temperature from 20 to 60 degC"
 
 
-def answer_of(verdict, members=(), findings=()):
-    fits = SimpleNamespace(members=[SimpleNamespace(name=m) for m in members], rivals=[], space=None)
+def answer_of(verdict, members=(), findings=(), rivals=()):
+    fits = SimpleNamespace(members=[SimpleNamespace(name=m) for m in members], rivals=[SimpleNamespace(name=r) for r in rivals], space=None)
     local = {"findings": list(findings)}
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
     diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local)
@@ -130,7 +130,9 @@ def test_of_what_is_left_only_what_was_tried_is_said(names, said):
 
 def test_nothing_is_left_after_one_effect_or_none():
     assert proposal_for(answer_of(ONE, ["thermal_expansion"]), CAMPAIGN).verdict == "nothing is left to separate: thermal expansion stands alone"
-    assert "nothing is missing" in proposal_for(answer_of(NONE), CAMPAIGN).verdict
+    # What came nearest to nothing is no suspect.
+    run = proposal_for(answer_of(NONE, rivals=["drag", "first_stage_error"]), CAMPAIGN)
+    assert "nothing is missing" in run.verdict and not run.rivals and run.result is None
 
 
 def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():

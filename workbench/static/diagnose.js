@@ -23,6 +23,8 @@ export function show(root, context) {
   async function load() {
     const jobs = context.state?.jobs ?? {};
     [answer, next, extension, built] = await Promise.all(["diagnose", "next", "extend", "build"].map((kind) => (jobs[kind]?.result ? fetched(kind) : null)));
+    // What was proposed after an answer of before says nothing of this one.
+    if (answer?.begun && jobs.next?.begun < answer.begun) next = null;
     draw();
   }
 
