@@ -6,7 +6,7 @@ from typing import Any
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.verdict import BaseError
 from discrepancy.key_figures import KeyFigure
-from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.model_file import ModelFile, every_effect, parameter_variable
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import is_direction as bounds_of_direction
 from discrepancy.scales import largest, of_axis, of_estimate, of_parameter, of_signal
@@ -38,8 +38,9 @@ def effect_name(effect: str, parameter: str) -> str:
 
 def is_direction(effect: str, parameter: str) -> bool:
     """Whether an effect's parameter says where something stands."""
-    base, known = parameter.partition("[")[0], every_effect()
-    return effect in known and any(v.name == base and bounds_of_direction(v.unit, v.minimum, v.maximum) for v in (p.variable for p in known[effect].parameters))
+    known = every_effect().get(effect)
+    v = parameter_variable(known, parameter) if known else None
+    return v is not None and bounds_of_direction(v.unit, v.minimum, v.maximum)
 
 
 def row(entry: Mapping[str, Any], signal: str, unit: str, keys: Sequence[str]) -> dict[str, Any]:

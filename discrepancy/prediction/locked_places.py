@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from discrepancy.held_names import LOCKED_AT
-from discrepancy.prediction.by_effects import Effects, with_most
+from discrepancy.prediction.by_effects import ByEffects, Effects
 from discrepancy.prediction.conditions import angle_zero
 from discrepancy.problem import Record
 
@@ -17,31 +17,18 @@ from discrepancy.problem import Record
 NEAR = math.radians(1.0)
 
 
-class LockedPlaces:
-    """Zeros by mounting and by set of effects; ``zeros`` are those of the bench itself [rad of the output]."""
+class LockedPlaces(ByEffects):
+    """Zeros by mounting [rad of the output]; ``zeros`` are those of the bench itself."""
 
     def __init__(self, records: Sequence[Record], zeros: Mapping[str, float], ratio: float):
-        self.zeros, self.ratio = dict(zeros), abs(ratio)
+        super().__init__(zeros, NEAR / abs(ratio))
+        self.ratio = abs(ratio)
         locked = {angle_zero(r) for r in records if LOCKED_AT in r.factors or LOCKED_AT in r.axes}
-        self.names = sorted(locked & self.zeros.keys())
-        self.found: dict[Effects, dict[str, float]] = {}
+        self.names = sorted(locked & self.without.keys())
         self.moved: dict[tuple[int, float], Record] = {}
 
-    def place(self, effects: Effects, values: Mapping[str, float]) -> bool:
-        """Takes the zeros of ``values`` for these effects; False if that changes nothing."""
-        if not self.are_elsewhere(effects, values):
-            return False
-        self.found[effects] = {name: values[name] for name in self.names}
-        return True
-
-    def are_elsewhere(self, effects: Effects, values: Mapping[str, float]) -> bool:
-        """Whether ``values`` have other zeros than those that are taken with these effects."""
-        taken = self.taken(effects)
-        return any(abs(values.get(name, taken[name]) - taken[name]) * self.ratio > NEAR for name in self.names)
-
-    def taken(self, effects: Effects) -> dict[str, float]:
-        """The zeros found with these effects, else with the most of them."""
-        return with_most(self.found, effects, self.zeros)
+    def now(self, values: Mapping[str, float]) -> dict[str, float]:
+        return {name: values[name] for name in self.names}
 
     def base(self) -> dict[str, float]:
         """The zeros from which places count with no effect."""
@@ -52,7 +39,7 @@ class LockedPlaces:
         name = angle_zero(record)
         if name not in self.names:
             return record
-        shift = (self.taken(effects)[name] - self.zeros[name]) * self.ratio
+        shift = (self.taken(effects)[name] - self.without[name]) * self.ratio
         if not shift:
             return record
         if (id(record), shift) not in self.moved:

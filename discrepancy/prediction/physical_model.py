@@ -14,6 +14,7 @@ from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import chain, model_error
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.cages import LONG, Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
@@ -54,11 +55,13 @@ PREDICTED = {*OBSERVED, ORDERS}
 
 @dataclass(frozen=True)
 class Asked:
-    """Values of everything for which is predicted: ``of_reducer`` what a reducer knows of, ``acting`` the effects of the measuring chain."""
+    """Values of everything for which is predicted: ``of_reducer`` what a reducer knows of, ``acting`` the effects of the measuring chain, ``effects``
+    by their amplitudes all that are on."""
 
     values: Values
     of_reducer: dict[str, float]
     acting: list[str]
+    effects: Effects
 
 
 class PhysicalModel:
@@ -164,14 +167,14 @@ class PhysicalModel:
         """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
-        moved = [place(effects, every) for place in (self.locked_places.place, self.lags.place)]
+        moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
         return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
-        return any(are_elsewhere(effects, every) for are_elsewhere in (self.locked_places.are_elsewhere, self.lags.are_elsewhere))
+        return any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -227,8 +230,9 @@ class PhysicalModel:
     def asked(self, values: Mapping[str, float]) -> Asked:
         """``values`` beside the nuisances where they start."""
         every = self.standing() | dict(values)
-        every |= self.lags.taken(self.cages.effects(every))
-        return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every))
+        effects = self.cages.effects(every)
+        every |= self.lags.taken(effects)
+        return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every), effects)
 
     def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False, changes: Changes = CHANGES) -> list[Floats]:
         """Predictions on all threads."""
@@ -242,7 +246,7 @@ class PhysicalModel:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         record = curve_of(measured)
-        placed = self.locked_places.placed(record, self.cages.effects(asked.values)) if record.quantity in HELD else record
+        placed = self.locked_places.placed(record, asked.effects) if record.quantity in HELD else record
         try:
             predicted = self.observed(placed, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
