@@ -246,7 +246,7 @@ class Bench(Lives):
 
     def new_held(self, condition: Condition, values: Mapping[str, float], angle: float, torques: Floats, z: Floats) -> np.ndarray:
         """A plant with its input held at an output angle [rad] under the first of ``torques``; its equilibrium is looked for from ``z`` on."""
-        return self.new_plant(condition, values, angle, input_speed=0.0, load_torque=float(torques[0]), z=z)
+        return self.new_plant(condition, values, angle, condition.cage, input_speed=0.0, load_torque=float(torques[0]), z=z)
 
     def held_places(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int, turns: int) -> tuple[Floats, Floats]:
         """(turning, equilibria), each by crank position: those of the base model are where others start."""
@@ -266,7 +266,7 @@ class Bench(Lives):
                 if plants is None or remembers or not guessed:
                     plants = self.new_held(condition, values, angle, torques, z)
                 else:
-                    self.place(plants, angle, z=z, advance_before=0.0)
+                    self.place(plants, angle, condition.cage, z=z, advance_before=0.0)
                 if surfaces is not None:
                     self.put_wear(surfaces, plants)
                 status = coupled.torque_sweep(plants, torques, turning[k], places[k], similar[k], guessed)

@@ -1,4 +1,4 @@
-"""Where the roller cages stood in each run, from the ripple that rollers leave in the transmission error.
+"""Where the roller cages stood in each run, from the ripple that rollers leave in the transmission error, and from the form of loops at one place.
 
 Nobody knows where the cages stand when a run begins, and they stand elsewhere at the next; the error repeats with the pitch of the
 rollers.  Found with the base model and kept as a correction.  An effect that changes the ripple (a clearance of the bearings) has its
@@ -10,18 +10,19 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from scipy.linalg import solve_toeplitz
 
+from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.outlying_samples import bridged
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
-from discrepancy.prediction.observe import ripples_of_cages, transmission_error
+from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
 
-# Samples that a ripple can be found in.
-LONG = 40
+# Samples that a ripple can be found in, and the form of a loop.
+LONG, LONG_LOOP = 40, 16
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
 # Parts of the pitch beside 0 at which the ripple is looked at.
@@ -37,7 +38,8 @@ LAGS = 10
 # Share of itself by which a ripple errs at few nodes.
 RIPPLE_ERRS = 0.06
 
-ForRecord = Callable[[Record, Mapping[str, float]], dict[str, float]]
+# A record as it is seen with the effects of values, and the values that a reducer knows of it.
+ForRecord = Callable[[Record, Mapping[str, float]], tuple[Record, dict[str, float]]]
 
 
 class Cages:
@@ -45,7 +47,7 @@ class Cages:
 
     def __init__(self, bench: Bench, records: Sequence[Record], for_record: ForRecord):
         self.bench, self.for_record = bench, for_record
-        self.records = [bridged(r) for r in records if r.quantity == "transmission_error" and "angle" in r.axes and len(r.values) >= LONG]
+        self.records = [bridged(r) for r in records if tells(r)]
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
 
@@ -63,15 +65,15 @@ class Cages:
         found: dict[str, Floats] = {}
         with task("placing the roller cages", total=len(self.records)) as placing:
             for record in self.records:
-                found[record.name] = self.found(record, self.for_record(record, values))
+                found[record.name] = self.found(*self.for_record(record, values))
                 placing.advance()
         self.ripples[self.effects(values)] = found
         return bool(self.records)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
-        few = fewer(record, turns_of(self.bench, record))
+        few = record if record.quantity in HELD else fewer(record, turns_of(self.bench, record))
         if few is record:
-            there, ahead = transmission_error(self.bench, record, own), ripples_of_cages(self.bench, record, own, QUARTERS)
+            there, ahead = OBSERVED[record.quantity](self.bench, record, own), ripples_of_cages(self.bench, record, own, QUARTERS)
         else:
             there, ahead = self.roughly(few, own, QUARTERS)
         ripples = np.array([np.zeros(len(few.values)), *ahead])
@@ -109,6 +111,13 @@ class Cages:
         pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
         there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *shares)])
         return there, [error - there for error in ahead]
+
+
+def tells(record: Record) -> bool:
+    """Whether a record may tell where its cages stood: a loop does at one place; elsewhere a mean over many is predicted."""
+    if record.quantity == "hysteresis":
+        return LOCKED_AT in record.factors and record.tags.get("locked") != "output" and "torque" in record.axes and len(record.values) >= LONG_LOOP
+    return record.quantity == "transmission_error" and "angle" in record.axes and len(record.values) >= LONG
 
 
 def whitening(rest: Floats) -> Callable[[Floats], Floats]:

@@ -149,19 +149,20 @@ class OverAngle:
 
 @dataclass(frozen=True)
 class OverTorque:
-    """Turning [rad] of the output under the record's torques, input held."""
+    """Turning [rad] of the output under the record's torques, input held; cages ``cage`` ahead [rad]."""
 
     bench: Bench
     record: Record
     # Where the way matters it is gone along exactly, whatever the bench.
     is_exact: bool = False
+    cage: float = 0.0
 
     def exact(self) -> "OverTorque":
         return replace(self, is_exact=True)
 
     @property
     def condition(self) -> Condition:
-        return held_condition(self.bench, self.record)
+        return replace(held_condition(self.bench, self.record), cage=self.cage)
 
     def nodes(self, level: int) -> TorqueNodes | None:
         torques = self.places({})
@@ -297,8 +298,18 @@ def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[f
             found.append(samples(change))
         else:
             return found
-    without = signal(plain, values)
-    return [signal(replace(plain, cage=cage), values) - without for cage in cages]
+    return ripples(plain, values, cages)
+
+
+def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in a loop [rad] at one locked place."""
+    return ripples(OverTorque(bench, record), values, cages)
+
+
+def ripples(curve: OverAngle | OverTorque, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
+    without, *ahead = (signal(replace(curve, cage=cage), values) for cage in (0.0, *cages))
+    return [series - without for series in ahead]
 
 
 def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:

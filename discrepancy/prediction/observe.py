@@ -5,9 +5,10 @@ from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
+from discrepancy.held_names import HELD
 from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
-from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripples, coarse_loop_change, error_change, loop_change, signal
+from discrepancy.prediction.curves import OverAngle, OverTorque, cage_ripples, coarse_loop_change, error_change, locked_ripples, loop_change, signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -47,9 +48,10 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
 
 
 def ripples_of_cages(bench: Bench, record: Record, values: Values, shares: Iterable[float], exactly: bool = False) -> list[Floats]:
-    """What cages each of ``shares`` of their rollers' pitch ahead change in the transmission error."""
+    """What cages each of ``shares`` of their rollers' pitch ahead change in the transmission error, or in a loop at one place."""
     pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    return cage_ripples(bench, record, values, [float(share) * pitch for share in shares], exactly)
+    cages = [float(share) * pitch for share in shares]
+    return locked_ripples(bench, record, values, cages) if record.quantity in HELD else cage_ripples(bench, record, values, cages, exactly)
 
 
 def hysteresis(bench: Bench, record: Record, values: Values) -> Floats:

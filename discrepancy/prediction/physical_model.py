@@ -101,15 +101,17 @@ class PhysicalModel:
         # No FMU can be told where its cages stand; what they change is the same in process.
         in_process = Bench(model.reducer, settings) if fmus else self.bench
         self.lags = Lags(self.bench, self.records)
-        self.cages = Cages(in_process, self.records, self.for_record)
+        self.cages = Cages(in_process, self.records, self.as_seen)
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
         if zeros is None:
             self.align(always=len(nuisances) < len(campaign.nuisances))
-            self.cages.place(self.standing())
         # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
-        self.bench.zeros.update(self.zeros)
+        for bench in (self.bench, in_process):
+            bench.zeros.update(self.zeros)
         self.locked_places = LockedPlaces(self.records, self.zeros, self.bench.ratio)
+        if zeros is None:
+            self.cages.place(self.standing())
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.
@@ -246,9 +248,8 @@ class PhysicalModel:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         record = curve_of(measured)
-        placed = self.locked_places.placed(record, asked.effects) if record.quantity in HELD else record
         try:
-            predicted = self.observed(placed, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
+            predicted = self.observed(self.placed(record, asked), self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
                 torque = impossible_torque(measured, self.campaign)
@@ -290,6 +291,15 @@ class PhysicalModel:
                 found = self.observed(record, beside, None, rough or (changes is CHANGES and record.quantity in COARSE_CHANGES)) + change
             self.shown[key] = found
         return found
+
+    def placed(self, record: Record, asked: Asked) -> Record:
+        """The record, as if locked where that is with the effects that are on."""
+        return self.locked_places.placed(record, asked.effects) if record.quantity in HELD else record
+
+    def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
+        """``placed`` and ``for_record``."""
+        asked = self.asked(values)
+        return self.placed(record, asked), self.own(record, asked)
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """What a reducer knows of ``values``, with those of this record's mounting, condition or run under the plain name."""

@@ -32,6 +32,7 @@ class Condition:
     """What the bench is set to; SI units.  ``direction`` +1 or -1 of rotation and of the torque that opposes it.
 
     ``locked_at``: where a held test is done, as the angle [rad] of an output that follows its input evenly; None: the mean over a turn of the cranks.
+    ``cage``: how far the roller cages stand ahead there [rad] of where rolling from 0 brings them.
     """
 
     speed: float
@@ -40,6 +41,7 @@ class Condition:
     hours: float = 0.0
     direction: int = 1
     locked_at: float | None = None
+    cage: float = 0.0
 
 
 class Units:
