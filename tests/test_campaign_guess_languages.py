@@ -48,7 +48,7 @@ def test_heads(header, meaning, unit):
     ("Charge = 100 N.m, vitesse d'entrée = 1210 tr/min", {"load": (100.0, "N.m"), "input_speed": (1210.0, "rpm")}), ("Durée de l'essai : 12 h", {}),
     ("Rotação de saída: 16,5 rpm; carga: 110 N.m", {"output_speed": (16.5, "rpm"), "load": (110.0, "N.m")}),
     ("Velocità uscita: 15 giri/min", {"output_speed": (15.0, "rpm")}), ("Par de salida: 100 N·m; temperatura: 30 °C", {"load": (100.0, "N.m"), "temperature": (30.0, "degC")}),
-    ("输出转速：15 转/分", {"output_speed": (15.0, "rpm")}), ("负载：167 N・m", {"load": (167.0, "N.m")}), ("出力回転数：15 回転/分", {"output_speed": (15.0, "rpm")}),
+    ("输出转速：15 转/分", {"output_speed": (15.0, "rpm")}), ("负载：167 N・m", {"load": (167.0, "N.m")}), ("油温,25.1℃", {"temperature": (25.1, "degC")}), ("出力回転数：15 回転/分", {"output_speed": (15.0, "rpm")}),
 ])  # fmt: skip
 def test_lines_above_the_table(line, stated):
     assert stated_above((line,)) == stated

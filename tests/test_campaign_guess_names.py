@@ -48,6 +48,7 @@ def test_loads_in_names(name, load, pattern):
     ("te--10C", {"temperature": -10.0}, "te-{temperature}C", None), ("te-T-10C", {"temperature": -10.0}, "te-T{temperature}C", None),
     ("temp-10C", {"temperature": -10.0}, "temp{temperature}C", None), ("te_-10C", {"temperature": -10.0}, "te_{temperature}C", None),
     ("2024-05-03", {}, "{any}", None),
+    ("角度伝達誤差_50Nm_2回目", {"load": 50.0}, "角度伝達誤差_{load}Nm_{replicate}回目", 2), ("传动误差_50Nm_第2次", {"load": 50.0}, "传动误差_{load}Nm_第{replicate}次", 2),
 ])  # fmt: skip
 def test_hyphens_part_names_that_nothing_else_parts(name, numbers, pattern, replicate):
     found = proposed(Path(f"{name}.csv"))

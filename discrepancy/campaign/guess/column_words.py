@@ -27,7 +27,7 @@ MEANINGS = {
     "order": r"^order|ordnung|^(?:ordre|ordine|orden|ordem)(?![a-z])|阶次|階次|次数",
     "acceleration": r"acc|beschl|vibra|schwing|加速度|振动|振動",
     # Not what French and Italian call time.
-    "temperature": r"temp(?!s(?![a-z])|o(?![a-z]))|温度|溫度",
+    "temperature": r"temp(?!s(?![a-z])|o(?![a-z]))|温度|溫度|油温|油溫|室温|室溫|気温",
     "speed": r"speed|veloc|vitesse|drehzahl|geschw|rpm|r[ée]gime|numero (?:di )?giri|revoluciones|(?<!de )rota[çc](?:[ãa]o|[õo]es)|转速|轉速|回転(?!角)|速度"
     r"|(?:^|[ _.-])n(?:$|[ _.-])|(?:^|[ _.-])omega",
     "torque": r"torq|moment|drehm|(?<![a-z])couple(?![a-z])|coppia|(?<![a-z])bin[áa]rio|^par(?:$|[ _.-])|扭矩|转矩|轉矩|力矩|トルク|负载|負載|負荷(?!側)"

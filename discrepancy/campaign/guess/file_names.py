@@ -22,7 +22,7 @@ SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in 
 WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-].*)$")
 COUNTED = re.compile(
     r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|ensaio|teste|medição"
-    r"|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回)?$",
+    r"|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回目?|遍|度目)?$",
     re.IGNORECASE,
 )
 # Words behind which a letter counts, too: run A, Lauf B.

@@ -27,6 +27,8 @@ SAID = [
         rf"\b(?:{HELD}) (?:{SHAFTS['input']})\w*? (?:{BETWEEN} ){{0,2}}{AT}{ANGLE}",
         rf"{SHAFT}{AT}{ANGLE} (?:{BETWEEN} ){{0,2}}(?:{HELD})\b",
         rf"{EAST_ASIAN}を?{EAST_ASIAN_HELD} ?(?:在|于|於|角度|位置|at) ?{EAST_ASIAN_ANGLE}",
+        # Without a word that leads to it 度 may be of a temperature.
+        rf"{EAST_ASIAN}を?{EAST_ASIAN_HELD} ?{NUMBER} ?(?P<unit>°|deg)(?!\w?[cC]\b)",
         rf"{EAST_ASIAN} ?(?:を|在|于|於)? ?{EAST_ASIAN_ANGLE} ?(?:处|處|で|に|の位置で)? ?{EAST_ASIAN_HELD}",
     )
 ]
