@@ -2,14 +2,17 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from exports.tables import Table
 from pages.look import Figure
 
 
-def note_of(changes: Sequence[str]) -> str:
-    """Empty where nothing was changed."""
-    return f"with {', '.join(changes)} instead of the sources' numbers: what these carry need not hold" if changes else ""
+def note_of(changes: Sequence[str], is_moved: bool = True) -> str:
+    """Empty where nothing was changed; ``is_moved``: whether what it stands beside is other than with the sources' numbers."""
+    if not changes:
+        return ""
+    return f"with {', '.join(changes)} instead of the sources' numbers: {'what these carry need not hold' if is_moved else 'nothing here is moved by that'}"
 
 
 def noted_tables(tables: Sequence[Table], note: str) -> list[Table]:
@@ -17,13 +20,15 @@ def noted_tables(tables: Sequence[Table], note: str) -> list[Table]:
 
 
 def noted_figure(figure: Figure, note: str) -> Figure:
-    """The figure with the note below its axis; a polar one, which has none, with it in the legend."""
+    """The figure with the note below its axis; a polar one, or one to scale, which have none, with it in the legend."""
     if not note:
         return figure
-    if any(trace.get("type") == "scatterpolar" for trace in figure.data):
-        said = {"type": "scatterpolar", "mode": "lines", "name": note, "theta": [], "r": [], "line": {"color": "#ffffff"}}
-        return replace(figure, data=[*figure.data, said], layout=figure.layout | {"showlegend": True})
     axis = figure.layout.get("xaxis", {})
+    is_polar = any(trace.get("type") == "scatterpolar" for trace in figure.data)
+    if is_polar or not axis.get("visible", True):
+        nowhere: dict[str, Any] = {"type": "scatterpolar", "theta": [], "r": []} if is_polar else {"type": "scatter", "x": [], "y": []}
+        said = nowhere | {"mode": "lines", "name": note, "line": {"color": "#ffffff"}}
+        return replace(figure, data=[*figure.data, said], layout=figure.layout | {"showlegend": True})
     title = axis.get("title", "")
     words = title.get("text", "") if isinstance(title, dict) else title
     return replace(figure, layout=figure.layout | {"xaxis": axis | {"title": {"text": f"{words}\n{note}".strip()}}})

@@ -114,6 +114,11 @@ class ModelFile:
         """Its name, and that of its file where this is another: several files may carry on one model."""
         return self.name if self.path is None or self.path.stem == self.name else f"{self.path.name} ({self.name})"
 
+    @property
+    def label(self) -> str:
+        """What a result of it is called: its name, which may be its reducer's, and that of its file; fit for file names."""
+        return self.name if self.path is None or self.path.stem == self.name else f"{self.name}-{self.path.stem}"
+
     def values(self) -> dict[str, float]:
         """Everything that differs from the reducer file: settings and effects' parameters."""
         found = dict(self.settings)

@@ -15,6 +15,7 @@ from fmu_src.variables import Variable
 # What numbers of no one quantity are shown in, by their SI unit.
 USUAL = {
     "m": "um", "m/s^2": "m/s^2", "kg": "mg", "rad/s": "rpm", "N.m/rad": "N.m/arcmin", "rad/(N.m)": "arcmin/(N.m)", "kg.m": "g.mm",
+    "m/(N.m)": "um/(N.m)",
 }  # fmt: skip
 # Units of two parts that read well with a prefix.
 PREFIXED = ("m/N", "N/m", "m/s")
@@ -66,10 +67,8 @@ def of_parameter(size: float, unit: str, direction: bool = False) -> Scale:
         quantity = registry().Quantity(size, parse(unit))
     except UnitError:
         return Scale(1.0, unit)
-    if quantity.dimensionless or not 0.0 < size < math.inf or (len(dict(quantity.unit_items())) > 1 and unit not in PREFIXED):
-        return Scale(1.0, unit)
-    if unit.startswith("1/"):
-        # 1/GK and the like are nobody's units.
+    # A quotient that is not known to take a prefix, whether parts of it cancel (m.m/(N.m)) or not: 1/GN, 1/GK and the like are nobody's units.
+    if quantity.dimensionless or not 0.0 < size < math.inf or (unit not in PREFIXED and ("/" in unit or len(dict(quantity.unit_items())) > 1)):
         return Scale(1.0, unit)
     compact = quantity.to_compact()
     return Scale(float(compact.magnitude / size), f"{compact.units:~P}")

@@ -15,6 +15,7 @@ from fmu_src.faults import InputFault, MissingPart
 from pages.cells import heat, is_worded, least_height
 from pages.look import Figure, Layout, Trace
 from pages.marks import INCH, SIGN_WIDTH, bars, line_of, polar_curve, spelled
+from pages.titles import folded, keep_within, title_of
 
 ENDINGS = (".svg", ".pdf", ".png")
 # Widths of a paper's columns [mm]: one, one and a half, both (Elsevier's; IEEE's are 88 and 181).
@@ -24,13 +25,7 @@ NARROWEST, WIDEST = 30.0, 1000.0
 SCREEN_COLUMN, FLATTEST, LOWEST = 92.0, 0.6, 25.0
 # Upright bars have a share of the width, too, for the title of their axis stands beside them.
 LOWEST_BARS = 0.5
-# What is left of a plot's height when labels and legend have theirs.
-SHARE_OF_AXES = 0.75
-# Of a picture's width, what a line of the title below it may take.
-SHARE_OF_WIDTH = 0.85
 DOTS = 300
-# Signs of a line of an axis' title at least.
-SHORTEST = 10
 # What the line beside a name of the legend takes [mm].
 KEY_WIDTH = 9.0
 # What a further line of the legend takes [mm]: the plot keeps its height.
@@ -111,7 +106,7 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
         height = width * float(along or 1.0) / float(across)
     height = max([height, *(least_height(trace, width) for trace in figure.data if trace.get("type") == "heatmap" and is_worded(trace))])
     with mpl.rc_context(STYLE):
-        picture = Picture(figsize=(width / INCH, height / INCH), layout="constrained")
+        picture = Picture(figsize=(width / INCH, height / INCH), dpi=DOTS, layout="constrained")
         traces = [trace for trace in figure.data if trace.get("visible", True) is True]
         if any(trace.get("type") == "scatterpolar" for trace in traces):
             axes = {"y": picture.add_subplot(projection="polar")}
@@ -120,8 +115,11 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
         else:
             axes = cartesian(picture, figure.layout, traces)
         add_legend(picture, axes, figure, traces)
+        lowest = list(axes.values())[-1]
+        keep_within(picture, lowest)
         if lines and not figure.aspect and "y2" not in axes and "theta" not in traces[0]:
             keep_half(picture, axes["y"])
+            keep_within(picture, lowest)
     return picture
 
 
@@ -182,9 +180,7 @@ def finish(axes: Any, layout: Layout, name: str, is_lowest: bool, heated: bool) 
     if y.get("scaleanchor"):
         axes.set_aspect("equal")
     if is_lowest:
-        # The title stands below the middle of the axis, which is not that of the picture.
-        room = max(SHORTEST, int(SHARE_OF_WIDTH * INCH * axes.figure.get_figwidth() / SIGN_WIDTH))
-        axes.set_xlabel("\n".join(fill(line, room) for line in title_of(x).split("\n")))
+        axes.set_xlabel(title_of(x))
     axes.set_ylabel(folded(title_of(y), axes))
     if not heated:
         if y.get("autorange") == "reversed":
@@ -198,21 +194,6 @@ def finish(axes: Any, layout: Layout, name: str, is_lowest: bool, heated: bool) 
             # plotly takes such places as powers of ten.
             powers = {k: 10.0 ** note[k] for k, axis in (("x", x), ("y", y)) if axis.get("type") == "log" and "paper" not in str(note.get(f"{k}ref"))}
             add_note(axes, note | powers)
-
-
-def title_of(axis: Layout) -> str:
-    title = axis.get("title", "")
-    return spelled(title.get("text", "") if isinstance(title, dict) else title)
-
-
-def folded(title: str, axes: Any) -> str:
-    """A title on lines that are no longer than its axis, the unit on the last, where it is longer itself."""
-    room = INCH * axes.figure.get_figheight() * axes.get_position().height * SHARE_OF_AXES
-    words, unit = title.rpartition(" [")[::2]
-    if len(title) * SIGN_WIDTH <= room:
-        return title
-    lines = fill(words or title, max(SHORTEST, int(room / SIGN_WIDTH)), break_long_words=False)
-    return f"{lines}\n[{unit}" if words else lines
 
 
 def rule(axes: Any, shape: Layout, name: str) -> None:

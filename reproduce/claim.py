@@ -122,6 +122,14 @@ class Claim:
     altered: tuple[str, ...] = ()
     # The same for what each figure shows, which may be fewer reducers than the numbers are of; empty where nothing was changed.
     drawn_with: tuple[tuple[str, ...], ...] = ()
+    # Whether the other numbers moved any of the claim's, and what each of its figures shows.
+    numbers_moved: bool = True
+    figures_moved: tuple[bool, ...] = ()
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether anything of it is other than with the sources' numbers."""
+        return self.numbers_moved or any(self.figures_moved)
 
     @property
     def stands(self) -> bool:

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from reproduce import (  # noqa: F401  each registers its claims
     bearing_claims,
@@ -29,6 +28,7 @@ from reproduce import (  # noqa: F401  each registers its claims
 )  # fmt: skip
 from reproduce.claim import REGISTRY, Claim
 from reproduce.context import Context
+from reproduce.moved import altered
 from reproduce.statements import chosen
 
 
@@ -40,14 +40,14 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
     """
     ids = chosen(selected)
     context = Context(lambda text: progress(f"  run   {text}"), changes)
+    # As the sources have it, to see what the changes move.
+    theirs = Context(lambda text: progress(f"  run   {text}, with the sources' numbers")) if changes else None
     claims = []
     for i, name in enumerate(ids, 1):
         begun = time.perf_counter()
         claim = REGISTRY[name](context)
-        # The independent solver had the sources' numbers.
-        if changes:
-            claim = replace(claim, numbers=[replace(number, audited=None) for number in claim.numbers], altered=context.altered,
-                            drawn_with=tuple(map(context.altered_in, claim.figures)))  # fmt: skip
+        if theirs is not None:
+            claim = altered(claim, context, REGISTRY[name](theirs))
         claims.append(claim)
         progress(f"{i:3d}/{len(ids)}  {name}  {claim.title}: {claim.outcome} "
                  f" ({time.perf_counter() - begun:.1f} s)")

@@ -12,8 +12,8 @@ TEMPLATE = Path(__file__).with_name("claims.html")
 TONES = {REPRODUCED: "good", CONDITIONAL: "fair", CONTRADICTED: "bad", NOT_TESTABLE: "open", FALLEN: "plain"}
 
 
-def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
-    """The whole page as HTML; equal claims give equal bytes."""
+def page_of(claims: list[Claim], changes: Sequence[str] = (), still: str = "") -> str:
+    """The whole page as HTML; equal claims give equal bytes.  ``still``: what the changes did not move, in words."""
     groups = [(source, [c for c in claims if c.source == source]) for source in SOURCES]
     numbers = [n for c in claims for n in c.numbers if n.agrees is not None]
     return rendered(
@@ -21,11 +21,11 @@ def page_of(claims: list[Claim], changes: Sequence[str] = ()) -> str:
         groups=[(source, found) for source, found in groups if found], tones=TONES, number=value_text, audited=audited_text,
         ours=ours_text, off=off_text, range=range_text, span=span_text, unit=unit_text, held=[(c, n) for c in claims for n in c.held],
         counts=[(v, TONES[v], count) for v, count in counts_of(claims).items()], total=counted(len(claims), "claim"),
-        changes=changes, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
+        changes=changes, still=still, confirmed=sum(n.agrees is True for n in numbers), compared=len(numbers), fallen=[c for c in claims if not c.stands],
         discrepancies=[(c, n) for c in claims for n in c.discrepancies],
     )  # fmt: skip
 
 
-def write_page(claims: list[Claim], path: Path, changes: Sequence[str] = ()) -> Path:
+def write_page(claims: list[Claim], path: Path, changes: Sequence[str] = (), still: str = "") -> Path:
     """Write the claims as one HTML file that opens offline."""
-    return written(page_of(claims, changes), path)
+    return written(page_of(claims, changes, still), path)

@@ -104,3 +104,22 @@ def test_the_command_says_which_width_is_which(capsys):
     assert main(["hysteresis", "--reducer", "RV20E-121", "--steps", "4", "--angles", "1"]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "loop_mean_width_arcmin" in said and "loop width: at no torque" in said and "between 3 % and half of the torque is what rvwear compare shows" in said
+
+
+def test_a_stiffness_of_rigid_supports_says_so(capsys):
+    """2,465 N m/arcmin of a file without compliances stood there without a word."""
+    from cli.main import main
+    from orchestrator.settings import parse_setting
+    from reducers.reducer import load_reducer
+    from studies.rigid import rigid_supports
+
+    rigid = load_reducer("RV20E-121-rigid")
+    assert "crank.support_compliance, first_stage.compliance, carrier.compliance" in rigid_supports(rigid) and "reducer new" in rigid_supports(rigid)
+    assert not rigid_supports(load_reducer("RV20E-121")) and "reducer new" not in rigid_supports(load_reducer("cycloidal-actuator"))
+    for text in ("housing.compliance=1e-8", "effects.support_compliance.carrier_compliance=1e-8"):
+        assert not rigid_supports(rigid, [parse_setting(text, [rigid.plant, rigid.wear])])
+    for words in (["hysteresis", "--steps", "4", "--angles", "1"], ["solve", "--positions", "8"]):
+        assert main([*words, "--reducer", "RV20E-121-rigid"]) == 0
+        assert " ".join(rigid_supports(rigid).split()) in " ".join(capsys.readouterr().out.split())
+    assert main(["solve", "--positions", "8", "--reducer", "RV20E-121"]) == 0
+    assert "no support yields" not in capsys.readouterr().out

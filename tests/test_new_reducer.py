@@ -19,6 +19,7 @@ from reducers.completion.given import Given
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
 from studies.completed_ranges import Influence, influences, what_matters
+from studies.hysteresis import hysteresis
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
 from workbench.reducers import findings
@@ -313,3 +314,23 @@ def test_what_somebody_measured_counts_for_given_and_what_hangs_on_it_is_outdate
     found = check(load_reducer(path))
     assert any(one.startswith("pin.radius = 6.3") and "R_p sin(pi/z_p)" in one for one in found.outdated)
     assert not any(one.startswith("pin.circle_radius") for one in found.outdated) and "--known pin.circle_radius=110mm" in found.completing
+
+
+def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", "167", "--diameter", "145", "--name", "m"]
+    assert main([*words, "--stiffness", "50Nm/arcmin"]) == 0
+    assert "m/N makes the torsional stiffness that of the catalogue, 50 N.m/arcmin" in " ".join(capsys.readouterr().out.split())
+    made = load_reducer("m.toml")
+    assert made.sources["crank_seat_compliance"] == "given: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
+    assert hysteresis(made, []).stiffness_Nm_per_arcmin == pytest.approx(50.0, rel=2e-3)
+    # What is far from the rules is doubtful, what nothing makes is refused.
+    assert main([*words, "--stiffness", "1700Nm/deg", "--overwrite"]) == 0
+    assert "asks for crank.support_compliance" in " ".join(capsys.readouterr().out.split())
+    for more, said in (
+        (["--stiffness", "2000"], "with rigid crank supports the other numbers make it 274"), (["--stiffness", "0"], "must be 0.1 or more"),
+        (["--stiffness", "50", "--known", "crank.support_compliance=1e-9m/N"], "keep one"),
+    ):  # fmt: skip
+        assert main([*words, *more, "--output", "no.toml"]) == 2
+        assert said in " ".join(capsys.readouterr().err.split())
+    assert not (tmp_path / "no.toml").exists()

@@ -64,3 +64,24 @@ def test_orders_in_a_picture_have_names_that_stand_apart_and_a_whole_title():
     title, whole = axes.yaxis.label.get_window_extent(), picture.bbox
     assert whole.y0 <= title.y0 and title.y1 <= whole.y1 and "transmission error" in axes.get_ylabel().replace("\n", " ")
     assert axes.get_window_extent().height / picture.dpi * 25.4 > 20.0
+
+
+def test_a_title_below_a_plot_ends_before_the_edge_of_the_picture():
+    """What was changed stands below the axis, whose middle is not that of the picture."""
+    pytest.importorskip("matplotlib", reason="no matplotlib: pip install matplotlib")
+    from cli.altered import note_of, noted_figure
+    from pages.charts import Curve, chart
+    from pages.paper import drawn
+
+    note = note_of(["bearing.clearance=10um (RV20E-121 had 2.5 um)"])
+    for y_title in ("F / F max", "force along the pressure angle and beyond it [kN]"):
+        figure = chart("sine", "", "", [Curve("a", np.arange(9.0), np.arange(9.0))], "sin", y_title)
+        for width in (60.0, 90.0, 190.0):
+            picture = drawn(noted_figure(figure, note), width)
+            picture.canvas.draw()
+            label = picture.axes[0].xaxis.label
+            box, words = label.get_window_extent(), label.get_text().replace("\n", " ")
+            assert picture.bbox.x0 <= box.x0 and box.x1 <= picture.bbox.x1 and picture.bbox.y0 <= box.y0, (width, label.get_text())
+            assert words == f"sin {note}"
+    # Where there is room, nothing is folded that was not.
+    assert label.get_text().count("\n") == 1

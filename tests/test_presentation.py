@@ -39,6 +39,11 @@ def test_values_are_shown_in_the_unit_that_people_read(rv20e, name, shown):
     assert display_unit(v) == shown
 
 
+def test_length_per_torque_is_no_force_below_a_stroke():
+    assert display_unit(Variable("windup", "parameter", "m/(N.m)", "of a seat", 0.0)) == "um/(N.m)"
+    assert [(d.name, round(d.factor, 6)) for d in displays("m/(N.m)")] == [("um/(N.m)", 1e6)]
+
+
 def test_every_display_unit_is_one_of_its_unit_and_converts_as_the_unit_does(rv20e):
     for table in (rv20e.plant, rv20e.wear, rv20e.joint):
         for v in table.variables:

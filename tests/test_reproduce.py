@@ -8,12 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cli.altered import note_of, noted_figure
 from cli.main import main
 from fmu_src.faults import InputFault
 from reproduce import printed_forms as printed
 from reproduce import rig, wall
 from reproduce.claim import CONDITIONAL, FALLEN, REPRODUCED, SOURCES, VERDICTS, Number
 from reproduce.judging import run
+from reproduce.moved import unmoved_in
 from reproduce.page import page_of, write_page
 from reproduce.statements import available_claims, stated
 from reproduce.table import as_json, curves_of, print_table, span_text, tables_of, value_text
@@ -250,6 +252,31 @@ def test_another_number_of_the_reducer_moves_the_figure_and_is_said():
     assert all(number.audited is None for number in small.numbers) and "independent" not in page_of([small], ["crank.eccentricity=1.0mm"]).partition("</head>")[2]
     with pytest.raises(InputFault, match=r"no parameter or input 'crank\.size'"):
         run(["T24"], changes=["crank.size=1mm"])
+
+
+def test_a_number_that_moves_nothing_is_said_to(capsys, monkeypatch, tmp_path):
+    """On the screen, as JSON, on the page and in the picture; what is moved by it is not named there."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["reproduce", "T05", "T01", "--set", "crank.circle_radius=38mm"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "crank.circle_radius=38mm moved nothing in T01, T05: numbers and curves there are the same without it" in told
+    assert "crank.circle_radius=38mm moved nothing in T01, T05" in html.unescape((tmp_path / "results" / "reproduce.html").read_text("utf-8"))
+    assert main(["reproduce", "T05", "T11", "--set", "bearing.clearance=10um", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["unmoved"] == ["T05"]
+    still, moved = run(["T05", "T24"], changes=["pin.radius=2.9mm"])
+    assert still.is_moved and still.figures_moved == (True,) and unmoved_in([still, replace(moved, numbers_moved=True, figures_moved=(False,))], ["a=1", "b=2"]) == (
+        "a=1, b=2 moved nothing in the figure of T24: numbers and curves there are the same without them"
+    )  # fmt: skip
+    assert not unmoved_in(run(["T05"]), [])
+
+
+def test_a_figure_says_what_was_set_and_whether_that_moved_it():
+    changes = ["crank.eccentricity=1mm (BX-40E had 1.3 mm)"]
+    assert note_of(changes).endswith("what these carry need not hold") and note_of(changes, is_moved=False).endswith("nothing here is moved by that")
+    # One to scale has no axis to write below.
+    (claim,) = run(["T05"])
+    noted = noted_figure(claim.figures[0], note_of(changes))
+    assert noted.data[-1]["name"] == note_of(changes) and noted.data[-1]["type"] == "scatter" and noted.layout["showlegend"]
 
 
 def test_a_claim_that_its_numbers_no_longer_carry_is_counted_and_said_as_such(claims, capsys):

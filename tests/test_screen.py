@@ -74,6 +74,7 @@ def test_every_screen_is_made_in_one_place():
 @pytest.mark.parametrize(("value", "unit", "said"), [
     (2e-7, "rad/(N.m)", "0.0006875 arcmin/(N.m)"), (3e-6, "m", "3 um"), (4e-5, "rad", "8.251 arcsec"), (2e-3, "rad", "6.875 arcmin"), (1.0, "rad", "57.3 deg"),
     (313.15, "K", "40 degC"), (5.0, "K", "5 K"), (7200.0, "s", "2 h"), (0.3, "N.m", "0.3 N.m"), (1e-5, "kg.m", "10 g.mm"), (20.0, "rad/s", "191 rpm"),
+    (3e-9, "m/(N.m)", "0.003 um/(N.m)"), (3e-9, "N.m/m", "3e-09 N.m/m"), (3e-9, "1/Pa", "3e-09 1/Pa"), (5.9e-9, "m/N", "5.9 nm/N"),
 ])  # fmt: skip
 def test_parameters_have_the_units_of_the_field(value, unit, said):
     text, _, name = parameter_texts(value, (value, value), unit)

@@ -490,6 +490,36 @@ def test_a_life_says_which_stiffness_it_shows():
     assert [line["name"] for line in shown["panes"][-1]["lines"]] == ["running stiffness"]
 
 
+def test_a_life_of_a_model_file_is_called_after_it_and_its_command_names_it(tmp_path, monkeypatch):
+    """It was called as one of its reducer, and stood where that one's does; the command spelled every number of the model."""
+    from discrepancy.model_file import load_model
+    from studies import kept_life
+    from workbench.life_step import command, life
+
+    def stop(path, wanted, *_):
+        lives.append((path.name, wanted))
+        raise kept_life.Paused(0.0)
+
+    folder, lives = opened(tmp_path), []
+    monkeypatch.setattr(kept_life, "live_to", stop)
+    numbers = '[settings]\n"errors.pin.radius[3]" = "1 um"\n[effects.needle_clearance]\nadded = "2.1 um"\n'
+    for name, model in (("model.toml", "RV20E-121"), ("gearbox 7.toml", "gearbox 7")):
+        (tmp_path / name).write_text(f'[model]\nname = "{model}"\nreducer = "RV20E-121"\n{numbers}', "utf-8")
+    for name in ("model.toml", "gearbox 7.toml", "RV20E-121"):
+        assert life(folder, {"model": name, "hours": "10"}, 1, tmp_path)
+    assert [(path, wanted.reducer.name) for path, wanted in lives] == [
+        ("RV20E-121-model_life.nc", "RV20E-121-model"), ("gearbox 7_life.nc", "gearbox 7"), ("RV20E-121_life.nc", "RV20E-121"),
+    ]  # fmt: skip
+    wanted = lives[0][1]
+    # What is no start value of a reducer is set, and stands in the command.
+    assert wanted.reducer.starts["needle_clearance_added"] == 2.1e-6 and [s.name for s in wanted.settings] == ["pin_radius_error[3]"]
+    texts = ["errors.pin.radius[3]=1e-06"]
+    assert command(load_model(tmp_path / "gearbox 7.toml"), 10.0, texts, tmp_path / "a.nc") == (
+        f"rvwear life --reducer '{tmp_path / 'gearbox 7.toml'}' --hours 10 --set 'errors.pin.radius[3]=1e-06' --output {tmp_path / 'a.nc'}"
+    )
+    assert command(load_model("RV20E-121"), 10.0, [], tmp_path / "a.nc") == f"rvwear life --reducer RV20E-121 --hours 10 --output {tmp_path / 'a.nc'}"
+
+
 def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):
     from concurrent.futures import ThreadPoolExecutor
 

@@ -5,15 +5,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fmu_src.faults import InputFault
+from fmu_src.file_name import file_name
 from fmu_src.held_file import held
-from reducers.library import LIBRARY
 from studies.figure_units import RUNNING
 from workbench.folder import Folder
 from workbench.form import exactly, number, settings_of
 from workbench.told import write_json
 
 if TYPE_CHECKING:
-    from reducers.reducer import Reducer
+    from discrepancy.model_file import ModelFile
 
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
 PANES = (
@@ -29,19 +29,22 @@ USUAL_HOURS, MOST = 10_000.0, 1e6
 def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """True where it was paused: what it has is kept, and the same request goes on."""
     from discrepancy.model_file import load_model
+    from discrepancy.named_reducer import named_reducer
     from orchestrator.settings import parse_setting
     from studies.kept_life import Paused, WantedLife, belongs_to, checkpoint_of, live_to
     from studies.life import Life, LifeSettings
     from studies.report import write_report
 
-    file = load_model(folder.model(given))
+    chosen = folder.model(given)
+    file, reducer = load_model(chosen), named_reducer(chosen)
     hours = positive(given, "hours") or USUAL_HOURS
-    texts = settings_of(file)
+    # Elements of lists, which a reducer has no start values for.
+    texts = settings_of(file, but=reducer.starts)
     if torque := positive(given, "torque"):
         texts.append(f"output.load_torque={torque!r}N.m")
-    settings = [parse_setting(text, [file.reducer.plant, file.reducer.wear]) for text in texts]
-    wanted = WantedLife(file.reducer, settings, LifeSettings(hours))
-    path = folder.root / "results" / f"{file.name}_life.nc"
+    settings = [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
+    wanted = WantedLife(reducer, settings, LifeSettings(hours))
+    path = folder.root / "results" / f"{file_name(reducer.name)}_life.nc"
     path.parent.mkdir(exist_ok=True)
     before: dict[str, Any] = {}
     now: dict[str, Any] = {}
@@ -63,7 +66,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     figures = [{name: float(dataset[name][i]) for _, _, lines in PANES for name, _ in lines} for i in range(dataset.sizes["hour"])]
     write_json(place / "result.json", {
         **curves([float(h) for h in dataset["hour"].values], figures), "model": str(given["model"]), "file": path.relative_to(folder.root).as_posix(),
-        "title": dataset.attrs["title"], "command": command(folder, file.reducer, hours, texts, path),
+        "title": dataset.attrs["title"], "command": command(file, hours, texts, path),
     })  # fmt: skip
     return False
 
@@ -88,9 +91,9 @@ def positive(given: dict[str, Any], name: str) -> float | None:
     return value
 
 
-def command(folder: Folder, reducer: "Reducer", hours: float, texts: list[str], path: Path) -> str:
-    """The command line that does the same: effects and settings of the model as settings."""
-    known = reducer.name if reducer.path.parent == LIBRARY else str(reducer.path)
+def command(file: "ModelFile", hours: float, texts: list[str], path: Path) -> str:
+    """The command line that does the same: of a model file, a reducer file or a reducer of the library."""
+    known = str(file.path or (file.reducer.name if file.reducer.is_of_library else file.reducer.path))
     words = ["rvwear", "life", "--reducer", known, "--hours", exactly(hours)]
     for text in texts:
         words += ["--set", text]

@@ -35,6 +35,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
     new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN",
                      help="lost motion of the catalogue [arcmin]: bounds the flanks' gaps, not the whole (default 1)")
+    new.add_argument("--stiffness", type=number_in("N.m/arcmin"), metavar="NM/ARCMIN",
+                     help="torsional stiffness of the catalogue [N m/arcmin]: the supports of the cranks are made as soft as that asks for")
     new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
         help="a number that was measured, with its unit: --known pin.radius=3mm; what hangs on it follows",
@@ -65,13 +67,14 @@ def run_new(options: argparse.Namespace) -> int:
     from reducers.completion.complete import complete
     from reducers.completion.file import text_of
     from reducers.reducer import load_reducer
+    from studies.catalogue_stiffness import as_stiff_as
 
     given = given_by(options)
     name = options.name or usual_name(given)
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
-        completion = complete(given)
+        completion = as_stiff_as(given, options.stiffness) if options.stiffness is not None else complete(given)
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)

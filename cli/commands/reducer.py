@@ -45,6 +45,7 @@ def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     from cli import screen
     from studies.figure_units import RUNNING
+    from studies.rigid import rigid_supports
     from studies.turn import crank_turn
 
     check_exports(options)
@@ -56,6 +57,7 @@ def solve(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures | beyond)
     else:
         screen.figures(f"{reducer.name} over one crank turn", found.figures, how=RUNNING)
+        say_rigid(rigid_supports(reducer, settings))
     export(options, found.dataset)
     return 0
 
@@ -67,6 +69,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     from cli import screen
     from studies.figure_units import HELD, WIDTHS
     from studies.hysteresis import hysteresis as measure
+    from studies.rigid import rigid_supports
     from studies.turn import loop_dataset, loop_figures
 
     check_exports(options)
@@ -83,8 +86,17 @@ def hysteresis(options: argparse.Namespace) -> int:
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
         screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=f"{HELD}\n{WIDTHS}")
+        say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
+
+
+def say_rigid(words: str) -> None:
+    """Below a table with a stiffness, where there is something to say."""
+    from cli.screen import console
+
+    if words:
+        console().print(words)
 
 
 def export(options: argparse.Namespace, result: "Callable[[], xr.Dataset]") -> None:

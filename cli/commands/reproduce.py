@@ -17,7 +17,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     claims.add_argument("--list", action="store_true", dest="listed", help="say what the claims are, compute nothing")
     claims.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE",
-        help="another number of the reducers than the sources': bearing.clearance=10um; verdicts need not hold then, and the exit code is 0",
+        help="another number of the reducers than the sources': bearing.clearance=10um; verdicts need not hold then, and the exit code is 0;"
+        " what it does not move is said (each claim is computed with the sources' numbers, too)",
     )  # fmt: skip
     add_json(claims)
     add_exports(claims)
@@ -31,6 +32,7 @@ def reproduce(options: argparse.Namespace) -> int:
     from cli import screen
     from cli.altered import note_of, noted_figure, noted_tables
     from reproduce.judging import run as judge
+    from reproduce.moved import unmoved_in
     from reproduce.page import write_page
     from reproduce.statements import stated
     from reproduce.table import as_json, holdings, print_table, tables_of
@@ -45,17 +47,21 @@ def reproduce(options: argparse.Namespace) -> int:
     claims = judge(options.claims or None, say, options.set)
     # Of the last, as it is reached with all reducers that were altered.
     altered = claims[-1].altered if claims else ()
-    note = note_of(altered)
-    write_page(claims, page, altered)
+    note, still = note_of(altered), unmoved_in(claims, options.set)
+    write_page(claims, page, altered, still)
     if options.json:
-        screen.json_text(as_json(claims) | {"page": str(page), "set": options.set, "altered": list(altered)})
+        unmoved = [claim.id for claim in claims if not claim.is_moved]
+        screen.json_text(as_json(claims) | {"page": str(page), "set": options.set, "altered": list(altered), "unmoved": unmoved})
     else:
         print_table(claims)
         if note:
             print(note)
+        if still:
+            print(still)
         say_file(page, "page  ")
     figures = [
-        noted_figure(figure, note_of(claim.drawn_with[k] if claim.drawn_with else ())) for claim in claims for k, figure in enumerate(claim.figures)
+        noted_figure(figure, note_of(claim.drawn_with[k], claim.figures_moved[k]) if claim.drawn_with else "")
+        for claim in claims for k, figure in enumerate(claim.figures)
     ]  # fmt: skip
     write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures, holdings(claims))
     return 0 if options.set or all(claim.stands for claim in claims) else 1

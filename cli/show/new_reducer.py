@@ -6,8 +6,9 @@ from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.completion.compare import Row
-from reducers.completion.complete import COMPLETED, Completion
+from reducers.completion.complete import COMPLETED, GIVEN, Completion
 from reducers.completion.known import FROM_OPTIONS
+from studies.catalogue_stiffness import AS_STIFF, FREE
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
@@ -29,6 +30,8 @@ def show(completion: Completion, name: str, file: Path) -> None:
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
     numbers = completion.numbers.values()
+    if (free := completion.numbers[FREE]).source.startswith(AS_STIFF):
+        console().print(f"{free.name} = {free.value:.4g} {free.unit} {free.source.removeprefix(f'{GIVEN}: ')}")
     given, assumed = sum(n.is_given or n.name in FROM_OPTIONS for n in numbers), sum("assumed" in n.source for n in numbers)
     console().print(
         f"given: {completion.given.in_words}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"

@@ -1,0 +1,65 @@
+"""A reducer completed so that it is as stiff as its catalogue says: the one number that no rule computes is found by the stiffness test."""
+
+import math
+from dataclasses import replace
+
+from fmu_src.faults import InputFault
+from orchestrator.settings import parse_setting
+from reducers.completion.complete import GIVEN, Completion, complete
+from reducers.completion.file import reducer_at
+from reducers.completion.given import Given
+from reducers.reducer import Reducer
+from studies.hysteresis import hysteresis
+
+# How soft crank bearings are in place is what rules leave open, and what they were fitted for to catalogues.
+FREE = "crank.support_compliance"
+AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
+# As catalogues round.
+NEAR = 1e-3
+# The turning is nearly a straight line over the compliance: three steps come as near.
+MOST_STEPS = 12
+# Softer ones are none (assumed: a tenth of the softest in catalogues) [N m/arcmin].
+LEAST = 0.1
+
+
+def as_stiff_as(given: Given, stiffness: float) -> Completion:
+    """Completed with crank supports that make the torsional stiffness the catalogue's [N m/arcmin]; InputFault where none do."""
+    if not LEAST <= stiffness < math.inf:
+        raise InputFault(f"--stiffness {stiffness:g} N.m/arcmin: must be {LEAST:g} or more; look at its unit")
+    if FREE in given.known:
+        raise InputFault(f"--stiffness {stiffness:g} N.m/arcmin and --known {FREE}: each says how soft the crank supports are; keep one")
+    by_rules = complete(given)
+    number = by_rules.numbers[FREE]
+    found = compliance_of(reducer_at(by_rules, {}, "new"), number.value, stiffness)
+    completion = complete(replace(given, known={**given.known, FREE: found}))
+    source = f"{AS_STIFF}, {stiffness:g} N.m/arcmin"
+    doubts = [] if number.low <= found <= number.high else [
+        f"a torsional stiffness of {stiffness:g} N.m/arcmin asks for {FREE} = {found:.3g} {number.unit}, where rules give {number.low:.3g} to"
+        f" {number.high:.3g}: look at its unit, and at what else was given"
+    ]  # fmt: skip
+    numbers = completion.numbers | {FREE: replace(completion.numbers[FREE], source=source)}
+    return replace(completion, numbers=numbers, doubts=[*completion.doubts, *doubts])
+
+
+def compliance_of(reducer: Reducer, usual: float, stiffness: float) -> float:
+    """Of the crank supports [m/N], by secants from rigid ones and the ``usual`` ones on."""
+    here, turned = 0.0, 1.0 / measured(reducer, 0.0)
+    if turned >= 1.0 / stiffness:
+        raise InputFault(
+            f"--stiffness {stiffness:g} N.m/arcmin: with rigid crank supports the other numbers make it {1.0 / turned:.4g} N.m/arcmin, which is softer; look at"
+            " the unit, or give what makes them stiffer: --diameter, --known mesh.width=..., carrier.compliance=..., first_stage.compliance=..."
+        )
+    there = usual
+    for _ in range(MOST_STEPS):
+        reached = measured(reducer, there)
+        if abs(reached - stiffness) <= NEAR * stiffness:
+            return float(f"{there:.4g}")
+        slope = (1.0 / reached - turned) / (there - here)
+        here, turned = there, 1.0 / reached
+        there = here + (1.0 / stiffness - turned) / slope
+    raise InputFault(f"--stiffness {stiffness:g} N.m/arcmin: no {FREE} makes it, {reached:.4g} N.m/arcmin is the nearest; look at its unit")
+
+
+def measured(reducer: Reducer, compliance: float) -> float:
+    setting = parse_setting(f"{FREE}={compliance!r}", [reducer.plant, reducer.wear])
+    return hysteresis(reducer, [setting]).stiffness_Nm_per_arcmin
