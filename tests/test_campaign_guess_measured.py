@@ -120,3 +120,17 @@ def test_cells_that_make_conditions_alike_join_them_in_the_workbench(tmp_path):
     folder.remember("wishes", {"reducer": "RV20E-121", "conditions": {"50N.m_28degC:temperature": "25 degC"}, "held_out": ["50N.m_28degC"]})
     found = view(folder)
     assert not found["gone"] and found["proposal"]["joined"] == {"50N.m_28degC": "50N.m_25degC"} and found["proposal"]["held_out"].keys() == {"50N.m_25degC"}
+
+
+def test_one_number_in_two_units_is_one_condition(tmp_path):
+    """25 degC and 77 F of one campaign made two conditions."""
+    proposal = proposed(tmp_path, {"te_50Nm_15rpm_25C_1.csv": [], "te_50Nm_15rpm_77F_2.csv": [], "te_50Nm_15rpm_80F_3.csv": []})
+    assert [stated["temperature"] for stated in proposal.conditions.values()] == ["25 degC", "80 degF"]
+    assert len({run.condition for run in proposal.runs[:2]}) == 1
+
+
+def test_what_is_given_in_another_unit_joins_conditions(tmp_path):
+    heads = {"te_50Nm_15rpm_25C_1.csv": [], "te_50Nm_15rpm_40C_2.csv": []}
+    names = {run.name: run.condition for run in proposed(tmp_path, heads).runs}
+    again = propose([tmp_path], Wishes("RV20E-121", conditions={f"{names['te_50Nm_15rpm_40C_2']}:temperature": "77 degF"}))
+    assert list(again.joined.values()) == [names["te_50Nm_15rpm_25C_1"]]

@@ -4,12 +4,10 @@ from collections.abc import Collection, Mapping, Sequence
 
 from discrepancy.campaign.findings import LEAST_CONDITIONS
 from discrepancy.campaign.guess.said import Guess
+from discrepancy.campaign.guess.same_number import ANY_REDUCER
 from discrepancy.campaign.quantities import FACTOR_KEYS
-from discrepancy.campaign.scales import Scales
 from discrepancy.held_names import LOCKED_AT
 
-# Numbers of one key are compared, whatever their units.
-ANY_REDUCER = Scales(None, 1.0, 1.0)
 # What the conditions that stay have to cover first: several numbers that are calibrated, as lag and angle of an encoder, are told apart by loads alone.
 FIRST = ("load", "temperature", "speed")
 # What a condition states in words.
