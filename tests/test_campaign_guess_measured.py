@@ -134,3 +134,21 @@ def test_what_is_given_in_another_unit_joins_conditions(tmp_path):
     names = {run.name: run.condition for run in proposed(tmp_path, heads).runs}
     again = propose([tmp_path], Wishes("RV20E-121", conditions={f"{names['te_50Nm_15rpm_40C_2']}:temperature": "77 degF"}))
     assert list(again.joined.values()) == [names["te_50Nm_15rpm_25C_1"]]
+
+
+def test_what_a_head_measured_of_a_number_in_the_name_is_kept(tmp_path):
+    """25C in the name dropped the 25.1 degC of the head."""
+    heads = {f"te_50Nm_15rpm_25C_{k}.csv": [f"Temperature: {25 + k / 10} °C"] for k in (1, 2)}
+    proposal = proposed(tmp_path, heads)
+    assert [stated["temperature"] for stated in proposal.conditions.values()] == ["25 degC"]
+    assert actual(proposal) == {"te_50Nm_15rpm_25C_1": {"temperature": "25.1 degC"}, "te_50Nm_15rpm_25C_2": {"temperature": "25.2 degC"}}
+    assert sorted(round(record.factors["temperature"], 2) for record in checked(proposal).records) == [298.25, 298.35]
+    assert not [doubt for doubt in proposal.doubts if "temperature" in doubt.text]
+
+
+@pytest.mark.parametrize("above, doubted", [("40 °C", True), ("77 °F", False)])
+def test_a_head_that_says_another_number_than_the_name_is_doubted(tmp_path, above, doubted):
+    proposal = proposed(tmp_path, {"te_50Nm_15rpm_25C_1.csv": [f"Temperature: {above}"]})
+    said = [doubt.text for doubt in proposal.doubts if "temperature" in doubt.text]
+    assert said == (["its name says temperature = 25 degC, which is taken, and a line above its table 40 degC"] if doubted else [])
+    assert not any(actual(proposal).values())
