@@ -2,6 +2,7 @@
 
 import pytest
 
+from cli.main import main
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
@@ -152,3 +153,23 @@ def test_a_head_that_says_another_number_than_the_name_is_doubted(tmp_path, abov
     said = [doubt.text for doubt in proposal.doubts if "temperature" in doubt.text]
     assert said == (["its name says temperature = 25 degC, which is taken, and a line above its table 40 degC"] if doubted else [])
     assert not any(actual(proposal).values())
+
+
+def with_columns(folder, **loads):
+    for k, (name, load) in enumerate(loads.items()):
+        rows = "".join(f"{0.5 * i:g};{(i * i) % 7 + i * k % 11 / 10:g};{load + i % 3 / 100:g};15\n" for i in range(721))
+        (folder / f"{name}.csv").write_text("angle [deg];te [arcsec];Torque [Nm];output speed [rpm]\n" + rows, encoding="utf-8")
+
+
+def test_runs_of_one_condition_that_differ_in_a_column_alone_are_doubted(tmp_path, capsys):
+    """50 and 150 N.m that stood in columns were repetitions of one condition, without a word."""
+    with_columns(tmp_path, te_1=50, te_2=50, te_3=150)
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "load_torque 50 N.m and 150 N.m by its column" in shown
+    assert "load_torque stands in columns alone and is 50 N.m in te_1.csv, te_2.csv, 150 N.m in te_3.csv: these runs" in shown and "(50Nm)" in shown
+
+
+def test_what_columns_say_alike_is_no_doubt(tmp_path):
+    with_columns(tmp_path, te_1=50, te_2=50.1)
+    assert not [doubt for doubt in propose([tmp_path], Wishes("RV20E-121")).doubts if "columns alone" in doubt.text]

@@ -10,7 +10,6 @@ from discrepancy.campaign.guess.set_steps import MEASURED, SHARE_STEP, TEMPERATU
 from discrepancy.campaign.guess.wishes import Wishes
 
 
-
 def with_given_instead(runs: Sequence[GuessedRun], wishes: Wishes) -> list[GuessedRun]:
     """What is given for all files wins over what lines above their tables say, which is said where that is something else."""
     found = []

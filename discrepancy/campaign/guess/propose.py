@@ -17,6 +17,7 @@ from discrepancy.campaign.guess.file_names import stem
 from discrepancy.campaign.guess.given_names import require_fit
 from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.held_out import held_out
+from discrepancy.campaign.guess.in_columns import different_in_columns
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
 from discrepancy.campaign.guess.positions import positions_asked
@@ -113,6 +114,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     angle_of, of_angles = whose_angle(zip(names, guessed), conditions, wishes)
     doubts = [*merged([*(d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))), *of_angles]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
+    doubts += different_in_columns(in_conditions, conditions)
     unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,

@@ -19,6 +19,7 @@ from discrepancy.campaign.guess.locked_words import held_angle, locked_angle
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
 from discrepancy.campaign.guess.name_and_head import contradiction, is_measured
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
 from discrepancy.campaign.guess.wishes import Wishes, of_column
@@ -57,7 +58,8 @@ class Entry:
 class GuessedRun:
     """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
     ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part; ``above``: keys that lines
-    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says."""
+    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says; ``levels``: what columns of a condition's
+    numbers hold throughout, in their units; NaN where they do not."""
 
     path: Path
     quantity: Guess[str]
@@ -72,6 +74,7 @@ class GuessedRun:
     left_out: tuple[str, ...]
     above: frozenset[str]
     actual: Mapping[str, str]
+    levels: Mapping[str, float]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -128,8 +131,9 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
     if VALUE in entries and VALUE not in stated:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
+    levels = {role: held_level(table.columns[e.column.value]) * float(e.keys.get("scale", 1.0)) for role, e in entries.items() if role in FACTOR_KEYS}
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *factor_doubts), headers, left_out,
-                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual)  # fmt: skip
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels)  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
