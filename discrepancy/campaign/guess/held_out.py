@@ -61,11 +61,19 @@ def covered(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]], f
 
     chosen = min(fitting, key=order)
     if not differing:
-        return chosen, "the last one; nothing says which lies inside the others"
+        return chosen, f"the last one; {not_told([conditions[name] for name in names])}"
     if not beyond[chosen]:
         return chosen, "inside the range of the others"
     within = [key for key in differing if key not in beyond[chosen]]
     return chosen, f"its {listed(within)} within the others', only its {listed(beyond[chosen])} beyond"
+
+
+def not_told(stated: Sequence[Mapping[str, str]]) -> str:
+    """Why any of the conditions would do."""
+    places = list(dict.fromkeys(one[LOCKED_AT] for one in stated if LOCKED_AT in one))
+    if len(places) < 2:
+        return "nothing says which lies inside the others"
+    return f"they differ by where the input was locked alone ({', '.join(places)}), and angles go round: none lies beyond the others, any would do"
 
 
 def rank(key: str) -> int:
