@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy import as_told
+from discrepancy.beside_none import beside_none
 from discrepancy.calibrated_doubts import calibrated_doubts
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
@@ -131,6 +132,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     names = list(dict.fromkeys(e["name"] for e in effects))
     beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"
     reason = found.reason + (f"; {beside}: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
+    if verdict == NONE and (figure := beside_none(figures, doctor.space, doctor.localisation.groups)):
+        reason += f"; {figure}"
     if verdict in (SET, SEVERAL) and len(names) == 1:
         reason = reason_of(effects[0], verdict)
         verdict = ONE

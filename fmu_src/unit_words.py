@@ -34,7 +34,7 @@ WRITTEN = {
         " pound.foot pound.feet",
     },
     SPEED: {
-        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
+        "rpm": "rpm r.p.m r/min rev/min 1/min U/min Upm Umin min^.1 min.1 /min U.min^.1 U.min.1 Umdr/min Umdr./min Umdrehungen/min tr/min trmin tr/mn tr.min^.1"
         " tr.min.1 tour/min tours/min giri/min giri/minuto vueltas/min"
         " rot/min rotações/min voltas/min 转/分 转/分钟 转每分 转每分钟 轉/分 轉/分鐘 回転/分 回/分 毎分回転数",
         "krpm": "krpm 1000/min",

@@ -264,3 +264,8 @@ def test_shares_and_output_speeds_need_a_reducer(tmp_path):
 def test_no_campaign(tmp_path):
     with pytest.raises(InputFault, match="no campaign file at .*; rvwear campaign from .* makes one of measured files, rvwear campaign template"):
         load_campaign(tmp_path)
+
+
+def test_no_campaign_where_the_files_lie_elsewhere_names_both_folders(tmp_path):
+    with pytest.raises(InputFault, match="rvwear campaign from 'my files' --output .* --reducer"):
+        load_campaign(tmp_path, "my files")

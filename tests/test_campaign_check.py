@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import shlex
 
 import numpy as np
 import pytest
@@ -213,6 +214,13 @@ def test_commands(tmp_path, capsys):
     report = json.loads(capsys.readouterr().out)
     assert report["problems"] == [] and len(report["pairs"]) == len(PAIRS)
     assert report["pairs"][3]["status"] == "separable" and report["pairs_hold_for"] == HOLDS_FOR
+    # Where the files lie elsewhere, the command that goes on says so, too.
+    elsewhere = tmp_path / "my files"
+    elsewhere.mkdir()
+    for path in (tmp_path / "new").glob("*.csv"):
+        path.rename(elsewhere / path.name)
+    assert command("check", folder, "--data", str(elsewhere)) == 0
+    assert capsys.readouterr().out.endswith(f"next  {shlex.join(['rvwear', 'compare', 'RV20E-121', folder, '--data', str(elsewhere)])}\n")
     with pytest.raises(InputFault, match="exists already; .* nothing is overwritten"):
         command("template", folder)
     with pytest.raises(InputFault, match="--quantities noise: not a quantity"):

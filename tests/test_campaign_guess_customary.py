@@ -105,7 +105,7 @@ def test_units_of_names(unit, field, known):
 @pytest.mark.parametrize("pattern, said", [
     ("TE {load} RPM {any}", r"'RPM' behind \{load\} is a unit of speed, not of torque; .*\{load:N.m\}"),
     ("TE {any} {input_speed} in-lbf {any}", r"'in-lbf' behind \{input_speed\} is a unit of torque"), ("te_{load}h", r"'h' behind \{load\} is a unit of time"),
-    ("te_{speed}U_{any}", r"'U' behind \{speed\} is a unit of angle, .*\{speed:rpm\}"), ("te_{load:rpm}", r"\{load:rpm\}: unit 'rpm' does not fit"),
+    ("te_{speed}U_{any}", r"'U' behind \{speed\} is turns: .*\{speed:rpm\}"), ("te_{load:rpm}", r"\{load:rpm\}: unit 'rpm' does not fit"),
     ("te_{load:in-lbx}", r"unit 'in-lbx' is not known"), ("te_{any:N.m}", r"\{any\} has no unit"),
 ])  # fmt: skip
 def test_units_of_another_kind_beside_a_field_are_refused(pattern, said):

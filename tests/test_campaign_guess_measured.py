@@ -2,6 +2,7 @@
 
 import pytest
 
+from cli.main import main
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
@@ -120,3 +121,55 @@ def test_cells_that_make_conditions_alike_join_them_in_the_workbench(tmp_path):
     folder.remember("wishes", {"reducer": "RV20E-121", "conditions": {"50N.m_28degC:temperature": "25 degC"}, "held_out": ["50N.m_28degC"]})
     found = view(folder)
     assert not found["gone"] and found["proposal"]["joined"] == {"50N.m_28degC": "50N.m_25degC"} and found["proposal"]["held_out"].keys() == {"50N.m_25degC"}
+
+
+def test_one_number_in_two_units_is_one_condition(tmp_path):
+    """25 degC and 77 F of one campaign made two conditions."""
+    proposal = proposed(tmp_path, {"te_50Nm_15rpm_25C_1.csv": [], "te_50Nm_15rpm_77F_2.csv": [], "te_50Nm_15rpm_80F_3.csv": []})
+    assert [stated["temperature"] for stated in proposal.conditions.values()] == ["25 degC", "80 degF"]
+    assert len({run.condition for run in proposal.runs[:2]}) == 1
+
+
+def test_what_is_given_in_another_unit_joins_conditions(tmp_path):
+    heads = {"te_50Nm_15rpm_25C_1.csv": [], "te_50Nm_15rpm_40C_2.csv": []}
+    names = {run.name: run.condition for run in proposed(tmp_path, heads).runs}
+    again = propose([tmp_path], Wishes("RV20E-121", conditions={f"{names['te_50Nm_15rpm_40C_2']}:temperature": "77 degF"}))
+    assert list(again.joined.values()) == [names["te_50Nm_15rpm_25C_1"]]
+
+
+def test_what_a_head_measured_of_a_number_in_the_name_is_kept(tmp_path):
+    """25C in the name dropped the 25.1 degC of the head."""
+    heads = {f"te_50Nm_15rpm_25C_{k}.csv": [f"Temperature: {25 + k / 10} °C"] for k in (1, 2)}
+    proposal = proposed(tmp_path, heads)
+    assert [stated["temperature"] for stated in proposal.conditions.values()] == ["25 degC"]
+    assert actual(proposal) == {"te_50Nm_15rpm_25C_1": {"temperature": "25.1 degC"}, "te_50Nm_15rpm_25C_2": {"temperature": "25.2 degC"}}
+    assert sorted(round(record.factors["temperature"], 2) for record in checked(proposal).records) == [298.25, 298.35]
+    assert not [doubt for doubt in proposal.doubts if "temperature" in doubt.text]
+
+
+@pytest.mark.parametrize("above, doubted", [("40 °C", True), ("77 °F", False)])
+def test_a_head_that_says_another_number_than_the_name_is_doubted(tmp_path, above, doubted):
+    proposal = proposed(tmp_path, {"te_50Nm_15rpm_25C_1.csv": [f"Temperature: {above}"]})
+    said = [doubt.text for doubt in proposal.doubts if "temperature" in doubt.text]
+    assert said == (["its name says temperature = 25 degC, which is taken, and a line above its table 40 degC"] if doubted else [])
+    assert not any(actual(proposal).values())
+
+
+def with_columns(folder, **loads):
+    for k, (name, load) in enumerate(loads.items()):
+        rows = "".join(f"{0.5 * i:g};{(i * i) % 7 + i * k % 11 / 10:g};{load + i % 3 / 100:g};15\n" for i in range(721))
+        (folder / f"{name}.csv").write_text("angle [deg];te [arcsec];Torque [Nm];output speed [rpm]\n" + rows, encoding="utf-8")
+
+
+def test_runs_of_one_condition_that_differ_in_a_column_alone_are_doubted(tmp_path, capsys):
+    """50 and 150 N.m that stood in columns were repetitions of one condition, without a word."""
+    with_columns(tmp_path, te_1=50, te_2=50, te_3=150)
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "load_torque 50 N.m and 150 N.m by its column" in shown
+    assert "load_torque stands in columns alone and is 50 N.m in te_1.csv, te_2.csv, 150 N.m in te_3.csv: these runs" in shown and "(50Nm)" in shown
+
+
+def test_what_columns_say_alike_is_no_doubt(tmp_path):
+    with_columns(tmp_path, te_1=50, te_2=50.1)
+    assert not [doubt for doubt in propose([tmp_path], Wishes("RV20E-121")).doubts if "columns alone" in doubt.text]

@@ -13,6 +13,7 @@ from discrepancy.campaign.guess.file_names import proposed
 from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
+from fmu_src.faults import InputFault
 
 
 def error_files(folder, *names):
@@ -116,3 +117,18 @@ def test_the_first_pattern_that_fits_counts(tmp_path):
     folder = error_files(tmp_path / "a", "te_50_1", "te_x_1")
     proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}", "te_{condition}_{any}")))
     assert [run.guessed.name.pattern for run in proposal.runs] == ["te_{load}_{replicate}", "te_{condition}_{any}"]
+
+
+@pytest.mark.parametrize("unit", ["Upm", "Umin", "U_min", "U-min"])
+def test_turns_a_minute_in_names(unit):
+    assert proposed(Path(f"te_15{unit}_50Nm_1.csv")).numbers["speed"] == (15.0, "rpm")
+
+
+def test_turns_in_a_name_are_asked_whether_they_are_those_a_minute(tmp_path, capsys):
+    """15U was "a unit of angle"; where no name differed from it, nothing pointed at it."""
+    folder = error_files(tmp_path / "bench", "te_15U_50Nm_1", "te_15U_50Nm_2")
+    with pytest.raises(InputFault, match=r"'U' behind \{speed\} is turns: does it stand for turns a minute \(U/min\)\? Then write 'te_\{speed:rpm\}U_\{load\}Nm_"):
+        propose([folder], Wishes("RV20E-121", names=("te_{speed}U_{load}Nm_{replicate}",)))
+    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 1
+    asked = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear campaign from"))
+    assert main(shlex.split(asked)[1:]) == 0

@@ -206,3 +206,15 @@ def test_kinds_of_files_are_left_out_of_the_names_of_conditions_whole(tmp_path):
             text = (folder / f"errore_grezzo_{load}Nm.csv").read_bytes()
             (folder / f"errore_{state}_{load}Nm.csv").write_bytes(text)
     assert {"freddo_84N.m", "caldo_84N.m"} <= propose([folder], Wishes("RV20E-121")).conditions.keys()
+
+
+def test_of_loops_locked_at_several_angles_any_may_be_held_out():
+    """"The last one; nothing says which lies inside the others" stood beside 0, 120 and 240 deg."""
+    from discrepancy.campaign.guess.held_out import held_out
+
+    conditions = {f"{angle}deg": {"locked_at": f"{angle} deg", "temperature": "24 degC"} for angle in (0, 120, 240)}
+    (guess,) = held_out(conditions, {name: ["hysteresis"] for name in conditions}).values()
+    assert guess.reason.endswith("they differ by where the input was locked alone (0 deg, 120 deg, 240 deg), and angles go round: none lies beyond the others, any would do")
+    plain = {name: {"temperature": "24 degC"} for name in conditions}
+    (guess,) = held_out(plain, {name: ["hysteresis"] for name in plain}).values()
+    assert guess.reason.endswith("nothing says which lies inside the others")

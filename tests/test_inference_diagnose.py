@@ -122,6 +122,8 @@ def test_how_many_effects_were_tested_is_told_of_how_many():
         doctor.say_scores()
     every, tested = len(model.candidates), len(doctor.refits.scores)
     assert f"{tested} of {every} effects tested" in said[-1]
+    # An order of a first look was taken for the answer.
+    assert "nearest" not in said[-1] and "at first sight, each alone and none fitted yet" in said[-1] and said[-1].endswith("no answer yet")
     assert (f"the other {every - tested} change nothing here" in said[-1]) == (tested < every)
 
 

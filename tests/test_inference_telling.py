@@ -4,12 +4,20 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from discrepancy.extend import judgement
+from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.telling import beyond, by_weight, meaning
 from discrepancy.inference.verdict import SET
 from discrepancy.problem import Candidate, Parameter
 from discrepancy.wording import told_apart_by
 from tests.test_base_off import CANDIDATES, amplitude, bench
+
+
+def test_amounts_of_chi_square_have_the_digits_that_mean_something():
+    """Rivals fitted "worse by 1462303.2"."""
+    assert [chi_text(x) for x in (3.24, 99.94, 8009.0, 999499.0, 1462303.2, -1462303.2, 2.5e9)] == [
+        "3.2", "99.9", "8,010", "999,000", "1.46 million", "-1.46 million", "2,500 million",
+    ]  # fmt: skip
 
 
 def test_effect_that_changes_more_than_was_measured_is_a_bound():
@@ -51,7 +59,7 @@ def test_alternatives_say_by_how_much_they_fit_worse():
     members = {m.name: m.fit.chi2 for m in found.fits.members}
     assert found.verdict == SET and first.chi2_difference == 0.0 and first.reason == ""
     worse = members[second.name] - members[first.name]
-    assert second.chi2_difference == worse and second.reason == f"fits worse by {worse:.1f} in chi-square than {first.name}"
+    assert second.chi2_difference == worse and second.reason == f"fits worse by {chi_text(worse)} in chi-square than {first.name}"
     answer = SimpleNamespace(effects=[e.to_dict() for e in found.effects], confusable=found.confusable)
     assert told_apart_by(answer) == [first.name, f"{second.name} ({second.reason})"]
 

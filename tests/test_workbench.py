@@ -568,3 +568,36 @@ def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, 
     place.mkdir(parents=True)
     assert steps.extend_step(folder, {"model": "RV20E-121", "effects": ["drag"]}, 1, place) is False
     assert folder.recall("view") == {"model": chosen, "theme": "dark"}
+
+
+def moved(angle, by):
+    import numpy as np
+
+    return 10.0 * np.sin(angle) + 3.0 * np.sin(80.0 * (angle + by))
+
+
+@pytest.mark.parametrize("named, free", [("lag_share", True), ("angle_zero[1]", True), ("sensor_gain", False)])
+def test_a_tried_curve_stands_from_its_own_zero_where_that_is_free(named, free):
+    """A tried effect that moves the lag was held against the measurement with the lag of the base model, and looked worse than it is."""
+    import numpy as np
+
+    from discrepancy.problem import ERROR, Parameter, Record
+    from workbench.own_zero import at_own_zero
+    from workbench.trying import error_of
+
+    angle = np.linspace(0.0, 2.0 * np.pi, 1200, endpoint=False)
+    record = Record("r", ERROR, "rad", "c", 1, moved(angle, 2e-3), {"angle": angle}, {"direction": 1}, mounting="1", of_output=True)
+    nuisances = [Parameter(named, "1", 0.0, -1.0, 1.0, 0.1, 0)]
+    before, after = error_of(record, moved(angle, 0.0)), error_of(record, at_own_zero(record, moved(angle, 0.0), nuisances))
+    assert before > 0.3 and (after < 0.1 * before if free else after == before)
+
+
+def test_nothing_else_is_moved_in_try():
+    import numpy as np
+
+    from discrepancy.problem import Parameter, Record
+    from workbench.own_zero import at_own_zero
+
+    torque = np.linspace(-1.0, 1.0, 50)
+    loop = Record("r", "hysteresis", "rad", "c", 1, torque + 1.0, {"torque": torque}, {"direction": 1}, mounting="1")
+    assert at_own_zero(loop, torque, [Parameter("angle_zero[1]", "rad", 0.0, -1.0, 1.0, 0.1, 0)]) is torque

@@ -658,6 +658,8 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     page.locator("#verdict", has_text="interrupted").wait_for()
     page.locator("#diagnose:enabled", has_text="Go on").click()
     page.locator("#verdict", has_text="The model lacks thermal expansion").wait_for(timeout=300_000)
+    # Rivals are listed once, in the evidence.
+    assert page.locator("summary", has_text="Rivals").count() == 1
     # Try: the curve follows the hand.
     bench.view("try")
     page.fill("input[type=search]", "thermal expansion")

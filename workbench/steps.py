@@ -96,7 +96,6 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.left_sizes import left_sizes
     from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
     from discrepancy.page.answer import headline
-    from discrepancy.page.whys import of_rival
     from discrepancy.page.write import page_of
     from discrepancy.wording import (
         base_texts,
@@ -131,7 +130,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
-        "rejected": [r | {"why": asdict(of_rival(r))} for r in turned_down(answer)],
+        "rejected": turned_down(answer),
         "laws": [with_minus(with_titles(law.text)) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
         "doubts": doubts,

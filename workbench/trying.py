@@ -22,6 +22,7 @@ from fmu_src.effect import EffectParameter
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
+from workbench.own_zero import at_own_zero
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
 REACH = 5.0
@@ -95,12 +96,12 @@ class Trial:
             record = run_of(found, run)
             own = checked_values(found, values)
             standing = self.standing(folder, model, found)
-            base = found.one(record, standing)
-            tried = found.one(record, standing | own, rough=roughly) if own else base
+            base = own_curve(found, record, standing)
+            tried = own_curve(found, record, standing | own, roughly) if own else base
             other = base
             if beside and beside != model:
                 second = self.opened(folder, beside)
-                other = second.one(run_of(second, run), self.standing(folder, beside, second))
+                other = own_curve(second, run_of(second, run), self.standing(folder, beside, second))
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
@@ -133,7 +134,7 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                base, tried = found.one(record, standing, rough=True), found.one(record, standing | own, rough=True)
+                base, tried = own_curve(found, record, standing, True), own_curve(found, record, standing | own, True)
                 units[key[0]] = record.unit
                 cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
         rows = []
@@ -143,6 +144,11 @@ class Trial:
             rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
                          "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
         return rows
+
+
+def own_curve(model: PhysicalModel, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:
+    """What is shown of a record: each curve from its own zero."""
+    return at_own_zero(record, model.one(record, values, rough=rough), model.nuisances)
 
 
 def run_of(model: PhysicalModel, run: str) -> Record:

@@ -2,12 +2,16 @@
 
 import argparse
 import shlex
+from typing import TYPE_CHECKING
 
 from cli.commands import campaign_from
 from cli.options import add_json, add_reducer
 from cli.written import say_file
 from discrepancy.campaign.quantities import QUANTITIES, USUAL
 from fmu_src.progress import task
+
+if TYPE_CHECKING:
+    from discrepancy.campaign.model import Campaign
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -76,7 +80,17 @@ def run_check(options: argparse.Namespace) -> int:
         show(check)
         if found:
             show_separability(found)
+        if not check.problems and (line := compare_line(campaign, options)):
+            print(f"next  {line}")
     return 1 if check.problems else 0
+
+
+def compare_line(campaign: "Campaign", options: argparse.Namespace) -> str:
+    """The command that goes on from a check, with what this one was given; empty where the campaign names no reducer that a model could begin with."""
+    if campaign.reducer is None:
+        return ""
+    reducer = campaign.reducer.name if campaign.reducer.is_of_library else str(campaign.reducer.path)
+    return shlex.join(["rvwear", "compare", reducer, options.folder, *(["--data", options.data] if options.data else [])])
 
 
 def run_template(options: argparse.Namespace) -> int:

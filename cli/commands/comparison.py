@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
     from discrepancy.verdict import Answer, AnswerSoFar
 
+GOES_ON = "the same command goes on from there"
 MODEL_HELP = "model file, reducer file or name of a reducer"
 
 
@@ -146,8 +147,6 @@ def run_localise(options: argparse.Namespace) -> int:
 
 def run_diagnose(options: argparse.Namespace) -> int:
     """Exit code 130 if it was interrupted, 143 if terminated: then it shows what was known by then."""
-    from cli.screen import json_text
-    from cli.show.comparison import show_answer
     from discrepancy.draft.choose import written_to
     from discrepancy.remembered import diagnosed
     from discrepancy.verdict import AnswerSoFar, diagnose
@@ -155,22 +154,17 @@ def run_diagnose(options: argparse.Namespace) -> int:
     check_exports(options)
     file, campaign = inputs(options)
     fmus = folder(options.fmus)
-    with task("diagnosing"):
-        stopped = 0
-        try:
+    try:
+        with task("diagnosing"):
             answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
-        except AnswerSoFar as stop:
-            # What is known so far is an answer, too.
-            answer, stopped = stop.answer, exit_code(stop)
-    write_html(options, answer)
-    draft = None
-    if options.draft:
-        draft = None if stopped else written_to(answer, Path(options.draft))
-    if options.json:
-        json_text(answer.as_json() | {"draft": str(draft) if draft else None})
-    else:
-        show_answer(answer)
-        if not stopped and (line := line_after(options, answer)):
+    except AnswerSoFar as stop:
+        code = tell_so_far(options, stop, "begin again" if fmus else GOES_ON, draft=None)
+        export(options, stop.answer)
+        return code
+    draft = written_to(answer, Path(options.draft)) if options.draft else None
+    tell(options, answer, draft=str(draft) if draft else None)
+    if not options.json:
+        if line := line_after(options, answer):
             print(f"\nnext  {line}")
         if options.draft:
             if draft:
@@ -179,9 +173,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
                 print("\nno draft: an effect was named, or no law was recovered that has a place in the units")
     say_page(options)
     export(options, answer)
-    if stopped:
-        print("rvwear diagnose: interrupted; " + ("begin again" if fmus else "the same command goes on from there"), file=sys.stderr)
-    return stopped
+    return 0
 
 
 def run_extend(options: argparse.Namespace) -> int:
@@ -200,18 +192,23 @@ def run_extend(options: argparse.Namespace) -> int:
         return tell_so_far(options, stop)
 
 
-def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar") -> int:
-    """What was known when the diagnosis that a command begins with was interrupted, as of ``diagnose``; its exit code."""
+def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
+    """An answer as page and on the screen, or as JSON with ``more``."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
 
-    write_html(options, stop.answer)
+    write_html(options, answer)
     if options.json:
-        json_text(stop.answer.as_json())
+        json_text(answer.as_json() | more)
     else:
-        show_answer(stop.answer)
+        show_answer(answer)
+
+
+def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = GOES_ON, **more: object) -> int:
+    """What was known when a diagnosis, or that which a command begins with, was interrupted, for this is an answer, too; its exit code."""
+    tell(options, stop.answer, **more)
     say_page(options)
-    print(f"rvwear {options.command}: interrupted; the same command goes on from there", file=sys.stderr)
+    print(f"rvwear {options.command}: interrupted; {again}", file=sys.stderr)
     return exit_code(stop)
 
 

@@ -6,6 +6,7 @@ from rich.table import Table
 
 from cli.screen import WIDTH, console, styled
 from discrepancy.campaign.findings import Finding
+from discrepancy.campaign.guess.in_columns import said_by_columns
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
 from discrepancy.campaign.guess.whose_angle import over_output
 
@@ -34,7 +35,9 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
                 out.print(f'  angle_of = "{proposal.angle_of.value}": {proposal.angle_of.reason}')
     for name, stated in proposal.conditions.items():
         kept = f"; {proposal.held_out[name].reason}" if name in proposal.held_out else ""
-        out.print(f"condition {name}: {', '.join(f'{key} {value}' for key, value in stated.items()) or 'nothing is said'}{kept}")
+        by_column = said_by_columns([run.guessed for run in proposal.runs if run.condition == name], stated)
+        said = [f"{key} {value}" for key, value in stated.items()] + [f"{key} {' and '.join(levels)} by its column" for key, levels in by_column.items()]
+        out.print(f"condition {name}: {', '.join(said) or 'nothing is said'}{kept}")
     for doubt in proposal.doubts:
         out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
     for finding in findings:

@@ -216,9 +216,11 @@ class CampaignFile(Strict):
         return entries
 
 
-def read_campaign_file(path: Path) -> tuple[CampaignFile, str]:
-    """The checked content of the file, and its text."""
-    remedy = f"rvwear campaign from {shlex.quote(str(path.parent))} --reducer ... makes one of measured files, rvwear campaign template FOLDER an empty one"
+def read_campaign_file(path: Path, data: str | Path | None = None) -> tuple[CampaignFile, str]:
+    """The checked content of the file, and its text; ``data``: where its measured files are, if that was said."""
+    folder = str(path.parent)
+    words = [str(data), "--output", folder] if data is not None else [folder]
+    remedy = f"rvwear campaign from {shlex.join(words)} --reducer ... makes one of measured files, rvwear campaign template FOLDER an empty one"
     text = read_text(path, "campaign file", remedy)
     content = parse_toml(text, path, REMEDY)
     lay_out(content, path)

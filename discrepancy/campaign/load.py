@@ -34,7 +34,7 @@ def load_campaign(folder: str | Path, data: str | Path | None = None, file: Path
 
 
 def campaign_of(folder: Path, data: str | Path | None, path: Path) -> Campaign:
-    content, text = read_campaign_file(path)
+    content, text = read_campaign_file(path, data)
     scales = make_scales(content.campaign, folder, path)
     conditions = {
         name: condition_of(name, entry, scales, f"{path}: conditions.{name}") for name, entry in content.conditions.items()

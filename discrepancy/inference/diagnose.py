@@ -9,6 +9,7 @@ from scipy.special import chdtrc, fdtrc
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
+from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
@@ -29,8 +30,8 @@ from fmu_src.progress import say
 BY_CHANCE = 0.2
 # Of a change of which calibrations leave less than this share, squared, to first order, a refit may show much more; so many effects are tried.
 HIDDEN, MOST_HIDDEN = 0.1, 3
-# So many of the nearest effects are said on the way.
-NEAREST = 3
+# So many of the effects that stand out most are said on the way.
+FIRST = 3
 
 
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
@@ -150,7 +151,7 @@ class Diagnostician:
         if start is None:
             rivals = selection.singles()
             start = likeliest(rivals, settings.margin)
-        say(f"best alone: {start.name}, {start.gain:.0f} of chi-square")
+        say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.simplified(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
@@ -241,12 +242,13 @@ class Diagnostician:
         say(f"misfit: {best.signal}, {best.feature}, {where} ({chance(best.p)}){more}")
 
     def say_scores(self) -> None:
-        """Which effects come nearest before any is fitted in earnest."""
-        nearest = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:NEAREST]
+        """Which effects stand out most before any is fitted: an order in which to look at them, and no answer."""
+        first = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:FIRST]
         # Of what was tried at first, each has a score or shows nothing.
         idle = len(self.candidates) - len(self.refits.scores)
         without = f", the other {idle} change nothing here that could be seen" if idle else ""
-        say(f"{self.tested}{without}; nearest: " + ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in nearest))
+        shown = ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in first)
+        say(f"{self.tested}{without}; at first sight, each alone and none fitted yet, these stand out most: {shown}; no answer yet")
 
     @property
     def tested(self) -> str:

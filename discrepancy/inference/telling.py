@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
@@ -98,7 +99,7 @@ class Teller:
         for s in self.scores.values():
             if s.name not in names and not any(x["name"] == s.name for x in rejected):
                 rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: p = {s.p_adjusted:.2g} over all effects, "
-                                 f"explains {s.statistic:.1f} of chi-square alone"})
+                                 f"explains {chi_text(s.statistic)} of chi-square alone"})
         correlations = {}
         if len(members) > 1 and not several:
             for k, a in enumerate(members):
@@ -174,6 +175,7 @@ def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None,
 def why_not(rival: Refit, first: Refit, worse: float) -> str:
     """Why a rival whose chi-square lies so much above that of what stands first is turned down."""
     if worse >= 0.0:
-        return f"fits worse by {worse:.1f} in chi-square"
+        return f"fits worse by {chi_text(worse)} in chi-square"
     more = len(rival.own) - len(first.own)
-    return f"fits better by {-worse:.1f} in chi-square, with " + (f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely")
+    price = f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely"
+    return f"fits better by {chi_text(-worse)} in chi-square, with {price}"

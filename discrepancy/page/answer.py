@@ -61,6 +61,8 @@ def sentence(answer: Answer) -> str:
         said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
     if answer.verdict in (UNKNOWN, SEVERAL):
         said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
+    if answer.verdict == NONE and (figure := answer.reason.partition("; ")[2]):
+        said += f" {figure[:1].upper()}{figure[1:]}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
     sizes = left_sizes(answer, signal_title)
     return said + (f" Left are: {left}." if left else "") + (f" Every sample is off by: {sizes}." if sizes else "")

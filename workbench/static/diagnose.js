@@ -1,7 +1,7 @@
 // Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
 
 import { addPart, ladder, nextPart } from "./better.js";
-import { clear, command, duration, effectName, h, note, table, why, words } from "./dom.js";
+import { clear, command, duration, h, note, why, words } from "./dom.js";
 import { doubtsBefore } from "./doubts.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
@@ -113,7 +113,7 @@ export function show(root, context) {
           answer.laws.map((law) => h("div", { class: "small" }, h("b", {}, "Law without a name"), h("div", {}, h("code", {}, law)))),
         ),
         cards(answer.page.cards),
-        rivals(),
+        alike(),
         h("h2", {}, "Evidence"),
         sections(answer.page.sections),
         warnings(answer.page.warnings),
@@ -143,18 +143,14 @@ export function show(root, context) {
       h("p", { class: "quiet small" }, [e.share, e.error, e.held].filter(Boolean).join("; ")),
     );
 
-  const rivals = () =>
-    answer.rejected.length || answer.confusable.length || answer.stand_ins.length
+  // What was turned down, and why, stands in the evidence.
+  const alike = () =>
+    answer.confusable.length || answer.stand_ins.length
       ? h(
-          "details",
-          { class: "panel", open: answer.confusable.length + answer.stand_ins.length > 0 },
-          h("summary", {}, h("b", {}, "Rivals, and why not")),
+          "div",
+          { class: "panel" },
           answer.confusable.length ? h("p", {}, `This campaign cannot tell apart: ${(answer.alike ?? answer.confusable).join(", ")}.`) : null,
           answer.stand_ins.map((text) => h("p", {}, text)),
-          table(
-            ["effect", "why not", ""],
-            answer.rejected.slice(0, 12).map((r) => [effectName(r.name), r.reason, why(r.why, effectName(r.name))]),
-          ),
         )
       : null;
 

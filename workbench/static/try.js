@@ -304,7 +304,7 @@ export function show(root, context) {
             rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
             [1, 2, 3],
           ),
-          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact."),
+          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact. Transmission errors stand from the zero and with the lag that suit each curve; where an input was locked, and whatever else is calibrated, stays as the base model has it, so that adding an effect may do better."),
         ),
       );
     } catch (fault) {

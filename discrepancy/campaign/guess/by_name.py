@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 
+from discrepancy.campaign.guess.same_number import in_figures
 from discrepancy.campaign.guess.wishes import Wishes
 from fmu_src.faults import InputFault, nearest
 
@@ -38,9 +39,3 @@ def spaced(text: str) -> str:
     """25degC as files say it: 25 degC."""
     match = NUMBER_AND_UNIT.fullmatch(text)
     return f"{match[1]} {match[2].strip()}" if match else text
-
-
-def in_figures(stated: Mapping[str, str]) -> dict[str, object]:
-    """To be compared however it was written: 25 degC, 25.0 degC."""
-    matches = {key: NUMBER_AND_UNIT.fullmatch(text) for key, text in stated.items()}
-    return {key: (float(match[1]), match[2].strip()) if (match := matches[key]) else text for key, text in stated.items()}

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from discrepancy.campaign.guess.file_names import NUMBERS, SENSE, Parsed, count_of, figure, proposed, stem
-from discrepancy.campaign.guess.name_units import NUMBER, units_behind
+from discrepancy.campaign.guess.name_units import NUMBER, is_turns, units_behind
 from fmu_src.faults import InputFault, nearest
 from fmu_src.unit_words import unit_of
 from fmu_src.units import UnitError, conversion
@@ -56,6 +56,11 @@ def require_fields(pattern: str) -> None:
             require_unit(pattern, name, given)
         elif name in NUMBERS and (other := of_another_kind(name, literal := pattern[match.end() :].partition("{")[0])):
             words, kind, attached = other
+            if is_turns(words) and "speed" in name and (attached or literal):
+                raise InputFault(
+                    f"--names {pattern!r}: {words!r} behind {{{name}}} is turns: does it stand for turns a minute ({words}/min)? Then write"
+                    f" {pattern.replace(match[0], f'{{{name}:rpm}}')!r}; {{{name}:turn/s}} are turns a second"
+                )
             if attached or (len(words) >= LEAST_WORD and literal):
                 raise InputFault(
                     f"--names {pattern!r}: {words!r} behind {{{name}}} is a unit of {kind}, not of {NUMBERS[name][0]}; correct the field, or say"

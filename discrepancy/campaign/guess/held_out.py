@@ -4,12 +4,10 @@ from collections.abc import Collection, Mapping, Sequence
 
 from discrepancy.campaign.findings import LEAST_CONDITIONS
 from discrepancy.campaign.guess.said import Guess
+from discrepancy.campaign.guess.same_number import ANY_REDUCER
 from discrepancy.campaign.quantities import FACTOR_KEYS
-from discrepancy.campaign.scales import Scales
 from discrepancy.held_names import LOCKED_AT
 
-# Numbers of one key are compared, whatever their units.
-ANY_REDUCER = Scales(None, 1.0, 1.0)
 # What the conditions that stay have to cover first: several numbers that are calibrated, as lag and angle of an encoder, are told apart by loads alone.
 FIRST = ("load", "temperature", "speed")
 # What a condition states in words.
@@ -63,11 +61,19 @@ def covered(names: Sequence[str], conditions: Mapping[str, Mapping[str, str]], f
 
     chosen = min(fitting, key=order)
     if not differing:
-        return chosen, "the last one; nothing says which lies inside the others"
+        return chosen, f"the last one; {not_told([conditions[name] for name in names])}"
     if not beyond[chosen]:
         return chosen, "inside the range of the others"
     within = [key for key in differing if key not in beyond[chosen]]
     return chosen, f"its {listed(within)} within the others', only its {listed(beyond[chosen])} beyond"
+
+
+def not_told(stated: Sequence[Mapping[str, str]]) -> str:
+    """Why any of the conditions would do."""
+    places = list(dict.fromkeys(one[LOCKED_AT] for one in stated if LOCKED_AT in one))
+    if len(places) < 2:
+        return "nothing says which lies inside the others"
+    return f"they differ by where the input was locked alone ({', '.join(places)}), and angles go round: none lies beyond the others, any would do"
 
 
 def rank(key: str) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from discrepancy.campaign.guess.file_names import NUMBERS
 from discrepancy.campaign.guess.run import GuessedRun
 from discrepancy.campaign.guess.said import Doubt
-from discrepancy.campaign.guess.unread_numbers import suggested
+from discrepancy.campaign.guess.unread_numbers import suggested, turns_named
 from discrepancy.campaign.guess.wishes import OPEN
 from discrepancy.campaign.quantities import FACTOR_KEYS, FACTOR_NAMES, QUANTITIES, keys_for
 
@@ -33,7 +33,9 @@ def lacking(runs: Sequence[tuple[str, GuessedRun]], conditions: Mapping[str, Map
         for factor in missing:
             # One number is not two things: that of a load first.
             field = field_of(factor) if factor == "load" or "load" not in missing else None
-            asked = tuple(offer(*numbers) for numbers in suggested(patterns[run.quantity.value], field)) if field else ()
+            own = patterns[run.quantity.value]
+            numbers = (suggested(own, field) or (turns_named(own, field) if factor == "speed" else [])) if field else []
+            asked = tuple(offer(*pair) for pair in numbers)
             found.setdefault((condition, factor, asked), f"{run.quantity.value} needs {' or '.join(keys_for(factor))}")
     whole: dict[tuple[str, str, tuple[str, ...]], list[str]] = defaultdict(list)
     for (condition, factor, asked), text in found.items():

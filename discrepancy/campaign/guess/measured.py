@@ -6,14 +6,8 @@ from dataclasses import replace
 
 from discrepancy.campaign.guess.run import GuessedRun
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.set_steps import MEASURED, SHARE_STEP, TEMPERATURE_STEP, spans_no_step, step_at
 from discrepancy.campaign.guess.wishes import Wishes
-from fmu_src.units import conversion
-
-# Nobody sets steps that are smaller (assumed): what differs by less was meant to be the same and was measured.
-TEMPERATURE_STEP = 1.0  # K
-SHARE_STEP = 0.01  # of a speed or load
-# The temperature last: a rig drifts with the hours, while speeds and loads are held.
-MEASURED = ("input_speed", "output_speed", "load_torque", "temperature")
 
 
 def with_given_instead(runs: Sequence[GuessedRun], wishes: Wishes) -> list[GuessedRun]:
@@ -52,16 +46,6 @@ def with_measured_joined(runs: Sequence[GuessedRun]) -> list[GuessedRun]:
                     for k, one, low, high in levelled({k: numbers[k] for k in group}, key, unit):
                         found[k] = joined_run(found[k], key, f"{one:.6g} {unit}", f"{low:g}" + (f" to {high:g}" if low < high else "") + f" {unit}")
     return found
-
-
-def step_at(number: float, key: str, unit: str) -> float:
-    """The smallest difference that is set on purpose, in the number's unit."""
-    return TEMPERATURE_STEP / conversion(unit, "K")[0] if key == "temperature" else SHARE_STEP * abs(number)
-
-
-def spans_no_step(numbers: Sequence[float], key: str, unit: str) -> bool:
-    # Without the last digits: 26.1 - 25.1 is a whole step.
-    return round(max(numbers) - min(numbers), 9) < round(step_at(max(numbers, key=abs), key, unit), 9)
 
 
 def chains(numbers: dict[int, float], key: str, unit: str) -> list[list[int]]:

@@ -20,7 +20,13 @@ NUMBERED = re.compile(rf"[^\W\d_]*({NUMBER})([^\W\d_]*)")
 
 def spelled(text: str) -> tuple[str, str] | None:
     """(unit, kind) of words as names write them, which have no strokes and often no blanks: in_lbf, U_min."""
-    return unit_of(text.replace("_", " ")) or (unit_of(re.sub(r"[_\s]", "/", text)) if re.search(r"[_\s]", text) else None)
+    return unit_of(text.replace("_", " ")) or (unit_of(re.sub(r"[_\s-]", "/", text)) if re.search(r"[_\s-]", text) else None)
+
+
+def is_turns(text: str) -> bool:
+    """Whether words are turns, which behind a speed stand for turns a minute: 15U."""
+    known = spelled(text)
+    return known is not None and known[0] == "turn"
 
 
 def units_behind(text: str) -> Iterator[tuple[str, str, str, str]]:

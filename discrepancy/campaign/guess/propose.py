@@ -1,6 +1,5 @@
 """A campaign proposed from files: what ``rvwear campaign from`` and a page in the browser show, correct and save."""
 
-import math
 import os
 import re
 from collections import defaultdict
@@ -18,18 +17,19 @@ from discrepancy.campaign.guess.file_names import stem
 from discrepancy.campaign.guess.given_names import require_fit
 from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.held_out import held_out
+from discrepancy.campaign.guess.in_columns import different_in_columns
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, written_alike
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.whose_angle import whose_angle
 from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
-from discrepancy.campaign.scales import Scales
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.problem import MEAN
 from fmu_src.faults import InputFault, nearest
@@ -99,7 +99,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     require_columns(guessed, wishes)
     require_units(guessed, wishes)
     require_roles(guessed, wishes)
-    states = [state_of(run, wishes) for run in guessed]
+    states = written_alike([state_of(run, wishes) for run in guessed])
     by_state = named_conditions(states)
     conditions, labels = dict[str, dict[str, str]](), defaultdict[str, set[str]](set)
     for state in states:
@@ -114,6 +114,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     angle_of, of_angles = whose_angle(zip(names, guessed), conditions, wishes)
     doubts = [*merged([*(d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))), *of_angles]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
+    doubts += different_in_columns(in_conditions, conditions)
     unplaced = positions_asked(in_conditions, conditions)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,
@@ -153,7 +154,6 @@ def require_columns(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
 
 def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
     """InputFault for a unit that is given and that the campaign could not be read with: said here, where it was typed."""
-    any_reducer = Scales(None, 1.0, 1.0)
     for run in runs:
         units = wishes.units_for(run.path.name)
         for role, entry in run.columns.items():
@@ -161,7 +161,7 @@ def require_units(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
             if given is None:
                 continue
             try:
-                any_reducer.conversion(roles_of(QUANTITIES[run.quantity.value])[role], entry.unit.value, f"--unit {entry.header}={given}")
+                ANY_REDUCER.conversion(roles_of(QUANTITIES[run.quantity.value])[role], entry.unit.value, f"--unit {entry.header}={given}")
             except InputFault as fault:
                 factor = "; a factor is no part of a unit, it is given by --scale" if re.search(r"[*/]\s*[\d.]+|^[\d.]+\s*[*/]", given) else ""
                 raise InputFault(f"{fault}{factor}") from None
@@ -172,7 +172,7 @@ def require_numbers(wishes: Wishes) -> None:
     for given, text in wishes.conditions.items():
         name = given.rpartition(":")[2]
         if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN):
-            Scales(None, 1.0, 1.0).number(FACTOR_KEYS[name], text, f"--condition {given}")
+            ANY_REDUCER.number(FACTOR_KEYS[name], text, f"--condition {given}")
 
 
 def require_roles(runs: Sequence[GuessedRun], wishes: Wishes) -> None:
@@ -199,16 +199,8 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
     said = {key: guess.value for key, guess in run.factors.items()}
     return [
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
-        for key, text in wishes.conditions.items() if key in said and not is_same(key, said[key], text)
+        for key, text in wishes.conditions.items() if key in said and figure_of(key, said[key]) != figure_of(key, text)
     ]
-
-
-def is_same(key: str, said: str, given: str) -> bool:
-    """Whether two texts of a condition mean the same: 77 degF and 77 F."""
-    if key not in FACTOR_KEYS or MEAN in (said, given):
-        return said == given
-    one, other = (Scales(None, 1.0, 1.0).number(FACTOR_KEYS[key], text, key) for text in (said, given))
-    return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12)
 
 
 def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:

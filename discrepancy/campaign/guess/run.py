@@ -17,7 +17,9 @@ from discrepancy.campaign.guess.header_units import name_of, unknown_in
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.locked_words import held_angle, locked_angle
 from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
+from discrepancy.campaign.guess.name_and_head import contradiction, is_measured
 from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
 from discrepancy.campaign.guess.wishes import Wishes, of_column
@@ -56,7 +58,8 @@ class Entry:
 class GuessedRun:
     """What one file holds; ``factors``: key of a condition -> "15 rpm"; ``repeated``: its column that numbers repetitions, and their numbers;
     ``headers``: of every column that holds numbers, without units; ``left_out``: as the file has them, of those without a part; ``above``: keys that lines
-    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says."""
+    above its table state; ``actual``: key -> "25.2 degC", where it was not quite what its condition says; ``levels``: what columns of a condition's
+    numbers hold throughout, in their units; NaN where they do not."""
 
     path: Path
     quantity: Guess[str]
@@ -71,6 +74,7 @@ class GuessedRun:
     left_out: tuple[str, ...]
     above: frozenset[str]
     actual: Mapping[str, str]
+    levels: Mapping[str, float]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -116,7 +120,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         if not guess.sure:
             doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
     tags, more_doubts = tags_of(quantity.value, text, speaking, wishes, path)
-    factors, speed_doubts = factors_of(name, table, path, entries)
+    factors, actual, factor_doubts = factors_of(name, table, path, entries)
     if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
         factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
     if quantity.value in HELD and LOCKED_AT not in entries and (at := where_locked(path, table, tags)):
@@ -127,8 +131,9 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     left_out = tuple(table.headers.get(c.name, c.name) for c in columns if c.name not in used)
     if VALUE in entries and VALUE not in stated:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
-    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *speed_doubts), headers, left_out,
-                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), {})  # fmt: skip
+    levels = {role: held_level(table.columns[e.column.value]) * float(e.keys.get("scale", 1.0)) for role, e in entries.items() if role in FACTOR_KEYS}
+    return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *factor_doubts), headers, left_out,
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels)  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:
@@ -283,9 +288,11 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
     return found, doubts
 
 
-def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry]) -> tuple[dict[str, Guess[str]], list[Doubt]]:
-    """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table."""
+def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry]) -> tuple[dict[str, Guess[str]], dict[str, str], list[Doubt]]:
+    """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table; of those that the name says what such a line has
+    measured; doubts."""
     found: dict[str, Guess[str]] = {}
+    actual: dict[str, str] = {}
     doubts = []
     sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), ABOVE)]
     for numbers, where in sources:
@@ -295,18 +302,24 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
                 rpm = conversion(unit, "rpm")[0] * number
                 side = speed_column(rpm, table, entries) or speed_role(rpm)
                 key, reason, sure = side.value, f"{where}; {side.reason}", side.sure
-            if key in found or (key.endswith("speed") and any(k.endswith("speed") for k in found)):
+            text = f"{number:g} {unit}"
+            if key in found:
+                named = found[key].value
+                actual |= {key: text} if is_measured(key, named, text) else {}
+                doubts += [doubt] if (doubt := contradiction(path, key, named, text)) else []
                 continue
-            found[key] = Guess(f"{number:g} {unit}", reason, sure)
+            if key.endswith("speed") and any(k.endswith("speed") for k in found):
+                continue
+            found[key] = Guess(text, reason, sure)
             if not sure:
                 other = "output_speed" if key == "input_speed" else "input_speed"
                 remedy = f"--names with {{{other}}} in its place, or correct the condition"
-                doubts.append(Doubt(path.name, f"{number:g} {unit} is taken for the {key}: {side.reason}", remedy))
+                doubts.append(Doubt(path.name, f"{text} is taken for the {key}: {side.reason}", remedy))
     if name.direction:
         found["direction"] = Guess(name.direction, f"the file's name, by {name.pattern!r}")
     if name.mounting:
         found["mounting"] = Guess(name.mounting, f"the file's name, by {name.pattern!r}")
-    return found, doubts
+    return found, actual, doubts
 
 
 def speed_column(rpm: float, table: Table, entries: Mapping[str, Entry]) -> Guess[str] | None:

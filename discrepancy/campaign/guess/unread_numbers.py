@@ -5,7 +5,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from discrepancy.campaign.guess.file_names import PARTS
-from discrepancy.campaign.guess.name_units import NUMBER
+from discrepancy.campaign.guess.name_units import NUMBER, is_turns
 
 COUNTING = re.compile(rf"([^\W\d_]*)=?({NUMBER})([^\d]*)$")
 # A field of a pattern is no number of its own.
@@ -24,6 +24,17 @@ def suggested(patterns: Sequence[str], field: str) -> list[tuple[str, list[str]]
         forms[len(parts), COUNTING.sub("", parts[0])].append(parts)
     found = [offer for split in forms.values() if len(split) > 1 for offer in offers(split, field)]
     return sorted(found, key=lambda offer: -len(offer[1]))
+
+
+def turns_named(patterns: Sequence[str], field: str) -> list[tuple[str, list[str]]]:
+    """The same where names do not differ, but have turns behind a number (15U): those a minute, perhaps."""
+    found: dict[str, list[str]] = defaultdict(list)
+    for pattern in dict.fromkeys(patterns):
+        parts = PARTS.split(pattern)
+        for place, part in enumerate(parts):
+            if (match := COUNTING.match(part)) and is_turns(match[3]):
+                found["".join([*parts[:place], f"{match[1]}{{{field}}}{match[3]}", *parts[place + 1 :]])].append(match[2])
+    return list(found.items())
 
 
 def offers(split: Sequence[Sequence[str]], field: str) -> list[tuple[str, list[str]]]:
