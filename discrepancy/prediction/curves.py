@@ -190,6 +190,9 @@ class OverTorque:
         return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step, self.record.closed)
 
 
+AnyCurve = TypeVar("AnyCurve", OverAngle, OverTorque)
+
+
 def moved(angles: Floats, series: Floats, by: float) -> Floats:
     """What a ``series`` at ``angles`` [rad] is ``by`` [rad] further on."""
     return SplineNodes(angles).samples(series, angles + by) if by else series
@@ -306,7 +309,7 @@ def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence
     return ripples(OverTorque(bench, record), values, cages)
 
 
-def ripples(curve: OverAngle | OverTorque, values: Values, cages: Sequence[float]) -> list[Floats]:
+def ripples(curve: AnyCurve, values: Values, cages: Sequence[float]) -> list[Floats]:
     """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
     without, *ahead = (signal(replace(curve, cage=cage), values) for cage in (0.0, *cages))
     return [series - without for series in ahead]
