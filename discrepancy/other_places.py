@@ -1,17 +1,19 @@
 """Where an effect sits that one of several parts can have, and which other place would look like it.
 
 A diagnosis fits such an effect at the part that its choices name, the first.  With two cranks an error of one's lobe at one disc shows as that of the
-other's lobe at the other disc, in every signal of the reducer as a whole: then no fit says which of both is to be opened.
+other's lobe at the other disc, in every signal of the reducer as a whole: then no fit says which of both is to be opened.  Nor does one where the zero of
+the output's angle was found by the base model's pattern: it is as well a wave of that further on, with which the cranks have made half a turn.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from itertools import product
+from math import degrees
 from typing import Any
 
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.separable import APART
 from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.model_file import every_effect
@@ -23,18 +25,31 @@ from fmu_src.effect import Effect, EffectParameter
 LEFT = 0.02
 
 
+@dataclass(frozen=True)
+class LookAlike:
+    """Another place, in words; ``turned`` if it looks so with the angles' zero a wave of the pattern further on; ``candidate`` that looks for the effect
+    there, if one does."""
+
+    place: str
+    turned: bool
+    candidate: str | None
+
+
 def placed(effects: list[dict[str, Any]], model: PhysicalModel, found: Diagnosis) -> list[dict[str, Any]]:
-    """Named effects with their ``place``, in words; empty where an effect has none."""
-    return [effect | {"place": place_text(effect["candidates"][0], model, found)} for effect in effects]
+    """Named effects with their ``place``, in words, empty where an effect has none; and the candidates that ``look_alike``."""
+    told = []
+    for effect in effects:
+        candidate = effect["candidates"][0]
+        here, others = place_of(candidate, model), look_alikes(candidate, model, found)
+        told.append(effect | {"place": place_text(here, others, model.wave), "look_alike": [other.candidate for other in others if other.candidate]})
+    return told
 
 
-def place_text(candidate: str, model: PhysicalModel, found: Diagnosis) -> str:
-    here = place_of(candidate, model)
-    alone = [m for m in found.fits.members if [c.name for c in m.candidates if effect_of(c.name) == effect_of(candidate)] == [candidate]]
-    if not here or not alone or found.verdict == STOPPED:
-        return here
-    others = look_alikes(candidate, model, alone[0], found)
-    return f"{' or '.join([here, *others])}, which look alike" if others else here
+def place_text(here: str, others: list[LookAlike], wave: float) -> str:
+    straight, turned = (" or ".join(other.place for other in others if other.turned == is_turned) for is_turned in (False, True))
+    alike = f"{here} or {straight}, which look alike" if straight else here
+    further = f"{degrees(wave):g} deg further on than it was found, which the signals leave open"
+    return f"{alike}; {turned} if the zero of the output's angle is {further}" if turned else alike
 
 
 def place_of(candidate: str, model: object) -> str:
@@ -45,25 +60,37 @@ def place_of(candidate: str, model: object) -> str:
     return words(group, chosen, current(chosen, model)) if chosen else ""
 
 
-def look_alikes(candidate: str, model: PhysicalModel, member: Refit, found: Diagnosis) -> list[str]:
-    """Other places, at which no candidate was fitted, where the effect with the same amplitudes, or their opposites, shows the same: what it
-    predicts of the fitted runs differs by less than the best test sees, or than ``LEFT`` of what it changes there.  A few predictions each.
+def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[LookAlike]:
+    """Other places where the effect with the same amplitudes, or their opposites, shows the same: what it predicts of the fitted runs differs by less than
+    the best test sees, or than ``LEFT`` of what it changes there.  A few predictions each; none for a diagnosis that was stopped.
     """
+    alone = [m for m in found.fits.members if [c.name for c in m.candidates if effect_of(c.name) == effect_of(candidate)] == [candidate]]
+    if not place_of(candidate, model) or not alone or found.verdict == STOPPED:
+        return []
     effect, group, space = every_effect()[effect_of(candidate)], group_of(candidate), found.fits.space
     chosen, topology = choices(effect, group), model.file.reducer.topology
     own = [p.variable.name for p in groups(effect)[group][0]]
-    fitted = dict(member.fit.values)
+    fitted = dict(alone[0].fit.values)
     rest = {name: value for name, value in fitted.items() if name not in own}
     shows_the_same = as_shown(space, fitted, rest)
-    here, alike = current(chosen, model), []
-    for sibling, numbers in product(siblings(effect, group, topology.cranks), product(*(range(1, parts(p, model) + 1) for p in chosen))):
-        if numbers == here:
+    here = current(chosen, model)
+    alike: list[LookAlike] = []
+    places = list(product(siblings(effect, group, topology.cranks), product(*(range(1, parts(p, model) + 1) for p in chosen))))
+    for turned, (sibling, numbers) in product((False, True) if model.zeros else (False,), places):
+        place = words(sibling, chosen, numbers)
+        if (numbers == here and not turned) or place in (place_of(candidate, model), *(other.place for other in alike)):
+            # Fitted itself, or told already.
             continue
         names = [p.variable.name for p in groups(effect)[sibling][0]]
+        zeros = {name: rest.get(name, zero) + model.wave * turned for name, zero in model.zeros.items()}
         for sign in (1.0, -1.0):
             there = {new: sign * fitted[old] for old, new in zip(own, names)} | {p.variable.name: float(n) for p, n in zip(chosen, numbers)}
-            if shows_the_same({**rest, **there}):
-                alike.append(words(sibling, chosen, numbers))
+            values = {**rest, **zeros, **there}
+            with model.locked_as(values):
+                same = shows_the_same(values)
+            if same:
+                looked = f"{effect_of(candidate)}.{sibling.replace(' ', '_')}" if numbers == here and sibling != group else None
+                alike.append(LookAlike(place, turned, looked))
                 break
     return alike
 

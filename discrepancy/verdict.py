@@ -5,7 +5,7 @@ centre, or oval).  Here they are put together under the effect's name.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -128,6 +128,9 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
 def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, figures: list[KeyFigure]) -> Answer:
     """A diagnosis with its effects by name, and the law where none is named."""
     effects = placed(effects_of(found, doctor), model, found)
+    # What looks like a named one is no rival of it.
+    alike = {name for effect in effects for name in effect["look_alike"]}
+    found = replace(found, rejected=[r for r in found.rejected if r["name"] not in alike])
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
     beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"

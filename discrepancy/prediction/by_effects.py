@@ -1,6 +1,7 @@
 """What was found with effects, each set of them for itself."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import TypeVar
 
 # The names of the amplitudes that are on.
@@ -40,3 +41,13 @@ class ByEffects:
             return False
         self.found[effects] = self.now(values)
         return True
+
+    @contextmanager
+    def tried(self, effects: Effects, values: Mapping[str, float]) -> Iterator[None]:
+        """Those of ``values`` for these effects, for a while."""
+        before = dict(self.found)
+        self.place(effects, values)
+        try:
+            yield
+        finally:
+            self.found = before

@@ -1,6 +1,7 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
 from collections.abc import Hashable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -34,8 +35,7 @@ from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table
 from fmu_src.threads import Threads
 
-# The pattern that fixes where an angle is counted from has this order of the output.
-PHASE_ORDER = 80
+# Places in a wave of the pattern that fixes where an angle is counted from.
 PHASES = 48
 # Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
 LAGS = (0.0, 12.0)
@@ -96,6 +96,8 @@ class PhysicalModel:
         require_known(campaign.folder, nuisances, self.bench.tables)
         self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
+        # One wave of the pattern in the transmission error that says where angles count from [rad of the output]: discs take turns at the pins.
+        self.wave = 2.0 * np.pi / (model.reducer.topology.pins * model.reducer.topology.discs)
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         # No FMU can be told where its cages stand; what they change is the same in process.
@@ -125,9 +127,8 @@ class PhysicalModel:
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
     def angle_nuisances(self) -> list[Parameter]:
-        width = 2.0 * np.pi / PHASE_ORDER
         found = [
-            Parameter(name, "rad", zero, zero - 0.25 * width, zero + 0.25 * width, 1e-3, 0, None,
+            Parameter(name, "rad", zero, zero - 0.25 * self.wave, zero + 0.25 * self.wave, 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip
@@ -147,8 +148,7 @@ class PhysicalModel:
             if tells:
                 by_mounting.setdefault(angle_zero(record), []).append(i)
         for name, indices in by_mounting.items():
-            width = 2.0 * np.pi / PHASE_ORDER
-            shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * width
+            shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * self.wave
             # One record tells; the pattern hardly depends on the condition.
             record = bridged(self.records[indices[0]])
             if record.quantity == ERROR:
@@ -291,6 +291,11 @@ class PhysicalModel:
                 found = self.observed(record, beside, None, rough or (changes is CHANGES and record.quantity in COARSE_CHANGES)) + change
             self.shown[key] = found
         return found
+
+    def locked_as(self, values: Mapping[str, float]) -> AbstractContextManager[None]:
+        """Inputs are locked where ``values`` have them, as long as that is asked."""
+        every = self.standing() | dict(values)
+        return self.locked_places.tried(self.cages.effects(every), every)
 
     def placed(self, record: Record, asked: Asked) -> Record:
         """The record, as if locked where that is with the effects that are on."""

@@ -1,0 +1,33 @@
+"""The zero of an angle is looked for over a whole wave of the transmission error's pattern, however many pins and discs a reducer has."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from discrepancy.model_file import ModelFile
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.units import Condition
+from discrepancy.problem import Record
+from reducers.reducer import load_reducer
+from tests.test_other_places import campaign
+
+# Shares of a wave: near and far from where it is looked for first.
+SHARES = (0.1, 0.4, -0.35)
+
+
+@pytest.mark.parametrize("name, waves", [("RV20E-121-rigid", 80), ("cycloidal-actuator", 14)])
+def test_a_zero_is_found_wherever_it_is(name, waves):
+    reducer = load_reducer(name)
+    bench = Bench(reducer, {})
+    at = Condition(bench.rated_speed, bench.rated_load)
+    angles = np.linspace(0.0, 2.0 * np.pi, 12 * waves, endpoint=False)
+    for share in SHARES:
+        zero = share * 2.0 * np.pi / waves
+        values = bench.column("transmission_error", at, {}, angles + zero)
+        factors = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
+        record = Record("run", "transmission_error", "rad", "a", 1, values, {"angle": angles}, factors, stated_noise=1e-7)
+        model = PhysicalModel(ModelFile(name, reducer), replace(campaign(), reducer=reducer, records=(record,)))
+        # Of places that are looked at.
+        assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=1.1 * 2.0 * np.pi / waves / 48)
