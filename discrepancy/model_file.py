@@ -273,9 +273,9 @@ def as_read(reducer: Reducer, name: str, value: float | int) -> tuple[str, float
 
 
 def extended_reducer(file: ModelFile) -> Reducer:
-    """The reducer with settings and effects as start values, for FMUs that carry them."""
+    """The reducer with settings and effects as start values, also of single elements, for FMUs that carry them."""
     known = {v.name for table in (file.reducer.plant, file.reducer.wear) for v in table.variables}
-    values = {name: value for name, value in file.values().items() if name in known}
+    values = {name: value for name, value in file.values().items() if name.partition("[")[0] in known}
     sources = dict.fromkeys(values, f"model {file.name}")
     return replace(file.reducer, starts=file.reducer.starts | values, sources=file.reducer.sources | sources)
 

@@ -5,8 +5,6 @@ import json
 from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element, SubElement
 
-import numpy as np
-
 from fmu_src.display import Display, display_unit, displays
 from fmu_src.project import Project
 from fmu_src.table import Table
@@ -106,7 +104,7 @@ def add_variables(root: Element, table: Table, variables: list[Variable]) -> Non
     positions: dict[str, list[int]] = {}
     position = 0
     for v in variables:
-        starts = np.broadcast_to(v.start, v.shape).ravel()
+        starts = table.start_of(v)
         for i, name in enumerate(v.element_names()):
             position += 1
             attributes = {

@@ -2,8 +2,6 @@
 
 from xml.etree.ElementTree import Element, SubElement
 
-import numpy as np
-
 from fmu_src.description import add_experiment, add_log_categories, add_units, limits_of, number, shown_in, starts_from, type_name
 from fmu_src.project import Project
 from fmu_src.table import Table
@@ -63,7 +61,7 @@ def add_variables3(root: Element, table: Table, variables: list[Variable]) -> No
             attributes |= shown_in(v)
         attributes |= limits_of(v)
         if causality in SETTABLE:
-            attributes["start"] = " ".join(number(v, x) for x in np.broadcast_to(v.start, v.shape).ravel())
+            attributes["start"] = " ".join(number(v, x) for x in table.start_of(v))
         kind = "Enumeration" if v.choices else "Int64" if v.is_integer else "Float64"
         element = SubElement(model_variables, kind, attributes)
         for _, size in v.seen_axes:

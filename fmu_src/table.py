@@ -29,7 +29,7 @@ class Table:
     ``terminals`` say which variables belong to one place of the machine.
     A record with views also has all its ``cells`` as one row of ``i8``.
 
-    ``arrays`` are start values of outputs and states that are not alike in all elements (worn surfaces).
+    ``arrays`` are start values that are not alike in all elements (worn surfaces, one pin that is larger).
     """
 
     def __init__(
@@ -134,12 +134,24 @@ class Table:
         return {v.name: records[v.name][0] for v in self.variables if not v.shape}
 
     def with_starts(self, starts: dict[str, float], sources: dict[str, str]) -> "Table":
-        """The same table with other start values (and their sources)."""
+        """The same table with other start values (and their sources), of whole variables or of elements (``pin_radius_error[3]``)."""
         changed = [
             replace(v, start=starts[v.name], source=sources.get(v.name, v.source)) if v.name in starts else v
             for v in self.variables
         ]
-        return self.remade(self.description, changed, self.arrays)
+        arrays: dict[str, Floats] = {}
+        for element, value in starts.items():
+            name, bracket, _ = element.partition("[")
+            if bracket and name in self.by_name:
+                shape = self.by_name[name].shape
+                start = arrays.setdefault(name, np.full(shape, float(starts.get(name, self.by_name[name].start))))
+                start.flat[self.cell_index(element) - self.offset[name]] = value
+        return self.remade(self.description, changed, self.arrays | arrays)
+
+    def start_of(self, variable: Variable) -> Floats:
+        """Start values of a variable's elements, in C order."""
+        found: Floats = np.broadcast_to(self.arrays.get(variable.name, variable.start), variable.shape).ravel()
+        return found
 
     def with_arrays(self, arrays: dict[str, Floats], description: str) -> "Table":
         """The same table that starts with these outputs and states, described as such."""

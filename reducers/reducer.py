@@ -70,7 +70,7 @@ EVERY_PART = Topology(discs=3, cranks=3, pins=4, lobes=3, rollers=3, output_pins
 
 @dataclass(frozen=True)
 class Reducer:
-    """One reducer: its topology and the numbers of its file in SI units."""
+    """One reducer: its topology and the numbers of its file in SI units; ``starts`` of whole variables, or of one element (``name[3]``)."""
 
     name: str
     description: str
@@ -97,7 +97,7 @@ class Reducer:
             "unit": unit,
             "reducer": self.name,
             "sizes": {"topology": asdict(self.topology), "resolution": asdict(self.resolution)},
-            "starts": {k: v for k, v in self.starts.items() if k in names},
+            "starts": {k: v for k, v in self.starts.items() if k.partition("[")[0] in names},
             "sources": {k: v for k, v in self.sources.items() if k in names},
         }
         if unit in self.worn:
