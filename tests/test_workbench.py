@@ -511,11 +511,10 @@ def test_a_life_of_a_model_file_is_called_after_it_and_its_command_names_it(tmp_
         ("RV20E-121-model_life.nc", "RV20E-121-model"), ("gearbox 7_life.nc", "gearbox 7"), ("RV20E-121_life.nc", "RV20E-121"),
     ]  # fmt: skip
     wanted = lives[0][1]
-    # What is no start value of a reducer is set, and stands in the command.
-    assert wanted.reducer.starts["needle_clearance_added"] == 2.1e-6 and [s.name for s in wanted.settings] == ["pin_radius_error[3]"]
-    texts = ["errors.pin.radius[3]=1e-06"]
+    assert wanted.reducer.starts["needle_clearance_added"] == 2.1e-6 and wanted.reducer.starts["pin_radius_error[3]"] == 1e-6 and not wanted.settings
+    texts = ["output.load_torque=100.0N.m"]
     assert command(load_model(tmp_path / "gearbox 7.toml"), 10.0, texts, tmp_path / "a.nc") == (
-        f"rvwear life --reducer '{tmp_path / 'gearbox 7.toml'}' --hours 10 --set 'errors.pin.radius[3]=1e-06' --output {tmp_path / 'a.nc'}"
+        f"rvwear life --reducer '{tmp_path / 'gearbox 7.toml'}' --hours 10 --set output.load_torque=100.0N.m --output {tmp_path / 'a.nc'}"
     )
     assert command(load_model("RV20E-121"), 10.0, [], tmp_path / "a.nc") == f"rvwear life --reducer RV20E-121 --hours 10 --output {tmp_path / 'a.nc'}"
 

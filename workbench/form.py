@@ -1,7 +1,7 @@
 """What a form of the page gives: texts that become numbers, and a model whose settings go into commands."""
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from fmu_src.faults import InputFault
@@ -46,10 +46,10 @@ def exactly(value: float) -> str:
     return f"{value:.15g}"
 
 
-def settings_of(file: "ModelFile", but: Collection[str] = ()) -> list[str]:
-    """Settings and effects of a model as ``name=value``, ``but`` those; those of the measuring chain, which no life has, are left out."""
+def settings_of(file: "ModelFile") -> list[str]:
+    """Settings and effects of a model as ``name=value``; those of the measuring chain, which no life has, are left out."""
     tables = [file.reducer.plant, file.reducer.wear]
-    return [f"{name}={value!r}" for kernel_name, value in file.values().items() if kernel_name not in but and (name := written(tables, kernel_name))]
+    return [f"{name}={value!r}" for kernel_name, value in file.values().items() if (name := written(tables, kernel_name))]
 
 
 def written(tables: "Sequence[Table]", name: str) -> str:

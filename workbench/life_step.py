@@ -9,7 +9,7 @@ from fmu_src.file_name import file_name
 from fmu_src.held_file import held
 from studies.figure_units import RUNNING
 from workbench.folder import Folder
-from workbench.form import exactly, number, settings_of
+from workbench.form import exactly, number
 from workbench.told import write_json
 
 if TYPE_CHECKING:
@@ -38,10 +38,8 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     chosen = folder.model(given)
     file, reducer = load_model(chosen), named_reducer(chosen)
     hours = positive(given, "hours") or USUAL_HOURS
-    # Elements of lists, which a reducer has no start values for.
-    texts = settings_of(file, but=reducer.starts)
-    if torque := positive(given, "torque"):
-        texts.append(f"output.load_torque={torque!r}N.m")
+    torque = positive(given, "torque")
+    texts = [f"output.load_torque={torque!r}N.m"] if torque else []
     settings = [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
     wanted = WantedLife(reducer, settings, LifeSettings(hours))
     path = folder.root / "results" / f"{file_name(reducer.name)}_life.nc"
