@@ -33,6 +33,8 @@ NEAR = {"hysteresis": (0.5, 10.0), "lost_motion": (0.5, 10.0), "transmission_err
 NEAR_OTHERS = (1.0 / 3.0, 3.0)
 # A unit that leaves more than this is not offered: it may be any.
 CLOSE = 3.0
+# Nearer than this a unit is what was meant, as far as one may say it of a reducer that is not the model's.
+MEANT = 1.6
 # Off by so many times it is doubted whatever unit it has; wear hangs on coefficients that are hardly known.
 DOUBTED, HARDLY_KNOWN = 100.0, 1000.0
 LOOSE = ("wear_profile", "wear_depth", "mass_loss", "debris_iron")
@@ -180,4 +182,7 @@ def remedy_of(near: Sequence[Fit], known: KnownFactor | None, source: Source, si
     factors = [conversion(source.unit, si)[0] / conversion(f.unit, si)[0] for f in fits]
     between = ", ".join(f"{max(factor, 1.0 / factor):.6g} is the factor between {source.unit} and {f.unit}" for factor, f in zip(factors, fits))
     named = " or ".join(f'"{f.unit}"' for f in fits)
-    return f"{between}: state unit = {named} if that is what was written"
+    # Half or twice is no slip of units: who takes that one for certain has another wrong one.
+    left = [fit.unit for fit in fits if not 1.0 / MEANT <= fit.times <= MEANT]
+    off = f"; in {' or '.join(left)} it would still be off by more than {MEANT:g} times, so look at the scale, too" if left else ""
+    return f"{between}: state unit = {named} if that is what was written{off}"

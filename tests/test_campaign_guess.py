@@ -90,6 +90,18 @@ def test_steps_of_a_turn_are_a_power_of_two_or_the_round_number_that_a_turn_just
     assert steps_above(reach)[0] == steps
 
 
+def test_an_error_that_was_measured_counts_before_both_encoders(tmp_path):
+    turned = np.linspace(0.0, 360.0, 400)
+    heads = {"Input angle (rev)": turned * 121.0 / 360.0, "Output angle (deg)": turned}
+    for name in ("TE (arcsec)", "Following error (arcsec)"):
+        pd.DataFrame(heads | {name: 8.0 * np.sin(np.radians(40.0 * turned))}).to_csv(tmp_path / "run_50Nm_600rpm.csv", index=False)
+        (run,) = propose([tmp_path], Wishes("RV20E-121")).runs
+        columns = {role: entry.header for role, entry in run.guessed.columns.items()}
+        measured = {"value": "TE (arcsec)", "angle": "Output angle (deg)"}
+        encoders = {"angle": "Output angle (deg)", "input_angle": "Input angle (rev)"}
+        assert run.guessed.quantity.value == "transmission_error" and columns == (measured if name.startswith("TE") else encoders)
+
+
 def test_an_encoder_that_jumps_is_joined(tmp_path):
     pd.DataFrame({"angle_deg": np.degrees(ANGLE) % 360.0, "te_arcsec": ERROR / ARCSEC}).to_csv(tmp_path / "te_1.csv", index=False)
     assert checked(propose([tmp_path], Wishes("RV20E-121"))).records[0].axes["angle"] == pytest.approx(ANGLE)

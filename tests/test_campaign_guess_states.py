@@ -131,6 +131,7 @@ def test_who_says_which_side_was_locked_speaks_of_loops(tmp_path, tags, sure):
     ("Ingresso bloccato a 40 °C", None), ("Eingang gesperrt, 40 Grad", None), ("Eingang gesperrt bei 40 Grad Celsius", None), ("input locked at 40 Nm", None),
     ("input locked at 40", None), ("uscita bloccata a 40°", None), ("Eingang frei, Abtrieb gesperrt bei 40°", None), ("Encoder fixed at 40 deg", None), ("入力軸固定 40℃", None),
     ("input locked at 40 deg, then input locked at 80 deg", None), ("isteresi_40gradi", None),
+    ("Isteresi ingresso bloccato 90° prova 2", "90 deg"), ("ingresso bloccato 26°C", None), ("input locked 0 deg", "0 deg"),
     ("ヒステリシス_入力軸固定90deg_2回目", "90 deg"), ("输入轴锁定 45°", "45 deg"), ("入力軸固定25度", None),
 ])  # fmt: skip
 def test_where_the_input_was_locked(text, angle):

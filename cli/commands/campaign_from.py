@@ -99,7 +99,9 @@ def run_from(options: argparse.Namespace) -> int:
         print(f"nothing is written; without --dry-run it would be {folder / 'campaign.toml'}")
     elif proposal.needs:
         said = "is written, but lacks what is needed; say it in the file, or once more on the command line"
-        print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, proposal.needs)}")
+        # What may be added as it is printed: no angle that has to be put in first.
+        ready = [doubt for doubt in proposal.unplaced if "..." not in doubt.remedy]
+        print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, [*proposal.needs, *ready])}")
     else:
         if proposal.unplaced:
             print(f"where the input was locked is said by\n  {again(options, proposal.unplaced)}")

@@ -9,7 +9,16 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
-from discrepancy.inference.refit.confusable import FORM, confusable_set, ends_at_a_bound, has_idle_shapes, newest_at_a_bound, penalised, price
+from discrepancy.inference.refit.confusable import (
+    FORM,
+    confusable_set,
+    ends_at_a_bound,
+    has_idle_shapes,
+    newest_at_a_bound,
+    newest_does_nothing,
+    penalised,
+    price,
+)
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain, joint_gain, screen
@@ -161,7 +170,7 @@ class Selection:
                 trials += self.exchanged(names[0], newest, challenger.gain)
             challenger = self.in_earnest(trials)
             extra = current.fit.chi2 - challenger.fit.chi2
-            if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters):
+            if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
                 break
             if lenient and not self.judgement.foretells(challenger, current):
                 break

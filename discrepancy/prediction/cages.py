@@ -138,6 +138,12 @@ def whitening(rest: Floats) -> Callable[[Floats], Floats]:
     return white
 
 
+def gain(misfit: Floats, less: Floats) -> float:
+    """Chi-square by which one misfit (n,) is better than another, in noise that one sample does not say of the next."""
+    white = whitening(less)
+    return float(np.sum(white(misfit) ** 2) - np.sum(white(less) ** 2))
+
+
 def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:
     """Mean of the cages' place over what is likely: its direction as a share of the rollers' pitch, and its length (1: known, 0: anything).
 

@@ -16,7 +16,7 @@ from discrepancy.prediction import chain, model_error
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects
-from discrepancy.prediction.cages import LONG, Cages
+from discrepancy.prediction.cages import LONG, Cages, gain
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
 from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
@@ -37,6 +37,8 @@ from fmu_src.threads import Threads
 
 # Places in a wave of the pattern that fixes where an angle is counted from.
 PHASES = 48
+# A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
+OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
 # Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
 LAGS = (0.0, 12.0)
 # Nuisances that are no parameters of the reducer.
@@ -160,8 +162,10 @@ class PhysicalModel:
             left = [record.values - predicted for predicted in found]
             misfits = [float(np.mean(e**2) if record.quantity == ORDERS else np.var(e)) for e in left]
             best = int(np.argmin(misfits))
-            at_zero = misfits[PHASES // 2]
-            if at_zero <= 1.02 * misfits[best] and not always:
+            least, more = misfits[best], misfits[PHASES // 2] - misfits[best]
+            # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
+            elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
+            if more <= OF_MISFIT * least and not elsewhere and not always:
                 continue
             self.zeros[name] = float(shifts[best])
 

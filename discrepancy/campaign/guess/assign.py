@@ -53,6 +53,8 @@ TIE = 0.25
 FEW = 3
 # Columns of what was asked for, not of what was measured, count less.
 ASKED, LESS = re.compile(r"control|command|cmd|target|desired|set.?point|soll|(?:^|[ _.-])(?:ref|set)(?:$|[ _.-])|目标|目標|设定|指令", re.IGNORECASE), 1.0
+# What drives call the error of their position against the one that was asked for.
+OF_DRIVES = re.compile(r"follow|track|contour|schlepp|regel|poursuite|inseguimento|seguimiento|追従|跟随", re.IGNORECASE)
 # What was measured where a temperature was recorded beside it.
 BESIDE_TEMPERATURE = ("torque", "input_torque", "angle", "error", "acceleration")
 # Signs of a name that is a unit by itself: hours, rpm.
@@ -222,7 +224,8 @@ def side_of(column: Column, axis: str) -> str:
 
 
 def both_encoders(columns: list[Column]) -> Iterator[Assignment]:
-    """Angles of both shafts in place of the error."""
+    """Angles of both shafts in place of the error; of a file that has the error itself they are less likely meant."""
+    less = LESS if any(is_error(column) for column in columns) else 0.0
     for column in columns:
         one = fit(column, "input_angle")
         if one is None or column.meaning != "input_angle":
@@ -231,7 +234,12 @@ def both_encoders(columns: list[Column]) -> Iterator[Assignment]:
             two = fit(other, "angle") if other is not column and other.meaning == "angle" else None
             if two is not None:
                 roles = {"angle": Guess(other.name, because(two[1], 2)), "input_angle": Guess(column.name, because(one[1], 2))}
-                yield Assignment("transmission_error", one[0] + two[0], roles)
+                yield Assignment("transmission_error", one[0] + two[0] - less, roles)
+
+
+def is_error(column: Column) -> bool:
+    """Whether a column is a transmission error by its name, and no other unit or a drive's own error is against it."""
+    return column.meaning == "error" and fits_kind(column, "transmission_error") and not column.shape.constant and not OF_DRIVES.search(column.name)
 
 
 def because(why: list[str], count: int) -> str:

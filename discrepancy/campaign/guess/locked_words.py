@@ -24,6 +24,8 @@ SAID = [
     re.compile(text)
     for text in (
         rf"{SHAFT}(?:{HELD}) {AT}{ANGLE}",
+        # Without a word that leads to it a sign alone is no temperature's.
+        rf"{SHAFT}(?:{HELD}) {NUMBER} ?(?P<unit>°|º|deg)(?![\w/]){NO_TEMPERATURE}",
         rf"\b(?:{HELD}) (?:{SHAFTS['input']})\w*? (?:{BETWEEN} ){{0,2}}{AT}{ANGLE}",
         rf"{SHAFT}{AT}{ANGLE} (?:{BETWEEN} ){{0,2}}(?:{HELD})\b",
         rf"{EAST_ASIAN}を?{EAST_ASIAN_HELD} ?(?:在|于|於|角度|位置|at) ?{EAST_ASIAN_ANGLE}",

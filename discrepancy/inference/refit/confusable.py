@@ -26,6 +26,8 @@ NEAR = 0.01
 SUPPORTED = 2.0
 """Within this of the best, price of the parameters included, a model is as well supported (Burnham and Anderson 2002)."""
 FORM = 5e-4
+# Of its usual size: an amplitude below does nothing.
+NOTHING = 1e-6
 """Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
 
 
@@ -60,6 +62,11 @@ def ends_at_a_bound(rival: Refit) -> bool:
 def newest_at_a_bound(joint: Refit) -> bool:
     """The same of the effect that came last to a joint fit."""
     return any(_at_a_bound(joint, p) for p in joint.candidates[-1].parameters)
+
+
+def newest_does_nothing(joint: Refit) -> bool:
+    """Whether the effect that came last is off: what the fit gains is where zeros and cages were placed anew with it."""
+    return all(abs(joint.fit.values[p.name] - p.off) < NOTHING * p.scale for p in joint.candidates[-1].amplitudes)
 
 
 def _at_a_bound(rival: Refit, p: Parameter) -> bool:
