@@ -64,8 +64,9 @@ def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[
     """Other places where the effect with the same amplitudes, or their opposites, shows the same: what it predicts of the fitted runs differs by less than
     the best test sees, or than ``LEFT`` of what it changes there.  A few predictions each; none for a diagnosis that was stopped.
     """
+    own_place = place_of(candidate, model)
     alone = [m for m in found.fits.members if [c.name for c in m.candidates if effect_of(c.name) == effect_of(candidate)] == [candidate]]
-    if not place_of(candidate, model) or not alone or found.verdict == STOPPED:
+    if not own_place or not alone or found.verdict == STOPPED:
         return []
     effect, group, space = every_effect()[effect_of(candidate)], group_of(candidate), found.fits.space
     chosen, topology = choices(effect, group), model.file.reducer.topology
@@ -78,7 +79,7 @@ def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[
     places = list(product(siblings(effect, group, topology.cranks), product(*(range(1, parts(p, model) + 1) for p in chosen))))
     for turned, (sibling, numbers) in product((False, True) if model.zeros else (False,), places):
         place = words(sibling, chosen, numbers)
-        if (numbers == here and not turned) or place in (place_of(candidate, model), *(other.place for other in alike)):
+        if (numbers == here and not turned) or place in (own_place, *(other.place for other in alike)):
             # Fitted itself, or told already.
             continue
         names = [p.variable.name for p in groups(effect)[sibling][0]]

@@ -89,6 +89,11 @@ class Reducer:
         """Whether it comes with the software, so that its name is enough."""
         return self.path.resolve().parent == LIBRARY.resolve()
 
+    @property
+    def as_named(self) -> str:
+        """What a command line names it by: its name, or its file."""
+        return self.name if self.is_of_library else str(self.path)
+
     def specification(self, unit: str) -> Specification:
         """What makes a unit of this reducer, see fmu_src.unit; ``unit`` is rv_plant, wear_fmu or rv_reducer."""
         table: Table = getattr(self, {"rv_plant": "plant", "wear_fmu": "wear", "rv_reducer": "joint"}[unit])

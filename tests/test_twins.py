@@ -8,7 +8,8 @@ import pytest
 from discrepancy.model_file import load_model
 from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverAngle, cage_ripples
+from discrepancy.prediction.cage_ripples import cage_ripples
+from discrepancy.prediction.curves import OverAngle
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.twins import Twins, corners, places_of
 from discrepancy.prediction.units import Condition

@@ -29,14 +29,14 @@ USUAL_HOURS, MOST = 10_000.0, 1e6
 def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """True where it was paused: what it has is kept, and the same request goes on."""
     from discrepancy.model_file import load_model
-    from discrepancy.named_reducer import named_reducer
+    from discrepancy.named_reducer import reducer_of_model
     from orchestrator.settings import parse_setting
     from studies.kept_life import Paused, WantedLife, belongs_to, checkpoint_of, live_to
     from studies.life import Life, LifeSettings
     from studies.report import write_report
 
-    chosen = folder.model(given)
-    file, reducer = load_model(chosen), named_reducer(chosen)
+    file = load_model(folder.model(given))
+    reducer = reducer_of_model(file)
     hours = positive(given, "hours") or USUAL_HOURS
     torque = positive(given, "torque")
     texts = [f"output.load_torque={torque!r}N.m"] if torque else []
@@ -91,7 +91,7 @@ def positive(given: dict[str, Any], name: str) -> float | None:
 
 def command(file: "ModelFile", hours: float, texts: list[str], path: Path) -> str:
     """The command line that does the same: of a model file, a reducer file or a reducer of the library."""
-    known = str(file.path or (file.reducer.name if file.reducer.is_of_library else file.reducer.path))
+    known = str(file.path or file.reducer.as_named)
     words = ["rvwear", "life", "--reducer", known, "--hours", exactly(hours)]
     for text in texts:
         words += ["--set", text]

@@ -89,8 +89,7 @@ def compare_line(campaign: "Campaign", options: argparse.Namespace) -> str:
     """The command that goes on from a check, with what this one was given; empty where the campaign names no reducer that a model could begin with."""
     if campaign.reducer is None:
         return ""
-    reducer = campaign.reducer.name if campaign.reducer.is_of_library else str(campaign.reducer.path)
-    return shlex.join(["rvwear", "compare", reducer, options.folder, *(["--data", options.data] if options.data else [])])
+    return shlex.join(["rvwear", "compare", campaign.reducer.as_named, options.folder, *(["--data", options.data] if options.data else [])])
 
 
 def run_template(options: argparse.Namespace) -> int:

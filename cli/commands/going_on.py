@@ -22,7 +22,7 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
         return ""
     data = ["--data", options.data] if options.data else []
     if named := another_reducer(answer.model):
-        words = ["rvwear", "diagnose", named.name if named.is_of_library else str(named.path), options.campaign, *data]
+        words = ["rvwear", "diagnose", named.as_named, options.campaign, *data]
         return f"{shlex.join(words)}    # the reducer that the campaign names"
     # What is not sure is added by name alone.
     foremost = first_to_add(answer)
@@ -78,7 +78,7 @@ def refit_text(options: argparse.Namespace, file: "ModelFile", names: "Sequence[
     """How all effects of a model file are fitted anew, together: beside what is in it already nothing of it is fitted."""
     from discrepancy.already_there import own_settings
 
-    reducer = file.reducer.name if file.reducer.is_of_library else str(file.reducer.path)
+    reducer = file.reducer.as_named
     base, what = ("base.toml", f"base.toml, a copy of {options.model} without its effects and steps,") if own_settings(file) else (reducer, "the base model")
     given = argparse.Namespace(**vars(options) | {"model": base, "output": options.output or "refitted.toml"})
     return f"this line begins at {what} and fits all that the file has, together, anew:\n  {extend_line(given, names)}"

@@ -8,15 +8,15 @@ own: found anew when the effect is fitted for good.
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from scipy.linalg import solve_toeplitz
 
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.outlying_samples import bridged
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
-from discrepancy.prediction.curves import errors_of_cages
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
+from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -33,20 +33,18 @@ KNOWN, BESIDE, LOOKS = 0.9, 0.08, 17
 MOST_PLACES, DOUBLED = 16, 3.0
 # What it may miss, of what a prediction may err.
 HALF = 0.5
-# Samples that one of the noise remembers.
-LAGS = 10
 # Share of itself by which a ripple errs at few nodes.
 RIPPLE_ERRS = 0.06
 
 # A record as it is seen with the effects of values, and the values that a reducer knows of it.
-ForRecord = Callable[[Record, Mapping[str, float]], tuple[Record, dict[str, float]]]
+AsSeen = Callable[[Record, Mapping[str, float]], tuple[Record, dict[str, float]]]
 
 
 class Cages:
     """Corrections by run, for the base model and for sets of effects; ``amplitudes`` says by name where an effect is off."""
 
-    def __init__(self, bench: Bench, records: Sequence[Record], for_record: ForRecord):
-        self.bench, self.for_record = bench, for_record
+    def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen):
+        self.bench, self.as_seen = bench, as_seen
         self.records = [bridged(r) for r in records if tells(r)]
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
@@ -65,7 +63,7 @@ class Cages:
         found: dict[str, Floats] = {}
         with task("placing the roller cages", total=len(self.records)) as placing:
             for record in self.records:
-                found[record.name] = self.found(*self.for_record(record, values))
+                found[record.name] = self.found(*self.as_seen(record, values))
                 placing.advance()
         self.ripples[self.effects(values)] = found
         return bool(self.records)
@@ -118,30 +116,6 @@ def tells(record: Record) -> bool:
     if record.quantity == "hysteresis":
         return LOCKED_AT in record.factors and record.tags.get("locked") != "output" and "torque" in record.axes and len(record.values) >= LONG_LOOP
     return record.quantity == "transmission_error" and "angle" in record.axes and len(record.values) >= LONG
-
-
-def whitening(rest: Floats) -> Callable[[Floats], Floats]:
-    """Prediction error of the autoregression that the noise ``rest`` (n,) follows, of unit variance; of columns (n, k) too."""
-    rest = rest - rest.mean()
-    order = min(LAGS, len(rest) // 8)
-    products = np.array([rest[: len(rest) - lag] @ rest[lag:] for lag in range(order + 1)])
-    # A little more on the diagonal: without noise the equations would have no solution.
-    products[0] = products[0] * (1.0 + 1e-9) + 1e-300
-    taps = np.concatenate([[1.0], -solve_toeplitz(products[:-1], products[1:])])
-    error = np.convolve(rest, taps, "valid")
-    scale = max(float(np.sqrt(error @ error / len(error))), 1e-150)
-
-    def white(columns: Floats) -> Floats:
-        found: Floats = np.apply_along_axis(np.convolve, 0, columns - columns.mean(axis=0), taps / scale, "valid")
-        return found
-
-    return white
-
-
-def gain(misfit: Floats, less: Floats) -> float:
-    """Chi-square by which one misfit (n,) is better than another, in noise that one sample does not say of the next."""
-    white = whitening(less)
-    return float(np.sum(white(misfit) ** 2) - np.sum(white(less) ** 2))
 
 
 def resultant(basis: Floats, misfit: Floats) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 A prediction is the base model's, at fine nodes and once, and what the values change in it, at nodes of their own.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol, TypeVar
@@ -25,12 +25,8 @@ LEAST_SAMPLES = 16
 # Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
 # than this share of the samples' distance, there are none.
 FIRMLY, LEAST_SHARE = 0.1, 0.01
-# What the ripple of the cages to first order misses, of itself (0.1 to 0.45 by load), and of what a prediction may err.
-OF_RIPPLE, HARDLY_SEEN = 0.5, 0.25
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
-# The rollers' ripple has kinks: at these it errs by 6 % of itself.
-LEVEL_OF_A_RIPPLE = 7
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
 LEVEL_OF_SLOPES = 6
 
@@ -190,9 +186,6 @@ class OverTorque:
         return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step, self.record.closed)
 
 
-AnyCurve = TypeVar("AnyCurve", OverAngle, OverTorque)
-
-
 def moved(angles: Floats, series: Floats, by: float) -> Floats:
     """What a ``series`` at ``angles`` [rad] is ``by`` [rad] further on."""
     return SplineNodes(angles).samples(series, angles + by) if by else series
@@ -219,14 +212,6 @@ def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) 
     assert nodes is not None
     series = curve.run(values, nodes)
     return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
-
-
-def errors_of_cages(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
-    """Transmission error [rad] of the record's samples for several places of the cages [rad], finely enough to see where they are."""
-    curves = [OverAngle(bench, record, "transmission_error", cage) for cage in cages]
-    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, always=True)
-    assert nodes is not None
-    return [nodes.samples(curve.run(values, nodes), curve.places(values)) for curve in curves]
 
 
 def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
@@ -284,35 +269,6 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, **curve.unchanged(values)}) - signal(curve, base)
     return change
-
-
-def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float], exactly: bool = False) -> list[Floats]:
-    """What cages that stand each of ``cages`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody
-    could see what that misses."""
-    plain = OverAngle(bench, record, "transmission_error")
-    if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0:
-        found: list[Floats] = []
-        angles, samples = plain.support(nodes_of(plain, values), values)
-        there = bench.error_beside(plain.condition, values, angles, values, angles)
-        for cage in cages:
-            change = bench.error_beside(plain.condition, values, angles, values, angles, cage) - there
-            if OF_RIPPLE * float(np.std(change)) > HARDLY_SEEN * bench.allowed(record):
-                break
-            found.append(samples(change))
-        else:
-            return found
-    return ripples(plain, values, cages)
-
-
-def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
-    """What cages that stand each of ``cages`` [rad] ahead change in a loop [rad] at one locked place."""
-    return ripples(OverTorque(bench, record), values, cages)
-
-
-def ripples(curve: AnyCurve, values: Values, cages: Sequence[float]) -> list[Floats]:
-    """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
-    without, *ahead = (signal(replace(curve, cage=cage), values) for cage in (0.0, *cages))
-    return [series - without for series in ahead]
 
 
 def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:

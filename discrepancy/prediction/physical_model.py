@@ -13,15 +13,15 @@ from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import chain, model_error
+from discrepancy.prediction.angle_zeros import angle_zeros
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects
-from discrepancy.prediction.cages import LONG, Cages, gain
+from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
-from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity, turns_of
-from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error, shifted_errors
-from discrepancy.prediction.fewer import fewer
+from discrepancy.prediction.conditions import LAG_SHARE, Values, at_rest, distinct_conditions, identity
+from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
@@ -35,10 +35,6 @@ from fmu_src.faults import InputFault, RunFault, nearest
 from fmu_src.table import Table
 from fmu_src.threads import Threads
 
-# Places in a wave of the pattern that fixes where an angle is counted from.
-PHASES = 48
-# A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
-OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
 # Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
 LAGS = (0.0, 12.0)
 # Nuisances that are no parameters of the reducer.
@@ -109,7 +105,7 @@ class PhysicalModel:
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
         if zeros is None:
-            self.align(always=len(nuisances) < len(campaign.nuisances))
+            self.zeros = angle_zeros(self.bench, self.records, self.wave, self.for_record, self.standing(), always=len(nuisances) < len(campaign.nuisances))
         # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
         for bench in (self.bench, in_process):
             bench.zeros.update(self.zeros)
@@ -137,37 +133,6 @@ class PhysicalModel:
         if any(r.of_output for r in self.records):
             found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, of that of the base model"))
         return found
-
-    def align(self, always: bool) -> None:
-        """Where each mounting counts its angles from, by the pattern of the transmission error.
-
-        A zero that the campaign shares with the model stays 0 and is not estimated, unless the campaign
-        declares the encoder's phase as unknown (``always``).
-        """
-        by_mounting: dict[str, list[int]] = {}
-        for i, record in enumerate(self.records):
-            tells = "angle" in record.axes and len(record.values) >= LONG if record.quantity == ERROR else record.quantity == ORDERS
-            if tells:
-                by_mounting.setdefault(angle_zero(record), []).append(i)
-        for name, indices in by_mounting.items():
-            shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * self.wave
-            # One record tells; the pattern hardly depends on the condition.
-            record = bridged(self.records[indices[0]])
-            if record.quantity == ERROR:
-                record = fewer(record, turns_of(self.bench, record))
-            own = self.for_record(record, self.standing())
-            found = shifted_errors(self.bench, curve_of(record), own, shifts)
-            if record.quantity == ORDERS:
-                found = [orders_shown(record, predicted) for predicted in found]
-            left = [record.values - predicted for predicted in found]
-            misfits = [float(np.mean(e**2) if record.quantity == ORDERS else np.var(e)) for e in left]
-            best = int(np.argmin(misfits))
-            least, more = misfits[best], misfits[PHASES // 2] - misfits[best]
-            # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
-            elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
-            if more <= OF_MISFIT * least and not elsewhere and not always:
-                continue
-            self.zeros[name] = float(shifts[best])
 
     def settle(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""

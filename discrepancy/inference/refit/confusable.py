@@ -26,9 +26,9 @@ NEAR = 0.01
 SUPPORTED = 2.0
 """Within this of the best, price of the parameters included, a model is as well supported (Burnham and Anderson 2002)."""
 FORM = 5e-4
-# Of its usual size: an amplitude below does nothing.
-NOTHING = 1e-6
 """Of what an effect gains: by so much chi-square the catalogue's form of it may be worse than nature's (2 % of the response)."""
+NOTHING = 1e-6
+"""Of its usual size: an amplitude below does nothing."""
 
 
 def implausible(sizes: Floats) -> float:

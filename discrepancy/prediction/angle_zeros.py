@@ -1,0 +1,56 @@
+"""Where each mounting counts its angles from, by the pattern of the transmission error."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from discrepancy.outlying_samples import bridged
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.cages import LONG
+from discrepancy.prediction.conditions import angle_zero, turns_of
+from discrepancy.prediction.curves import shifted_errors
+from discrepancy.prediction.fewer import fewer
+from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.whitening import gain
+from discrepancy.problem import ERROR, ORDERS, Record
+
+# Places in a wave of the pattern that fixes where an angle is counted from.
+PHASES = 48
+# A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
+OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
+
+
+def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
+                standing: Mapping[str, float], always: bool) -> dict[str, float]:  # fmt: skip
+    """The output angle [rad] of the model at which a mounting's angle is 0, by its nuisance; one ``wave`` [rad] of the pattern is looked through.
+
+    A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``).
+    """
+    # One record tells; the pattern hardly depends on the condition.
+    first: dict[str, Record] = {}
+    for record in records:
+        if tells(record):
+            first.setdefault(angle_zero(record), record)
+    shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * wave
+    zeros: dict[str, float] = {}
+    for name, first_record in first.items():
+        record = bridged(first_record)
+        if record.quantity == ERROR:
+            record = fewer(record, turns_of(bench, record))
+        found = shifted_errors(bench, curve_of(record), for_record(record, {**zeros, **standing}), shifts)
+        if record.quantity == ORDERS:
+            found = [orders_shown(record, predicted) for predicted in found]
+        left = [record.values - predicted for predicted in found]
+        misfits = [float(np.mean(e**2) if record.quantity == ORDERS else np.var(e)) for e in left]
+        best = int(np.argmin(misfits))
+        least, more = misfits[best], misfits[PHASES // 2] - misfits[best]
+        # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
+        elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
+        if more > OF_MISFIT * least or elsewhere or always:
+            zeros[name] = float(shifts[best])
+    return zeros
+
+
+def tells(record: Record) -> bool:
+    """Whether the pattern shows in a record."""
+    return "angle" in record.axes and len(record.values) >= LONG if record.quantity == ERROR else record.quantity == ORDERS

@@ -1,0 +1,58 @@
+"""What the place of the roller cages changes in curves of the bench: in a transmission error, and in a loop at one locked place."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.conditions import Values
+from discrepancy.prediction.curves import OverAngle, OverTorque, nodes_of, signal
+from discrepancy.prediction.support import angle_nodes
+from discrepancy.problem import Record
+from fmu_src.arrays import Floats
+
+# What the ripple of the cages to first order misses, of itself (0.1 to 0.45 by load), and of what a prediction may err.
+OF_RIPPLE, HARDLY_SEEN = 0.5, 0.25
+# The rollers' ripple has kinks: at these it errs by 6 % of itself.
+LEVEL_OF_A_RIPPLE = 7
+
+AnyCurve = TypeVar("AnyCurve", OverAngle, OverTorque)
+
+
+def errors_of_cages(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """Transmission error [rad] of the record's samples for several places of the cages [rad], finely enough to see where they are."""
+    curves = [OverAngle(bench, record, "transmission_error", cage) for cage in cages]
+    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, always=True)
+    assert nodes is not None
+    return [nodes.samples(curve.run(values, nodes), curve.places(values)) for curve in curves]
+
+
+def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float], exactly: bool = False) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody
+    could see what that misses."""
+    plain = OverAngle(bench, record, "transmission_error")
+    if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+        found: list[Floats] = []
+        angles, samples = plain.support(nodes_of(plain, values), values)
+        there = bench.error_beside(plain.condition, values, angles, values, angles)
+        for cage in cages:
+            change = bench.error_beside(plain.condition, values, angles, values, angles, cage) - there
+            if OF_RIPPLE * float(np.std(change)) > HARDLY_SEEN * bench.allowed(record):
+                break
+            found.append(samples(change))
+        else:
+            return found
+    return ripples(plain, values, cages)
+
+
+def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in a loop [rad] at one locked place."""
+    return ripples(OverTorque(bench, record), values, cages)
+
+
+def ripples(curve: AnyCurve, values: Values, cages: Sequence[float]) -> list[Floats]:
+    """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
+    without, *ahead = (signal(replace(curve, cage=cage), values) for cage in (0.0, *cages))
+    return [series - without for series in ahead]
