@@ -6,10 +6,13 @@ import numpy as np
 
 from discrepancy.model_file import extended_reducer, load_model
 from discrepancy.named_reducer import named_reducer
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
 from fmu_src.description import add_variables
 from fmu_src.unit import started
 from reducers.reducer import load_reducer
 
+CONDITION, ANGLES = Condition(speed=188.5, load=100.0), np.linspace(0.0, 6.2, 60)
 MODEL = '[model]\nname = "pin"\nreducer = "RV20E-121"\n[settings]\nerrors.pin.radius = "1 um"\n"errors.pin.radius[3]" = "6 um"\n'
 
 
@@ -34,3 +37,14 @@ def test_an_element_that_is_not_there_is_none():
     table = load_reducer("RV20E-121").plant
     assert table.start_of(table.by_name["pin_radius_error"]).shape == (40,)
     assert np.array_equal(table.with_starts({}, {}).new_records(), table.new_records())
+
+
+def test_a_prediction_knows_of_one_larger_pin(tmp_path):
+    path = tmp_path / "pin.toml"
+    path.write_text(MODEL)
+    file = load_model(path)
+    seen = Bench(file.reducer, file.values()).column("transmission_error", CONDITION, {}, ANGLES)
+    as_start = Bench(extended_reducer(file), {}).column("transmission_error", CONDITION, {}, ANGLES)
+    alike = Bench(file.reducer, {"pin_radius_error": 1e-6}).column("transmission_error", CONDITION, {}, ANGLES)
+    assert np.array_equal(seen, as_start)
+    assert np.ptp(seen - alike) > 1e-6

@@ -45,9 +45,10 @@ class FmuBench(Bench):
             require_units_of(model, unit, name)
 
     def renew(self, unit: Fmu, values: Mapping[str, float]) -> None:
-        """A new unit with the settings and then ``values``."""
+        """A new unit with the settings, single elements after the whole, and then ``values``."""
         unit.attempt(unit.slave.reset)
-        for name, value in {**self.settings, "tolerance": TOLERANCE, **values}.items():
+        settings = dict(sorted(self.settings.items(), key=lambda setting: "[" in setting[0]))
+        for name, value in {**settings, "tolerance": TOLERANCE, **values}.items():
             if unit.has(name) and unit.signal(name).causality in SETTABLE:
                 unit.set(name, value)
 

@@ -75,8 +75,7 @@ class PhysicalModel:
         self.records: list[Record] = marked([defined(r, campaign) for r in campaign.records if r.quantity in PREDICTED])
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
-        settings = {n: v for n, v in present.items() if "[" not in n}
-        self.bench = bench_of(model, settings, fmus)
+        self.bench = bench_of(model, present, fmus)
         self.bench.fineness = Fineness(self.records)
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         for record in self.records:
@@ -99,7 +98,7 @@ class PhysicalModel:
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         # No FMU can be told where its cages stand; what they change is the same in process.
-        in_process = Bench(model.reducer, settings) if fmus else self.bench
+        in_process = Bench(model.reducer, present) if fmus else self.bench
         self.lags = Lags(self.bench, self.records)
         self.cages = Cages(in_process, self.records, self.as_seen)
         self.identities = {id(record): identity(record) for record in self.records}

@@ -59,6 +59,11 @@ class Units:
             for name, value in settings.items():
                 if name in table.by_name:
                     records[name] = value
+            # Single elements are set last: one pin among others that are all larger.
+            for name, value in settings.items():
+                base, bracket, _ = name.partition("[")
+                if bracket and base in table.by_name:
+                    table.cells(records)[table.cell_index(name)] = value
             if "tolerance" in table.by_name:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
