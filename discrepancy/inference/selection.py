@@ -19,6 +19,7 @@ from discrepancy.inference.refit.confusable import (
     penalised,
     price,
 )
+from discrepancy.inference.refit.effect_fit import may_reach
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain, joint_gain, screen
@@ -43,8 +44,9 @@ MOST_TRIALS = 7
 MOST_IN_EARNEST = 3
 # So many of the best fits are looked for from other starts too.
 FOREMOST = 2
-# What rough predictions may add to a chi-square, of what is gained.
-ROUGH = 0.02
+# What rough predictions may add to a chi-square, of what is gained (a tenth of the change, that squared; a thousandth is usual), and what a
+# linear estimate may.
+ROUGH, LINEAR = 0.01, 0.02
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 
@@ -92,19 +94,19 @@ class Selection:
         fits = sorted(self.race("fitting alone", chosen), key=penalised)
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
-        enough = (1.0 - ROUGH) * self.scores[best].statistic - 4 * self.settings.margin
+        enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
         widened = partial(self.refits.widened, least=self.near(fits[0]))
         fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
-        others = self.tried("fitting in earnest", partial(self.as_reported, self.near(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
+        others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
 
     def first_tried(self, scores: list[Score], top: float) -> list[Score]:
         """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
-        near = 4 * self.settings.margin + ROUGH * top
+        near = 4 * self.settings.margin + LINEAR * top
         alike = [s for s in scores if s.statistic >= top - near]
         if len(few_of_each(alike)) <= self.settings.shortlist:
             return few_of_each(scores)[: self.settings.shortlist]
@@ -135,10 +137,14 @@ class Selection:
         """Chi-square below which a rough fit may be as good as ``best``."""
         return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
 
+    def as_good(self, best: Refit) -> float:
+        """Chi-square below which a fit in earnest may stand beside ``best`` as an answer."""
+        return best.fit.chi2 + max(4 * self.settings.margin, self.settings.adequate_margin + FORM * max(best.gain, 0.0))
+
     def as_reported(self, least: float, rival: Refit) -> Refit:
-        """A rival as it is reported, fitted in earnest unless predictions in earnest leave it above the chi-square ``least`` where it stands."""
+        """A rival as it is reported, fitted in earnest if it may come below the chi-square ``least`` from where predictions in earnest leave it."""
         seen = self.refits.seen(rival)
-        return self.refits.renewed(seen) if seen.fit.chi2 < least else seen
+        return self.refits.renewed(seen) if may_reach(seen.fit, least) else seen
 
     def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
         """``function`` of every score or refit, told as it goes."""

@@ -257,8 +257,11 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     curve = OverAngle(bench, record, "transmission_error")
     if curve.condition.hours > 0.0:
         return None
-    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
     turned = zero_of(bench, record, values) != zero_of(bench, record, base)
+    if turned and curve.anchors() and bench.relevant(values, False) == bench.relevant(base, False):
+        # Nothing but the angle from which the record counts: along the curve that is known.
+        return signal(curve, values) - signal(curve, base)
+    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
     if nodes is None and turned:
         anchor, place = as_turned(bench, record, curve.anchored(base)[0])
         high, low = (bench.error_beside(curve.condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))

@@ -81,7 +81,7 @@ def _finished(space: Workspace, fit: Fit, least: float) -> Fit:
     not come below ``least``."""
     for _ in range(ANEW):
         promised = _promised(fit)
-        if promised < UNFINISHED or fit.chi2 - HOPE * promised > least:
+        if promised < UNFINISHED or not may_reach(fit, least):
             break
         before, fit = fit.chi2, _anew(space, fit, fit.candidates)
         if before - fit.chi2 < UNFINISHED:
@@ -145,6 +145,11 @@ def turned_back(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> 
     # What stands behind a gear has another period.
     same = abs(_cost(space, box, values)[0] - _cost(space, box, fit.values)[0]) < STILL
     return replace(fit, values=values) if same else fit
+
+
+def may_reach(fit: Fit, least: float) -> bool:
+    """Whether a fit may come below the chi-square ``least`` by more steps, by what the next one promises."""
+    return fit.chi2 - HOPE * _promised(fit) < least
 
 
 def _promised(fit: Fit) -> float:
