@@ -19,7 +19,7 @@ WRITTEN = {
         " seg.de.arco seg.arco 角秒 弧秒 秒角",
         "mdeg": "mdeg m° millideg", "urad": "urad µrad microrad 微弧度", "mrad": "mrad 毫弧度",
         "rad": "rad radian radians radianti radianes radianos 弧度 ラジアン",
-        "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours vueltas volta voltas 圈 转 転",
+        "turn": "turn turns rev revs U Umdr Umdr. Umdrehungen tr tour tours giro giri vueltas volta voltas 圈 转 転",
         COUNTS: "counts count cts inc incs Ink Inkremente ticks pulses LSB impulsions incréments impulsi incrementi pulsos incrementos"
         " contagens contagem impulsos 脉冲 パルス",
     },

@@ -132,3 +132,10 @@ def test_turns_in_a_name_are_asked_whether_they_are_those_a_minute(tmp_path, cap
     assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 1
     asked = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear campaign from"))
     assert main(shlex.split(asked)[1:]) == 0
+
+
+@pytest.mark.parametrize("text, speed", [("errore 60Nm 750 giri 1", 750.0), ("te_50Nm_1500tours_2", 1500.0), ("et 50Nm 900 vueltas 1", 900.0)])
+def test_many_turns_in_a_name_are_turns_a_minute(text, speed):
+    found = proposed(Path(f"{text}.csv"))
+    assert found.numbers["speed"] == (speed, "rpm") and "{speed:rpm}" in found.pattern
+    assert "speed" not in proposed(Path("te_50Nm_15U_1.csv")).numbers and "speed" not in proposed(Path("te_50Nm_2 giri_1.csv")).numbers

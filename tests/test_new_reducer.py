@@ -15,7 +15,7 @@ from reducers.checking import check
 from reducers.completion.complete import NOT_ALONE, UNITS, complete, rounded_ratio
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
-from reducers.completion.given import Given
+from reducers.completion.given import Given, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
 from studies.completed_ranges import Influence, influences, what_matters
@@ -55,6 +55,21 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
+
+
+def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):
+    """No catalogue has them; where the usual number makes no whole teeth, the nearest that does."""
+    path = tmp_path / "mine.toml"
+    assert main(["reducer", "new", "--ratio", "121", "--rated", "167", "--output", str(path)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "40 pins are assumed, as many as reducers of this kind have: count them" in said
+    assert "given: ratio 121, rated torque 167 N m; of the file's" in said
+    assert load_reducer(path).topology.pins == 40
+    text = path.read_text()
+    assert "pins = 40  # assumed: nobody counted them" in text and "rvwear reducer new --ratio 121 --rated 167" in text
+    assert usual_pins(361.0) == 45 and not Given(361.0, 40, 1.0).suns
+    assert main(["reducer", "new", "--ratio", "121", "--lobes", "39", "--rated", "167", "--output", str(path), "--overwrite"]) == 0
+    assert "assumed, as many as" not in capsys.readouterr().out
 
 
 def test_rules_hold_in_what_is_completed():

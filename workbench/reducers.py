@@ -17,7 +17,7 @@ from reducers.checking import check
 from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
-from reducers.completion.given import Given
+from reducers.completion.given import Given, usual_pins
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
@@ -29,7 +29,7 @@ from workbench.told import figure_data, page_data
 
 # What the form asks for: name, what it is, unit, whether it must be given.
 ASKED = (
-    ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", True), ("rated", "rated torque", "N·m", True),
+    ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", False), ("rated", "rated torque", "N·m", True),
     ("diameter", "outer diameter of the housing", "mm", False), ("speed", "rated output speed", "rpm", False), ("cranks", "cranks", "", False),
     ("rollers", "rollers of a crank bearing", "", False), ("lost_motion", "lost motion of the catalogue", "arcmin", False),
 )  # fmt: skip
@@ -130,6 +130,8 @@ def given_of(given: Mapping[str, Any]) -> Given:
     known = given.get("known") or {}
     if not isinstance(known, dict):
         raise InputFault("known numbers are a table of names and values")
+    if "pins" not in values:
+        values |= {"pins": usual_pins(values["ratio"]), "pins_counted": False}
     return Given(**values, known=known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip()))
 
 

@@ -89,10 +89,9 @@ def of_parameters(file: Path) -> list[str]:
 
 def units_of(p: "EffectParameter") -> str:
     """The unit of a parameter's file and that of answers, where that is another."""
-    from discrepancy.scales import of_variable
+    from discrepancy.catalogue.ranges import scale_of
 
-    v = p.variable
-    told = of_variable(v, abs(p.scale) if p.kind == "amplitude" else abs(float(v.start)))
+    v, told = p.variable, scale_of(p)
     if v.unit == "1":
         return "a number without a unit"
     if told.unit == v.unit:

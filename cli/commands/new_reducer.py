@@ -26,7 +26,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     check_reducer.add_list(actions)
     new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
     new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
-    new.add_argument("--pins", type=int, required=True, help="pins in the ring: one more than a disc has lobes")
+    new.add_argument("--pins", type=int, help="pins in the ring: one more than a disc has lobes (default 40, or what the ratio needs: assumed)")
     new.add_argument("--rated", type=number_in("N.m"), required=True, metavar="NM", help="rated output torque [N m]")
     new.add_argument("--lobes", type=int, help="lobes of a disc, where somebody counted them: one less than pins")
     new.add_argument("--diameter", type=number_in("mm"), metavar="MM", help="outer diameter of the housing [mm] (default: the ring follows from the torque)")
@@ -113,11 +113,13 @@ def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influe
 
 
 def given_by(options: argparse.Namespace) -> "Given":
-    from reducers.completion.given import Given
+    from reducers.completion.given import Given, usual_pins
     from reducers.completion.known import known_numbers
 
+    counted = options.pins or (options.lobes + 1 if options.lobes else None)
     return Given(
-        ratio=options.ratio, pins=options.pins, rated=options.rated, lobes=options.lobes, diameter=options.diameter, speed=options.speed,
+        ratio=options.ratio, pins=counted or usual_pins(options.ratio), pins_counted=bool(counted), rated=options.rated, lobes=options.lobes,
+        diameter=options.diameter, speed=options.speed,
         cranks=options.cranks, rollers=options.rollers, lost_motion=options.lost_motion, known=known_numbers(options.known),
     )  # fmt: skip
 

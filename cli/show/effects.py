@@ -8,6 +8,7 @@ from cli.options import IDEAL_REDUCER
 from cli.screen import WIDTH, console, dense, styled
 from discrepancy.catalogue.catalogue import Entry
 from discrepancy.catalogue.examples import CASES
+from discrepancy.catalogue.ranges import range_of
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.signature import Signature
@@ -38,8 +39,7 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     for head in ("name", "kind", "unit", "off or start", "bounds", "meaning"):
         table.add_column(head, justify="right" if head == "off or start" else "left", overflow="fold", no_wrap=head in ("name", "kind", "unit"))
     for p in e.parameters:
-        v = p.variable
-        table.add_row(v.path, p.told_kind, v.unit, f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}", v.description)
+        table.add_row(p.variable.path, p.told_kind, *range_of(p), p.variable.description)
     out.print(table)
     for signature in found:
         title = f"computed for {reducer}: {signature.case.title}"

@@ -9,9 +9,9 @@ from pathlib import Path
 from discrepancy.campaign.documentation import table
 from discrepancy.catalogue.catalogue import Entry, entries
 from discrepancy.catalogue.examples import AUDITED
+from discrepancy.catalogue.ranges import range_of
 from discrepancy.catalogue.signal_words import words
 from discrepancy.catalogue.signature import SURFACES, Signature, largest, new_bench, number, signature
-from fmu_src.variables import Variable
 from rv_plant.effects import ALLOWED as PLANT_ALLOWED
 from rv_plant.effects import HOOKS as PLANT_HOOKS
 from rv_plant.variables import own_variables as plant_variables
@@ -189,7 +189,7 @@ def static_part(entry: Entry) -> str:
     """Title, law, source, expectation and parameters."""
     e = entry.effect
     parameters = [
-        (f"`{p.variable.path}`", p.told_kind, p.variable.unit, *range_of(p.variable), p.variable.description) for p in e.parameters
+        (f"`{p.variable.path}`", p.told_kind, *range_of(p), p.variable.description) for p in e.parameters
     ]  # fmt: skip
     heads = ("parameter", "kind", "unit", "off or start", "bounds", "meaning")
     return "\n".join((
@@ -197,13 +197,6 @@ def static_part(entry: Entry) -> str:
         f"`{entry.name}`, acts in the {entry.part}.", "", f"**Law:** {e.law}", "", f"**Source:** {e.source}", "",
         f"**Expected:** {e.signature}", "", table(heads, parameters),
     ))  # fmt: skip
-
-
-def range_of(v: Variable) -> tuple[str, str]:
-    """Start and bounds, or the names that may be chosen."""
-    if v.choices:
-        return v.choices[int(v.start)], ", ".join(v.choices)
-    return f"{float(v.start):g}", f"{v.minimum:g} to {v.maximum:g}"
 
 
 def computed_part(entry: Entry, found: list[Signature]) -> str:

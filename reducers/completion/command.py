@@ -11,7 +11,8 @@ MOST_TYPED, CONVERTED = 8, 6
 
 def words_of(given: Given) -> list[str]:
     """``rvwear reducer new`` with all options but names of reducer and file; what is usual is left out, but for speed and rollers."""
-    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", "--pins", str(given.pins), "--rated", typed(given.rated)]
+    words = ["rvwear", "reducer", "new", "--ratio", f"{given.ratio:.12g}", *(["--pins", str(given.pins)] if given.pins_counted else [])]
+    words += ["--rated", typed(given.rated)]
     words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
     words += ["--lost-motion", typed(given.lost_motion)] if given.lost_motion != Given.lost_motion else []

@@ -92,7 +92,7 @@ def complete(given: Given) -> Completion:
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
-    return Completion(given, dials, numbers, [*rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
+    return Completion(given, dials, numbers, [*given.assumed_pins, *rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
 
 
 def dials_for(given: Given) -> list[Dial]:

@@ -17,14 +17,15 @@ def text_of(completion: Completion, name: str) -> str:
     """The file; it is read and checked as any other by ``reducers.reducer.reducer_of``."""
     given, title = completion.given, " ".join(name.split())
     lines = [
-        f"# {title}: completed from ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m rated"
+        f"# {title}: completed from ratio {given.ratio:g},{f' {given.pins} pins,' if given.pins_counted else ''} {given.rated:g} N m rated"
         + (f" and {given.diameter:g} mm outer diameter" if given.diameter is not None else "") + ".",
         '# Every number: value, unit, source. "completed": by a design rule, with the range that the rules leave; "given": known.',
         "# Replace what you measure by value and \"measured\" as source, or complete again with what you know, and all that hangs on it follows:",
         f"#   {shlex.join([*words_of(given), '--name', title])} --known NAME=VALUE",
         "", "[reducer]", f"name = {json.dumps(name)}", f"description = {json.dumps(described(given))}",
         "", "[topology]", "discs = 2", f"cranks = {given.crank_count}" + ("" if given.cranks else "  # completed: three from 1000 N m on (assumed)"),
-        f"pins = {given.pins}", f"lobes = {given.pins - 1}", f"rollers = {given.rollers}  # of a bearing; assumed where nobody counted them",
+        f"pins = {given.pins}" + ("" if given.pins_counted else "  # assumed: nobody counted them"), f"lobes = {given.pins - 1}",
+        f"rollers = {given.rollers}  # of a bearing; assumed where nobody counted them",
     ]  # fmt: skip
     sections: dict[str, list[str]] = {}
     for number in completion.numbers.values():

@@ -12,6 +12,8 @@ FIRST_STAGE = (0.5, 8.0)
 SUN = "first_stage.sun_teeth"
 # From this rated torque on three cranks are usual (assumed: the RV-E series changes between its sizes 80 and 110 to 160).
 THREE_CRANKS = 1000.0
+# Pins of a reducer whose pins nobody counted, and what they may be instead where no whole teeth make its ratio (assumed: as the RV-20E and BX-40E).
+USUAL_PINS, OTHER_PINS = 40, range(30, 61)
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,7 @@ class Given:
     lost_motion: float = 1.0
     lobes: int | None = None
     known: Mapping[str, float] = field(default_factory=dict)
+    pins_counted: bool = True
 
     def __post_init__(self) -> None:
         self.check_numbers()
@@ -53,13 +56,23 @@ class Given:
     @property
     def in_words(self) -> str:
         """What was given, without what is usual."""
-        said = [f"ratio {self.ratio:g}", f"{self.pins} pins", f"rated torque {self.rated:g} N m"]
+        said = [f"ratio {self.ratio:g}", *([f"{self.pins} pins"] if self.pins_counted else []), f"rated torque {self.rated:g} N m"]
         said += [f"diameter {self.diameter:g} mm"] if self.diameter is not None else []
         said += [f"{self.cranks} cranks"] if self.cranks is not None else []
         usual = {f.name: f.default for f in fields(self)}
         own = {"speed": f"{self.speed:g} rpm", "rollers": f"{self.rollers} rollers", "lost_motion": f"lost motion {self.lost_motion:g} arcmin"}
         said += [text for name, text in own.items() if getattr(self, name) != usual[name]]
         return ", ".join([*said, *(f"{name} {value:g}" for name, value in self.known.items())])
+
+    @property
+    def assumed_pins(self) -> list[str]:
+        """That nobody counted the pins, if so."""
+        if self.pins_counted:
+            return []
+        return [
+            f"{self.pins} pins are assumed, as many as reducers of this kind have: count them, or take them from a transmission error (its orders pins of"
+            " the output's turn are the cranks', 2 x lobes the ring's), and give --pins"
+        ]  # fmt: skip
 
     @property
     def crank_count(self) -> int:
@@ -104,3 +117,9 @@ class Given:
         low, high = FIRST_STAGE
         found = (1.0 + self.pins * planet / sun for sun in SUN_TEETH for planet in range(math.ceil(low * sun), math.floor(high * sun) + 1))
         return min(found, key=lambda ratio: abs(ratio - self.ratio))
+
+
+def usual_pins(ratio: float) -> int:
+    """Pins that a reducer of this ratio is assumed to have: the usual number, or the nearest with which whole teeth make the ratio."""
+    found = sorted(OTHER_PINS, key=lambda pins: abs(pins - USUAL_PINS))
+    return next((pins for pins in found if Given(ratio, pins, 1.0).suns), USUAL_PINS)

@@ -68,7 +68,7 @@ export function show(root, context) {
       return;
     }
     if (!data.reducer) {
-      clear(body, h("p", { class: "quiet" }, "Choose a reducer, or complete one from ratio, pins and rated torque."));
+      clear(body, h("p", { class: "quiet" }, "Choose a reducer, or complete one from ratio and rated torque."));
       return;
     }
     const r = data.reducer;
@@ -143,10 +143,10 @@ export function show(root, context) {
     const result = h("div"),
       said = h("div");
     const ask = async (save = false) => {
-      if (!form.ratio || !form.pins || !form.rated) {
+      if (!form.ratio || !form.rated) {
         clear(
           result,
-          h("p", { class: "quiet" }, "Ratio, pins and rated torque are needed; everything else follows by design rules, and narrows with what you know."),
+          h("p", { class: "quiet" }, "Ratio and rated torque are needed; everything else follows by design rules (40 pins are assumed where nobody counted them), and narrows with what you know."),
         );
         return;
       }

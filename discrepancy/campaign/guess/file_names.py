@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from discrepancy.campaign.guess.column_words import IN_NAMES, ON_SURFACE
-from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, plain_field, spelled, with_units
+from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, is_speed_in_turns, plain_field, spelled, with_units
 from fmu_src import unit_words as u
 
 # Field of a pattern -> kind of its unit and the unit where the name has none; fields without a unit have none here.
@@ -129,6 +129,8 @@ def count_of(text: str) -> int:
 
 def number_of(part: str) -> tuple[str, float, str, str] | None:
     """(field, number, unit, part of the pattern) of a part such as 167Nm or T40."""
+    if (match := WITH_UNIT.match(part)) and is_speed_in_turns(match[1], match[2]):
+        return "speed", figure(match[1]), "rpm", f"{{speed:rpm}}{part[match.end(1):]}"
     if (match := WITH_UNIT.match(part)) and (known := spelled(match[2])):
         unit, kind = known
         name = FIELDS.get(kind) or ("hours" if unit == "h" else "load" if unit == "%" else None)

@@ -15,6 +15,8 @@ FIELDS = {u.TORQUE: "load", u.SPEED: "speed", u.TEMPERATURE: "temperature"}
 LEAST_UNIT = 2
 # Letters that are degrees behind a gap, too, where the number has as many digits: 77 F.
 DEGREES = {"C": 2, "F": 2, "K": 3}
+# From so many turns on, by a word of so many signs, a name says turns a minute: 750 giri, 1500 tours; "15U" may be anything.
+SPEED_IN_TURNS, LEAST_TURNS = 100.0, 4
 NUMBERED = re.compile(rf"[^\W\d_]*({NUMBER})([^\W\d_]*)")
 
 
@@ -27,6 +29,11 @@ def is_turns(text: str) -> bool:
     """Whether words are turns, which behind a speed stand for turns a minute: 15U."""
     known = spelled(text)
     return known is not None and known[0] == "turn"
+
+
+def is_speed_in_turns(number: str, words: str) -> bool:
+    """Whether a number with words behind it is a speed of which the minute is left out: 750 giri."""
+    return len(words) >= LEAST_TURNS and is_turns(words) and float(re.sub("[,p]", ".", number)) >= SPEED_IN_TURNS
 
 
 def units_behind(text: str) -> Iterator[tuple[str, str, str, str]]:
@@ -69,6 +76,6 @@ def of_unit(parts: list[str]) -> int:
             continue
         words = begun + "".join(behind if begun else behind[1:])
         degrees = words in DEGREES and len(re.sub(r"\D", "", number)) >= DEGREES[words]
-        if degrees or plain_field(words):
+        if degrees or plain_field(words) or is_speed_in_turns(number, words):
             return taken
     return 0
