@@ -27,6 +27,7 @@ from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
+from discrepancy.unstated_texts import unstated_texts
 from discrepancy.waves import waves_of
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
@@ -155,6 +156,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
+    doubts += unstated_texts(model, found)
     doubts += sign_doubts(effects, found)
     warnings = beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)

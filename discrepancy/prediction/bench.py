@@ -16,6 +16,7 @@ from discrepancy.prediction.twins import OF_CHANGE, Places, Twins, corners, plac
 from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats, copied
+from fmu_src.threads import Once
 from reducers.reducer import Reducer
 from studies import coupled
 from studies.hysteresis import LOST_MOTION_SHARE, MEMORY
@@ -35,6 +36,8 @@ HELD_ANGLES, FEW_HELD_ANGLES = 16, 5
 QUARTER, FEW_OF_QUARTER = np.array([0.0, 0.01, 0.02, LOST_MOTION_SHARE, 0.06, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, 0.015, LOST_MOTION_SHARE, 0.06, 1.0])
 # Longest step of torque, of the rated one, where the way to a place matters: a loop is within 0.03 arcsec, and roughly so, within a tenth of what is changed.
 TORQUE_STEP, ROUGH_TORQUE_STEP = 1.0 / 80.0, 1.0 / 16.0
+# Runs that a search keeps: the last ones, and those beside which they start.
+FEW_RUNS = 50
 # From fewer than these, one is no small share of them.
 LEAST_POSITIONS = 4
 # Turning of the cranks [rad] between two equilibria that is not divided.
@@ -63,6 +66,13 @@ class Bench(Lives):
         other.fineness = self.fineness.roughly() if self.fineness else None
         other.held_angles, other.mean_positions, other.cycle_turns = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS, ROUGH_CYCLE
         other.quarter, other.torque_step = FEW_OF_QUARTER, ROUGH_TORQUE_STEP
+        return other
+
+    def forgetful(self) -> "Bench":
+        """The same bench with few runs of its own, for searches among many that nobody asks for again."""
+        other = copy.copy(self)
+        other.__dict__["rougher"] = other
+        other.runs = Once(FEW_RUNS)
         return other
 
     def allowed(self, record: Record) -> float:

@@ -17,7 +17,7 @@ from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
 from discrepancy.prediction.whitening import whitening
-from discrepancy.problem import Record
+from discrepancy.problem import Record, is_unplaced
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
 
@@ -45,7 +45,7 @@ class Cages:
 
     def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen):
         self.bench, self.as_seen = bench, as_seen
-        self.records = [bridged(r) for r in records if tells(r)]
+        self.records = [bridged(r) for r in records if tells(r) or is_unplaced(r)]
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
 
@@ -63,7 +63,10 @@ class Cages:
         found: dict[str, Floats] = {}
         with task("placing the roller cages", total=len(self.records)) as placing:
             for record in self.records:
-                found[record.name] = self.found(*self.as_seen(record, values))
+                seen, own = self.as_seen(record, values)
+                # A mean over positions of the cranks is one over those of the cages.
+                if tells(seen):
+                    found[record.name] = self.found(seen, own)
                 placing.advance()
         self.ripples[self.effects(values)] = found
         return bool(self.records)

@@ -3,6 +3,7 @@
 from collections.abc import Hashable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,7 @@ from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.unstated_places import UnstatedPlaces, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import InputFault, RunFault, nearest
@@ -109,6 +111,9 @@ class PhysicalModel:
         for bench in (self.bench, in_process):
             bench.zeros.update(self.zeros)
         self.locked_places = LockedPlaces(self.records, self.zeros, self.bench.ratio)
+        turn = 2.0 * np.pi * abs(self.bench.ratio)
+        self.unstated_places = UnstatedPlaces(self.records, turn, turn / model.reducer.topology.pins)
+        self.search_bench = in_process.rougher.forgetful()
         if zeros is None:
             self.cages.place(self.standing())
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
@@ -138,13 +143,15 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
+        moved.append(self.unstated_places.place(effects, partial(self.loop_at, every), partial(self.error_with, every, effects)))
         return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
-        return any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
+        moved = any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
+        return moved or self.unstated_places.are_elsewhere(effects, partial(self.loop_at, every))
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -215,9 +222,10 @@ class PhysicalModel:
     def predicted(self, measured: Record, asked: Asked, beside: Asked | None, rough: bool, changes: Changes = CHANGES) -> Floats:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
-        record = curve_of(measured)
+        curve = curve_of(measured)
+        record = self.placed(curve, asked)
         try:
-            predicted = self.observed(self.placed(record, asked), self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
+            predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
             if not self.bench.relevant(asked.values, True):
                 torque = impossible_torque(measured, self.campaign)
@@ -235,7 +243,7 @@ class PhysicalModel:
         ripple = self.cages.ripple(record, asked.values)
         if ripple is not None:
             predicted = predicted + ripple
-        if measured is not record:
+        if measured is not curve:
             return orders_shown(measured, predicted)
         if record.free_zero:
             # The mean of the prediction is that of the measurement.
@@ -260,6 +268,16 @@ class PhysicalModel:
             self.shown[key] = found
         return found
 
+    def loop_at(self, values: Mapping[str, float], record: Record, place: float | None) -> Floats:
+        """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the mean over positions."""
+        asked, record = self.asked(values), record if place is None else locked(record, place)
+        found = OBSERVED[record.quantity](self.search_bench, record, self.own(record, asked))
+        return self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found
+
+    def error_with(self, values: Mapping[str, float], effects: Effects, record: Record, which: bool) -> Floats:
+        """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""
+        return self.one(record, values if which else {n: v for n, v in values.items() if n not in effects}, True)
+
     def locked_as(self, values: Mapping[str, float]) -> AbstractContextManager[None]:
         """Inputs are locked where ``values`` have them, as long as that is asked."""
         every = self.standing() | dict(values)
@@ -267,7 +285,9 @@ class PhysicalModel:
 
     def placed(self, record: Record, asked: Asked) -> Record:
         """The record, as if locked where that is with the effects that are on."""
-        return self.locked_places.placed(record, asked.effects) if record.quantity in HELD else record
+        if record.quantity not in HELD:
+            return record
+        return self.unstated_places.placed(self.locked_places.placed(record, asked.effects), asked.effects)
 
     def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
         """``placed`` and ``for_record``."""

@@ -1,0 +1,125 @@
+"""Where the input was locked in loops of which nobody says it: found beside an effect that explains the transmission error.
+
+A loop at one position departs from the mean over positions by more than the noise of good benches, and what an effect of the ring or of a crank adds to it
+is another at each position.  With such an effect known from the transmission error the form of the loop tells the position; without, an
+effect of loops alone could hide in it, so that none is looked for (``effects.locked_position`` then says how far a position may be meant).
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from discrepancy.held_names import LOCKED_AT
+from discrepancy.prediction.by_effects import Effects, with_most
+from discrepancy.problem import ERROR, Record, is_unplaced
+from fmu_src.arrays import Floats
+
+# A loop's prediction [rad] with its input locked at an angle [rad], None: as the mean over positions; a transmission error's with the effects or without.
+LoopAt = Callable[[Record, float | None], Floats]
+ErrorWith = Callable[[Record, bool], Floats]
+
+# Positions of a turn of the cranks that are looked at first; parts into which what is left is divided, and how often (to a degree of the input, and
+# between); turns of the cranks of which the best place is looked for so closely.
+PER_TURN, CLOSER, TIMES, MOST_CLOSER = 16, 4, 3, 3
+# Nearer places show the same [rad of the input].
+NEAR = math.radians(0.3)
+# Squares that a position leaves, of those that the mean over positions leaves: from more nobody can say that there is one.
+CLEARLY = 0.25
+# Squares of a transmission error that effects leave, of those without: less explains it.
+EXPLAINED = 0.5
+# Samples of a loop that are looked at.
+SAMPLES = 40
+
+
+class UnstatedPlaces:
+    """By effects and condition where inputs were locked [rad of the input], of loops of which nobody says it; ``turn``, ``period``: turn of the output
+    and of the cranks against the carrier [rad of the input]."""
+
+    def __init__(self, records: Sequence[Record], turn: float, period: float):
+        self.turn, self.period = turn, period
+        self.errors = [record for record in records if record.quantity == ERROR and not record.held_out]
+        self.loops: dict[str, list[Record]] = {}
+        for record in records:
+            if is_unplaced(record):
+                self.loops.setdefault(record.condition, []).append(fewer_samples(record))
+        self.found: dict[Effects, dict[str, float]] = {}
+        self.moved: dict[tuple[int, float], Record] = {}
+
+    def taken(self, effects: Effects) -> dict[str, float]:
+        """The places found with these effects, else with the most of them."""
+        return with_most(self.found, effects, {})
+
+    def placed(self, record: Record, effects: Effects) -> Record:
+        """The record as if it was locked where that was found with these effects."""
+        place = self.taken(effects).get(record.condition) if is_unplaced(record) else None
+        if place is None:
+            return record
+        if (id(record), place) not in self.moved:
+            self.moved[id(record), place] = locked(record, place)
+        return self.moved[id(record), place]
+
+    def place(self, effects: Effects, predicted: LoopAt, error: ErrorWith) -> bool:
+        """Looks for the places with these effects if they explain transmission errors; False if that changes nothing."""
+        if not self.loops or not effects or not self.explain(error):
+            return False
+        before, found = self.taken(effects), {}
+        for condition, loops in self.loops.items():
+            place = self.searched(loops[0], predicted, before.get(condition))
+            if place is not None:
+                found[condition] = place
+        self.found[effects] = found
+        return found != before
+
+    def are_elsewhere(self, effects: Effects, predicted: LoopAt) -> bool:
+        """Whether loops were locked elsewhere than where they are taken to with these effects."""
+        found = self.found.get(effects, {})
+        seen = {condition: self.searched(self.loops[condition][0], predicted, place) for condition, place in found.items()}
+        return any(place is None or abs(math.remainder(place - found[condition], self.turn)) > NEAR for condition, place in seen.items())
+
+    def explain(self, error: ErrorWith) -> bool:
+        """Whether effects leave far less of the transmission errors than is there without."""
+        left, whole = (sum(float(np.sum((r.values - error(r, which)) ** 2)) for r in self.errors) for which in (True, False))
+        return left < EXPLAINED * whole
+
+    def searched(self, loop: Record, predicted: LoopAt, before: float | None) -> float | None:
+        """The place [rad] at which a loop is as measured, if there is one that leaves far less than the mean over positions; about one known ``before``."""
+
+        def left(place: float | None) -> float:
+            return float(np.var(loop.values - predicted(loop, place)))
+
+        def best_of(places: Floats) -> float:
+            return float(places[int(np.argmin([left(place) for place in places]))])
+
+        def closer(centre: float) -> float:
+            step = self.period / PER_TURN
+            for _ in range(TIMES):
+                centre = best_of(centre + np.linspace(-step, step, 2 * CLOSER + 1))
+                step /= CLOSER
+            before, at, after = (left(centre + part) for part in (-step, 0.0, step))
+            bend = before - 2.0 * at + after
+            return centre + step * float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend > 0.0 else centre
+
+        if before is None:
+            # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all, then the best.
+            alike = closer(best_of(np.arange(PER_TURN) * self.period / PER_TURN)) + np.arange(0.0, self.turn, self.period)
+            likely = alike[np.argsort([left(place) for place in alike])[:MOST_CLOSER]]
+            centre = best_of(np.array([closer(place) for place in likely]))
+        else:
+            centre = closer(before)
+        return centre % self.turn if left(centre) < CLEARLY * left(None) else None
+
+
+def locked(record: Record, place: float) -> Record:
+    """A loop as if its input was locked at ``place`` [rad]."""
+    return replace(record, factors={**record.factors, LOCKED_AT: place})
+
+
+def fewer_samples(record: Record) -> Record:
+    """Some samples of a loop, enough to tell its form, with those where its torque turns: how far it went is what friction remembers."""
+    torque, size = np.asarray(record.axes["torque"], float), len(record.values)
+    turns = 1 + np.flatnonzero(np.diff(np.sign(np.diff(torque))))
+    few = len(turns) <= SAMPLES
+    rows = np.unique(np.concatenate([np.linspace(0, size - 1, min(SAMPLES, size)).astype(np.intp), turns])) if few else np.arange(size)
+    return replace(record, values=record.values[rows], axes={name: np.asarray(axis)[rows] for name, axis in record.axes.items()})

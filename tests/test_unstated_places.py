@@ -1,0 +1,85 @@
+"""Where the input was locked is found in loops of which nobody says it, beside an effect that explains the transmission error."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from discrepancy.held_names import LOCKED_AT
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.curves import OverTorque
+from discrepancy.prediction.unstated_places import UnstatedPlaces, fewer_samples, locked
+from discrepancy.problem import Record
+from reducers.reducer import load_reducer
+
+ARCSEC = math.radians(1.0 / 3600.0)
+TRILOBE = {"pin_ring_trilobe": 3e-6, "pin_ring_trilobe_angle": 0.9}
+OVAL, PERIOD = frozenset({"pin_ring_trilobe"}), 2.0 * math.pi * 121.0 / 40.0
+TORQUE = 167.0 * np.interp(np.linspace(0.0, 4.0, 61), np.arange(5.0), [0, 1, 0, -1, 0])
+
+
+@pytest.fixture(scope="module")
+def bench():
+    return Bench(load_reducer("RV20E-121-rigid"), {})
+
+
+def measured(bench, place, noise=0.2):
+    """A loop [rad] whose input was locked at ``place`` [rad], of which it says nothing, and a transmission error that the effect explains."""
+    record = Record("loop", "hysteresis", "rad", "c", 1, np.zeros(len(TORQUE)), {"torque": TORQUE}, {})
+    turning = OverTorque(bench, record if place is None else locked(record, place)).directly(TRILOBE)
+    error = Record("te", "transmission_error", "rad", "d", 1, np.ones(4), {"angle": np.arange(4.0)}, {})
+    return replace(record, values=turning + noise * ARCSEC * np.random.default_rng(3).standard_normal(len(TORQUE))), error
+
+
+def places_of(bench, place):
+    loop, error = measured(bench, place)
+    return loop, UnstatedPlaces([loop, error], 121.0 * 2.0 * math.pi, PERIOD)
+
+
+def predicted(bench):
+    return lambda record, place: OverTorque(bench, record if place is None else locked(record, place)).directly(TRILOBE)
+
+
+def explained(record, which):
+    return np.full(len(record.values), 0.9 if which else 0.0)
+
+
+def test_the_place_is_found_to_a_few_degrees_of_the_input(bench):
+    there = math.radians(700.0)
+    loop, places = places_of(bench, there)
+    assert places.placed(loop, OVAL) is loop
+    assert places.place(OVAL, predicted(bench), explained)
+    found = places.placed(loop, OVAL)
+    left = found.values - OverTorque(bench, found).directly(TRILOBE)
+    assert np.std(left) < 0.25 * ARCSEC
+    # Turns of the cranks may look alike, and so do halves of one: discs change places.
+    assert abs(math.remainder(found.factors[LOCKED_AT] - there, PERIOD / 2.0)) < math.radians(8.0)
+    # Once found it stays, with further effects too; without any there is none.
+    assert not places.are_elsewhere(OVAL, predicted(bench))
+    assert places.placed(loop, OVAL | {"drag"}) is found and places.placed(loop, frozenset()) is loop
+
+
+def test_a_mean_over_positions_has_no_place(bench):
+    loop, places = places_of(bench, None)
+    assert not places.place(OVAL, predicted(bench), explained)
+    assert places.placed(loop, OVAL) is loop
+
+
+def test_nothing_is_looked_for_beside_what_explains_no_transmission_error(bench):
+    _, places = places_of(bench, 0.0)
+    assert not places.place(OVAL, predicted(bench), lambda record, which: np.zeros(len(record.values)))
+    assert not places.place(frozenset(), predicted(bench), explained)
+
+
+def test_what_is_stated_is_not_looked_for(bench):
+    loop, error = measured(bench, 0.0)
+    for stated in (locked(loop, 1.0), replace(loop, of_positions=True), replace(loop, tags={"locked": "output"})):
+        assert not UnstatedPlaces([stated, error], 1.0, 1.0).loops
+
+
+def test_the_samples_that_are_looked_at_keep_where_torque_turns():
+    torque = 100.0 * np.sin(np.linspace(0.0, 4.0 * np.pi, 997))
+    few = fewer_samples(Record("l", "hysteresis", "rad", "c", 1, np.arange(997.0), {"torque": torque}, {}))
+    assert len(few.values) < 60 and few.axes["torque"].max() == torque.max() and few.axes["torque"].min() == torque.min()
+    assert np.array_equal(torque[few.values.astype(int)], few.axes["torque"])
