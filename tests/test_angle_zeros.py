@@ -7,6 +7,8 @@ import pytest
 
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.curves import OverAngle, turned_signal
+from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -47,3 +49,22 @@ def test_beside_a_large_effect_a_zero_is_found_by_the_pattern_alone():
     model = PhysicalModel(ModelFile(reducer.name, reducer), replace(campaign(), reducer=reducer, records=(record,)))
     # It was taken for the model's own, 0.  The effect bends the pattern a little: a fit looks for the zero a quarter of a wave to either side.
     assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=0.125 * 2.0 * np.pi / 80)
+
+
+def test_slopes_are_taken_from_a_curve_only_where_its_samples_are_near_each_other():
+    """150 samples a turn are too few for an order of 80: the curve through them has other slopes."""
+    bench = Bench(load_reducer("RV20E-121-rigid"), {})
+
+    def curve(samples):
+        record = Record("te", "transmission_error", "rad", "c", 1, np.zeros(samples), {"angle": np.linspace(0.0, 2.0 * np.pi, samples)}, {})
+        bench.fineness = Fineness([record])
+        bench.fineness.allowed["transmission_error", "c"] = 1e-6
+        return OverAngle(bench, record, "transmission_error")
+
+    assert not curve(150).has_slopes()
+    fine, values, base = curve(1201), {"angle_zero[1]": 0.0103}, {"angle_zero[1]": 0.01}
+    assert fine.has_slopes()
+    angles = np.asarray(fine.record.axes["angle"])
+    exactly = [bench.column("transmission_error", fine.condition, {}, angles + zero["angle_zero[1]"]) for zero in (values, base)]
+    change = exactly[0] - exactly[1]
+    assert np.std(turned_signal(fine, values, base) - change) < 0.05 * np.std(change)
