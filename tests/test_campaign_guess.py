@@ -25,6 +25,7 @@ from discrepancy.campaign.guess.write import campaign_text, checked, write_campa
 from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import incomplete
 from fmu_src.faults import InputFault
+from reducers.library import named_in
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -392,3 +393,16 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
     assert told["written"] and [need["text"].rpartition(" ")[2] for need in told["needs"]] == ["output_speed", "load_torque"]
     assert main([*said, "--overwrite"]) == 0
     assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)
+
+
+def test_a_reducer_named_above_the_tables_is_proposed(tmp_path):
+    """The name is no answer: it may be the rigid one that is meant, or a file of one's own."""
+    lines = ["试验台,3号", "减速器型号,RV-20E-121", "", "输入转角(°),输出转角(°),传动误差(″)", *(f"{121 * k},{k},{np.sin(k):.3f}" for k in range(60))]
+    file = tmp_path / "传动误差_84Nm_600rpm_第1次.csv"
+    file.write_text("\n".join(lines), encoding="gb18030")
+    proposal = propose([file], Wishes(None))
+    [need] = [need for need in proposal.needs if "which reducer" in need.text]
+    assert need.text.endswith("lines above the tables say RV20E-121") and need.remedy.startswith("--reducer RV20E-121 ")
+    # The output's angle by its name, with the input's beside it: nobody has to be asked.
+    assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "output"
+    assert named_in(["unit: BX 40E"]) == "BX-40E" and named_in(["RV20E"]) is None and named_in(["RV20E-121 or BX-40E"]) is None

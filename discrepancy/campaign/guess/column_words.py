@@ -84,6 +84,11 @@ def meaning_of(name: str) -> str | None:
     return "output_speed" if found == "speed" and AT_OUTPUT.search(name) else found
 
 
+def says_output(name: str) -> bool:
+    """Whether a name says that something is the output's."""
+    return bool(AT_OUTPUT.search(name) and not AT_INPUT.search(name))
+
+
 def over_ratio(name: str) -> bool:
     """Whether a name says an angle of the input over the ratio."""
     return bool(AT_INPUT.search(name) and OVER_RATIO.search(name))

@@ -270,5 +270,8 @@ def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[
     """What has to be given before a model can be held against the campaign.  ``runs``: condition and run."""
     found = lacking(runs, conditions)
     if not wishes.reducer:
-        found.append(Doubt("campaign", "which reducer it is has to be said", f"--reducer {OPEN} (rvwear reducer list shows all), or a reducer file"))
+        said = {run.reducer for _, run in runs if run.reducer}
+        name = said.pop() if len(said) == 1 else ""
+        text = "which reducer it is has to be said" + (f"; lines above the tables say {name}" if name else "")
+        found.append(Doubt("campaign", text, f"--reducer {name or OPEN} (rvwear reducer list shows all), or a reducer file"))
     return tuple(found)

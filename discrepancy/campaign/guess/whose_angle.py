@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
-from discrepancy.campaign.guess.column_words import over_ratio
+from discrepancy.campaign.guess.column_words import meaning_of, over_ratio, says_output
 from discrepancy.campaign.guess.run import GuessedRun
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.wishes import INPUT, OUTPUT, Wishes
@@ -20,10 +20,15 @@ def over_output(run: GuessedRun) -> bool:
     return run.quantity.value == ERROR and "angle" in run.columns
 
 
+def beside_input(run: GuessedRun) -> bool:
+    """Whether the angle is the output's by its name and the file has the input's beside it, which is not read."""
+    return says_output(run.columns["angle"].header) and any(meaning_of(header) == "input_angle" for header in run.headers)
+
+
 def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]], wishes: Wishes) -> tuple[Guess[str] | None, list[Doubt]]:
     """One answer for all, None where no run stands over such an angle, and a doubt for each file whose angle may be either's.
 
-    No doubt is left where both encoders are read, or where nothing loads the output: it lags by nothing then.  ``runs``: condition and run.
+    No doubt is left where both encoders are read or named, or where nothing loads the output: it lags by nothing then.  ``runs``: condition and run.
     """
     over = [(condition, run) for condition, run in runs if over_output(run)]
     if not over:
@@ -33,5 +38,6 @@ def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str,
         return Guess(wishes.angle_of, "given"), []
     if all(over_ratio(run.columns["angle"].header) for _, run in over):
         return Guess(INPUT, "its name says the input's over the ratio"), []
-    either = [run for condition, run in over if "input_angle" not in run.columns and conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
+    loaded = [run for condition, run in over if conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
+    either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run)]
     return Guess(OUTPUT, REASON, not either), [Doubt(run.path.name, TEXT, REMEDY) for run in either]
