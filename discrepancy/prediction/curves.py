@@ -26,7 +26,7 @@ LEAST_SAMPLES = 16
 # than this share of the samples' distance, there are none.
 FIRMLY, LEAST_SHARE = 0.1, 0.01
 # What the curve through samples may miss between them, of the signal's size, where its slopes are taken for those of the signal.
-SMOOTHLY = 0.02
+SMOOTHLY = 0.01
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
