@@ -7,8 +7,6 @@ import pytest
 
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverAngle, turned_signal
-from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -49,25 +47,3 @@ def test_beside_a_large_effect_a_zero_is_found_by_the_pattern_alone():
     model = PhysicalModel(ModelFile(reducer.name, reducer), replace(campaign(), reducer=reducer, records=(record,)))
     # It was taken for the model's own, 0.  The effect bends the pattern a little: a fit looks for the zero a quarter of a wave to either side.
     assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=0.125 * 2.0 * np.pi / 80)
-
-
-def test_slopes_are_taken_from_a_curve_only_where_its_samples_are_near_each_other():
-    """150 samples a turn are too few for an order of 80: the curve through them has other slopes."""
-    bench = Bench(load_reducer("RV20E-121-rigid"), {})
-
-    def curve(samples):
-        record = Record("te", "transmission_error", "rad", "c", 1, np.zeros(samples), {"angle": np.linspace(0.0, 2.0 * np.pi, samples)}, {})
-        bench.fineness = Fineness([record])
-        bench.fineness.allowed["transmission_error", "c"] = 1e-6
-        return OverAngle(bench, record, "transmission_error")
-
-    def missed(fine):
-        """By how much changes from the curve are off, of their size."""
-        values, base = {"angle_zero[1]": 0.0103}, {"angle_zero[1]": 0.01}
-        angles = np.asarray(fine.record.axes["angle"])
-        high, low = (bench.column("transmission_error", fine.condition, {}, angles + zero["angle_zero[1]"]) for zero in (values, base))
-        return np.std(turned_signal(fine, values, base) - (high - low)) / np.std(high - low)
-
-    few, many = curve(150), curve(1201)
-    assert not few.has_slopes() and missed(few) > 0.5
-    assert many.has_slopes() and missed(many) < 0.1

@@ -25,8 +25,6 @@ LEAST_SAMPLES = 16
 # Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
 # than this share of the samples' distance, there are none.
 FIRMLY, LEAST_SHARE = 0.1, 0.01
-# What the curve through samples may miss between them, of the signal's size, where its slopes are taken for those of the signal.
-SMOOTHLY = 0.01
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
@@ -128,22 +126,6 @@ class OverAngle:
         beyond = zero - distance * round(zero / distance) if distance else 0.0
         return {**values, name: values.get(name, 0.0) - beyond}, beyond
 
-    def has_slopes(self) -> bool:
-        """Whether samples are so near each other that the curve through them has the slopes of the signal, and not only its values."""
-        if not self.anchors():
-            return False
-        angles, _ = as_turned(self.bench, self.record, {})
-        series = self.bench.column(self.name, self.condition, {}, angles)
-        return SplineNodes(angles).error(series) < SMOOTHLY * float(np.std(series))
-
-    def turned(self, values: Values, base: Values) -> Floats:
-        """``directly`` of ``values`` less that of ``base``, from one run: two that are anchored elsewhere differ by what lies between their samples."""
-        at, beyond = self.anchored(base)
-        angles, place = as_turned(self.bench, self.record, at)
-        series = self.bench.column(self.name, self.condition, base, angles, self.cage)
-        further = zero_of(self.bench, self.record, values) - zero_of(self.bench, self.record, base)
-        return (moved(angles, series, beyond + further) - moved(angles, series, beyond))[place]
-
     def anchors(self) -> float:
         """Distance [rad] of the places at which angle 0 is anchored, so that what lies between is known as well as it must be; 0: everywhere."""
         angles, _ = as_turned(self.bench, self.record, {})
@@ -223,23 +205,6 @@ def signal(curve: Curve[Nodes], values: Values) -> Floats:
     return found
 
 
-def turned_signal(curve: OverAngle, values: Values, base: Values) -> Floats:
-    """What a record shows that counts from the angle of ``values`` less what it shows counting from that of ``base``, which are the same otherwise."""
-    fine, coarse = nodes_of(curve, {}), nodes_of(curve, base)
-    changed = bool(curve.bench.relevant(base, True))
-    if coarse is None or (fine is None and not changed):
-        return curve.turned(values, base)
-    there, here = curve.places(values), curve.places(base)
-    if fine is None:
-        found = curve.turned(curve.unchanged(values), curve.unchanged(base))
-    else:
-        found = fine.samples(curve.run({}, fine), there) - fine.samples(curve.run({}, fine), here)
-    if changed:
-        series = curve.run(base, coarse) - curve.run({}, coarse)
-        found = found + coarse.samples(series, there) - coarse.samples(series, here)
-    return found
-
-
 def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:
     """Transmission error [rad] of the record's samples for several places of its angle 0 [rad], from one run."""
     curve = OverAngle(bench, record, "transmission_error")
@@ -292,11 +257,8 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     curve = OverAngle(bench, record, "transmission_error")
     if curve.condition.hours > 0.0:
         return None
-    turned = zero_of(bench, record, values) != zero_of(bench, record, base)
-    if turned and curve.has_slopes() and bench.relevant(values, False) == bench.relevant(base, False):
-        # Nothing but the angle from which the record counts: along the curve that is known.
-        return turned_signal(curve, values, base)
     nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
+    turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
         anchor, place = as_turned(bench, record, curve.anchored(base)[0])
         high, low = (bench.error_beside(curve.condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
