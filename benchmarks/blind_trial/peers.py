@@ -98,6 +98,7 @@ def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind:
         known: dict[tuple[str, ...], float] = {}
         while True:
             iteration = ui.start_iteration(problem, candidate_space=space)
+            before = min(known.values(), default=np.inf)
             for model in iteration["uncalibrated_models"]:
                 on = tuple(p for p, value in model.parameters.items() if value == ESTIMATE)
                 chosen = [i for p in on for i in use[p]]
@@ -105,7 +106,8 @@ def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind:
                 model.set_criterion(Criterion[kind], known[on])
             ended = ui.end_iteration(problem, iteration["candidate_space"], iteration["uncalibrated_models"])
             space = ended["candidate_space"]
-            if ended["terminate"] or max(map(len, known), default=0) > MOST_TERMS:
+            # Where nothing was better it would go on through all models of each size.
+            if ended["terminate"] or min(known.values(), default=np.inf) >= before or max(map(len, known), default=0) > MOST_TERMS:
                 break
     known[()] = criterion(squares(residual, free), n, free.shape[1], kind)
     best = min(known, key=lambda on: known[on])
