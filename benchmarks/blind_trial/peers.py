@@ -19,8 +19,6 @@ from benchmarks.blind_trial.library import Library, Owners, library_of
 from fmu_src.arrays import Floats
 
 MOST_TERMS = 5
-# PEtab Select compares every model with every other: minutes for each step of eighty candidates.  Those that gain least alone are left out.
-MOST_ON_OFF = 20
 
 
 def squares(residual: Floats, columns: Floats) -> float:
@@ -85,11 +83,11 @@ def sparse(residual: Floats, free: Floats, columns: Floats, owners: Owners) -> l
 
 
 def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind: str) -> list[str]:
-    """PEtab Select's forward method over models in which every one of the best candidates is on or off; criteria by least squares."""
+    """PEtab Select's forward method over models in which every candidate is on or off; criteria by least squares."""
     from petab_select import ESTIMATE, Criterion, Problem, ui
 
     n = len(residual)
-    alone = sorted((*best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own)), name) for name, own in owners)[:MOST_ON_OFF]
+    alone = sorted((*best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own)), name) for name, own in owners)
     use = {f"p{k}": own for k, (_, own, _) in enumerate(alone)}
     names = {f"p{k}": name for k, (_, _, name) in enumerate(alone)}
     with tempfile.TemporaryDirectory() as folder:
